@@ -1,0 +1,84 @@
+/* core/settings.c - see settings.h. */
+#include "core/settings.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+virga_result virga_settings_check(const virga_log *log, const char *name, uint32_t size, uint32_t expected_size,
+                                  uint32_t cookie, uint32_t expected_cookie)
+{
+    if (cookie != expected_cookie) {
+        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
+                      "%s: cookie is 0x%08" PRIx32 ", expected 0x%08" PRIx32 "; fill it with virga_default_%s", name,
+                      cookie, expected_cookie, name);
+        return VIRGA_ERROR_INVALID;
+    }
+    if (size != expected_size) {
+        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
+                      "%s: size is %" PRIu32 ", expected %" PRIu32 "; header and library are of different versions",
+                      name, size, expected_size);
+        return VIRGA_ERROR_INVALID;
+    }
+    return VIRGA_OK;
+}
+
+double virga_clamp_setting(const virga_log *log, const char *name, double value, double lo, double hi, bool *changed)
+{
+    if (value >= lo && value <= hi) {
+        return value;
+    }
+    double inside = value > hi ? hi : lo;
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s: %g is outside [%g; %g], %g is used", name, value, lo,
+                  hi, inside);
+    if (changed != NULL) {
+        *changed = true;
+    }
+    return inside;
+}
+
+uint32_t virga_clamp_setting_u32(const virga_log *log, const char *name, uint32_t value, uint32_t lo, uint32_t hi,
+                                 bool *changed)
+{
+    if (value >= lo && value <= hi) {
+        return value;
+    }
+    uint32_t inside = value > hi ? hi : lo;
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                  "%s: %" PRIu32 " is outside [%" PRIu32 "; %" PRIu32 "], %" PRIu32 " is used", name, value, lo, hi,
+                  inside);
+    if (changed != NULL) {
+        *changed = true;
+    }
+    return inside;
+}
+
+static virga_result refuse_value(const virga_log *log, const char *name, uint32_t index, uint32_t count, double value)
+{
+    if (count == 1) {
+        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s: is %g, expected a finite number", name, value);
+    } else {
+        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s[%" PRIu32 "]: is %g, expected a finite number",
+                      name, index, value);
+    }
+    return VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_settings_finite(const virga_log *log, const char *name, const float *values, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
+            return refuse_value(log, name, i, count, (double)values[i]);
+        }
+    }
+    return VIRGA_OK;
+}
+
+virga_result virga_settings_finite_double(const virga_log *log, const char *name, const double *values, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
+            return refuse_value(log, name, i, count, values[i]);
+        }
+    }
+    return VIRGA_OK;
+}

@@ -1,0 +1,39 @@
+/* core/settings.h - checks that every settings struct goes through. Internal.
+ *
+ * A settings struct starts with `uint32_t size, cookie`, which its default function sets. They catch a struct that
+ * was never filled, one that was filled for something else, and one from a header of another version. */
+#ifndef VIRGA_CORE_SETTINGS_H
+#define VIRGA_CORE_SETTINGS_H
+
+#include "core/log.h"
+
+/* The cookie of the settings struct with this tag (any number, another for each struct; a constant expression).
+ * An odd factor keeps different tags apart, and no small tag gives 0 or all ones, as forgotten memory would. */
+#define VIRGA_COOKIE(tag) (((uint32_t)(tag)*0x9e3779b1u) ^ 0x76697267u)
+
+/* VIRGA_OK, or VIRGA_ERROR_INVALID with one line that names the struct. `name` is the type's without its prefix, e.g.
+ * "rain_def", as the line points to "virga_default_rain_def". */
+virga_result virga_settings_check(const virga_log *log, const char *name, uint32_t size, uint32_t expected_size,
+                                  uint32_t cookie, uint32_t expected_cookie);
+
+/* The value moved into [lo; hi]. If it had to move, sets *changed (may be NULL; never cleared) and says so.
+ * `name` is as a host would write it, e.g. "rain.rate_mm_h". A NaN becomes `lo`: check with virga_settings_finite
+ * first. */
+double virga_clamp_setting(const virga_log *log, const char *name, double value, double lo, double hi, bool *changed);
+
+/* The same for a count. */
+uint32_t virga_clamp_setting_u32(const virga_log *log, const char *name, uint32_t value, uint32_t lo, uint32_t hi,
+                                 bool *changed);
+
+/* The same for a float. The ends should be floats too, or the result may lie half a step outside. */
+static inline float virga_clamp_setting_float(const virga_log *log, const char *name, float value, float lo, float hi,
+                                              bool *changed)
+{
+    return (float)virga_clamp_setting(log, name, (double)value, (double)lo, (double)hi, changed);
+}
+
+/* VIRGA_OK if all values are finite; else VIRGA_ERROR_INVALID with one line that names the first that is not. */
+virga_result virga_settings_finite(const virga_log *log, const char *name, const float *values, uint32_t count);
+virga_result virga_settings_finite_double(const virga_log *log, const char *name, const double *values, uint32_t count);
+
+#endif
