@@ -1,0 +1,291 @@
+/* gpu/context.c - takes a host's device into use, and moves with its frames. */
+#include "gpu/context.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define CONTEXT_COOKIE VIRGA_COOKIE(1)
+
+/* ---- results and their lines */
+
+static const char *vulkan_result_name(VkResult result)
+{
+    switch (result) {
+#define NAME(value)                                                                                                    \
+    case value: {                                                                                                      \
+        return #value;                                                                                                 \
+    }
+        NAME(VK_SUCCESS)
+        NAME(VK_NOT_READY)
+        NAME(VK_TIMEOUT)
+        NAME(VK_INCOMPLETE)
+        NAME(VK_ERROR_OUT_OF_HOST_MEMORY)
+        NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        NAME(VK_ERROR_INITIALIZATION_FAILED)
+        NAME(VK_ERROR_DEVICE_LOST)
+        NAME(VK_ERROR_MEMORY_MAP_FAILED)
+        NAME(VK_ERROR_FEATURE_NOT_PRESENT)
+        NAME(VK_ERROR_TOO_MANY_OBJECTS)
+        NAME(VK_ERROR_FORMAT_NOT_SUPPORTED)
+        NAME(VK_ERROR_FRAGMENTED_POOL)
+        NAME(VK_ERROR_OUT_OF_POOL_MEMORY)
+        NAME(VK_ERROR_UNKNOWN)
+#undef NAME
+    default: {
+        return "another VkResult";
+    }
+    }
+}
+
+virga_result virga_vulkan_failed(virga_context *context, VkResult result, const char *call)
+{
+    if (result == VK_ERROR_DEVICE_LOST) {
+        if (!context->lost)
+            virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s", call);
+        context->lost = true;
+        return VIRGA_ERROR_DEVICE_LOST;
+    }
+    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_VULKAN_CALL, "%s (%d) from %.300s",
+                  vulkan_result_name(result), (int)result, call);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        return VIRGA_ERROR_HOST_MEMORY;
+    return result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? VIRGA_ERROR_DEVICE_MEMORY : VIRGA_ERROR_VULKAN;
+}
+
+virga_result virga_out_of_host_memory(virga_context *context, const char *what)
+{
+    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for %s", what);
+    return VIRGA_ERROR_HOST_MEMORY;
+}
+
+virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
+{
+    char line[VIRGA_LOG_LINE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s", line);
+    return VIRGA_ERROR_INVALID;
+}
+
+/* ---- create and destroy */
+
+virga_context_def virga_default_context_def(void)
+{
+    return (virga_context_def){.size = sizeof(virga_context_def),
+                               .cookie = CONTEXT_COOKIE,
+                               .frames_in_flight = 3,
+                               .timings = true,
+                               .debug_names = true};
+}
+
+static virga_result check_def(const virga_log *log, const virga_context_def *def)
+{
+    const virga_result result =
+        virga_settings_check(log, "context_def", def->size, sizeof *def, def->cookie, CONTEXT_COOKIE);
+    if (result)
+        return result;
+    if (!def->instance || !def->physical_device || !def->device || !def->get_instance_proc_addr)
+        return virga_wrong_argument(log, "context_def: instance, physical_device, device and get_instance_proc_addr "
+                                         "are all required");
+    if (def->frames_in_flight < 1 || def->frames_in_flight > VIRGA_MAX_FRAMES_IN_FLIGHT)
+        return virga_wrong_argument(log, "context_def.frames_in_flight: expected 1 to %d, got %u",
+                                    VIRGA_MAX_FRAMES_IN_FLIGHT, def->frames_in_flight);
+    if (!def->device_memory.alloc != !def->device_memory.free)
+        return virga_wrong_argument(log, "context_def.device_memory: expected both alloc and free, or neither");
+    return VIRGA_OK;
+}
+
+/* A blob of another driver or device must not reach the driver: its header says whose it is. */
+static bool cache_blob_fits(const virga_context *context, const virga_context_def *def)
+{
+    VkPipelineCacheHeaderVersionOne header;
+    if (!def->pipeline_cache || def->pipeline_cache_size < sizeof header)
+        return false;
+    memcpy(&header, def->pipeline_cache, sizeof header);
+    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+           header.vendorID == context->properties.vendorID && header.deviceID == context->properties.deviceID &&
+           !memcmp(header.pipelineCacheUUID, context->properties.pipelineCacheUUID, VK_UUID_SIZE);
+}
+
+static virga_result create_pipeline_cache(virga_context *context, const virga_context_def *def)
+{
+    virga_result result = VIRGA_OK;
+    const bool fits = cache_blob_fits(context, def);
+    if (def->pipeline_cache_size && !fits)
+        virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_PIPELINE_CACHE,
+                      "the pipeline cache blob is from another driver or device; starting with an empty one");
+    const VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                            .initialDataSize = fits ? def->pipeline_cache_size : 0,
+                                            .pInitialData = fits ? def->pipeline_cache : NULL};
+    VK_TRY(context, CreatePipelineCache(context->device, &info, NULL, &context->pipeline_cache));
+    context->objects++;
+error:
+    return result;
+}
+
+static virga_result create_timers(virga_context *context, const virga_context_def *def)
+{
+    virga_result result = VIRGA_OK;
+    VkQueueFamilyProperties families[64];
+    uint32_t count = 64;
+    context->vk.GetPhysicalDeviceQueueFamilyProperties(context->physical_device, &count, families);
+    const uint32_t bits = def->queue_family < count ? families[def->queue_family].timestampValidBits : 0;
+    context->timings = def->timings && bits > 0;
+    if (!context->timings)
+        return VIRGA_OK;
+    context->timestamp_mask = bits >= 64 ? UINT64_MAX : (UINT64_C(1) << bits) - 1;
+    context->timestamp_ns = (double)context->properties.limits.timestampPeriod;
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = VIRGA_MAX_QUERIES};
+    for (uint32_t i = 0; i < context->frames_in_flight; i++) {
+        VK_TRY(context, CreateQueryPool(context->device, &info, NULL, &context->timers[i].pool));
+        context->objects++;
+    }
+error:
+    return result;
+}
+
+static void destroy_objects(virga_context *context)
+{
+    virga_graveyard_sweep(context, true);
+    for (uint32_t i = 0; i < VIRGA_MAX_FRAMES_IN_FLIGHT; i++)
+        if (context->timers[i].pool) {
+            context->vk.DestroyQueryPool(context->device, context->timers[i].pool, NULL);
+            context->objects--;
+        }
+    if (context->pipeline_cache) {
+        context->vk.DestroyPipelineCache(context->device, context->pipeline_cache, NULL);
+        context->objects--;
+    }
+}
+
+/* The context lives in its own heap, whose struct is inside it: take a copy of the heap to free it with. */
+static void free_context(virga_context *context)
+{
+    virga_host_heap heap = context->heap;
+    virga_free(&heap, context);
+}
+
+static virga_result init(virga_context *context, const virga_context_def *def)
+{
+    virga_result result = VIRGA_OK;
+    char reason[256];
+    context->instance = def->instance;
+    context->physical_device = def->physical_device;
+    context->device = def->device;
+    context->device_memory = def->device_memory;
+    context->memory_budget = def->memory_budget;
+    context->frames_in_flight = def->frames_in_flight;
+    context->debug_names = def->debug_names;
+    TRY(virga_functions_load_instance(&context->vk, &context->log, def->get_instance_proc_addr, def->instance));
+    result = virga_check_device(def->get_instance_proc_addr, def->instance, def->physical_device, reason, sizeof reason);
+    if (result) {
+        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "the device %s", reason);
+        return result;
+    }
+    TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
+    context->vk.GetPhysicalDeviceProperties(def->physical_device, &context->properties);
+    context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
+    TRY(create_pipeline_cache(context, def));
+    TRY(create_timers(context, def));
+error:
+    return result;
+}
+
+virga_result virga_context_create(const virga_context_def *def, virga_context **context)
+{
+    if (context)
+        *context = NULL;
+    if (!def || !context)
+        return VIRGA_ERROR_INVALID;
+    const virga_log log = {def->log, def->log_user};
+    virga_result result = check_def(&log, def);
+    if (result)
+        return result;
+    virga_host_heap heap;
+    if (virga_host_heap_init(&heap, &def->host_memory))
+        return virga_wrong_argument(&log, "context_def.host_memory: expected both alloc and free, or neither");
+    virga_context *made = virga_alloc(&heap, sizeof *made);
+    if (!made) {
+        virga_log_say(&log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for a context");
+        return VIRGA_ERROR_HOST_MEMORY;
+    }
+    made->heap = heap;
+    made->log = log;
+    result = init(made, def);
+    if (result) {
+        if (made->vk.DestroyPipelineCache)
+            destroy_objects(made);
+        free_context(made);
+        return result;
+    }
+    virga_log_say(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s, %u frames in flight",
+                  made->properties.deviceName, made->frames_in_flight);
+    *context = made;
+    return VIRGA_OK;
+}
+
+void virga_context_destroy(virga_context **context)
+{
+    if (!context || !*context)
+        return;
+    virga_context *dying = *context;
+    if (dying->effects)
+        virga_log_say(&dying->log, VIRGA_LOG_ERROR, VIRGA_LOG_LIVE_OBJECTS,
+                      "%u effects are alive while their context is destroyed; destroy them first", dying->effects);
+    destroy_objects(dying);
+    free_context(dying);
+    *context = NULL;
+}
+
+/* ---- frames */
+
+virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index)
+{
+    if (!context)
+        return VIRGA_ERROR_INVALID;
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (frame_index <= context->frame_index || completed_index >= frame_index ||
+        completed_index < context->completed_index) {
+        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                      "frame %llu after %llu with %llu completed: indices start at 1 and rise, and completed is behind",
+                      (unsigned long long)frame_index, (unsigned long long)context->frame_index,
+                      (unsigned long long)completed_index);
+        return VIRGA_ERROR_INVALID;
+    }
+    if (frame_index - completed_index > context->frames_in_flight) {
+        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                      "frame %llu with %llu completed: more than %u frames in flight", (unsigned long long)frame_index,
+                      (unsigned long long)completed_index, context->frames_in_flight);
+        return VIRGA_ERROR_INVALID;
+    }
+    context->frame_index = frame_index;
+    context->completed_index = completed_index;
+    context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
+    virga_graveyard_sweep(context, false);
+    virga_timer_slot *slot = &context->timers[context->ring_slot];
+    virga_timers_collect(context, slot);
+    slot->count = 0;
+    slot->reset = false;
+    return VIRGA_OK;
+}
+
+void virga_memory_get(const virga_context *context, virga_memory_stats *stats)
+{
+    if (!stats)
+        return;
+    memset(stats, 0, sizeof *stats);
+    if (!context)
+        return;
+    *stats = (virga_memory_stats){.device_bytes = context->device_bytes,
+                                  .device_used = context->device_used,
+                                  .device_allocations = context->device_allocations,
+                                  .objects = context->objects,
+                                  .host_bytes = context->heap.live_bytes,
+                                  .host_allocations = (uint32_t)context->heap.live_count};
+}

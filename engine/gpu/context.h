@@ -1,0 +1,232 @@
+/* gpu/context.h - a host's device in use, and the few helpers that every effect records with. Internal.
+ *
+ * A pass is one GLSL file, one pipeline and one call. Buffers and images are made here, named here, counted here,
+ * and when they are let go they wait in the graveyard until the frame that used them last has completed. */
+#ifndef VIRGA_GPU_CONTEXT_H
+#define VIRGA_GPU_CONTEXT_H
+
+#include "core/log.h"
+#include "core/memory.h"
+#include "core/settings.h"
+#include "gpu/functions.h"
+
+#include <virga/vulkan.h>
+
+#define VIRGA_MAX_PASSES 32           /* names that timings tell apart */
+#define VIRGA_MAX_QUERIES 512         /* timestamps a frame; passes beyond go untimed */
+#define VIRGA_RING_ALIGNMENT 256      /* the largest offset alignment that Vulkan allows a device to ask for */
+
+/* A piece of device memory. */
+typedef struct virga_memory {
+    virga_memory_block block;
+    struct virga_memory_page *page; /* NULL: from the host's callback */
+    VkDeviceSize size;
+    uint32_t type_index;
+} virga_memory;
+
+/* Anything that waits in the graveyard. */
+typedef struct virga_resource {
+    struct virga_resource *next;
+    uint64_t last_frame;
+    void (*destroy)(struct virga_context *context, struct virga_resource *resource);
+} virga_resource;
+
+typedef struct virga_buffer {
+    virga_resource resource; /* first */
+    VkBuffer buffer;
+    VkDeviceSize size;
+    virga_memory memory;
+    bool coherent;
+} virga_buffer;
+
+typedef struct virga_image_2d {
+    virga_resource resource; /* first */
+    VkImage image;
+    VkImageView view;        /* all layers, as a 2D array */
+    VkImageView *layer_views;
+    uint32_t layers;
+    VkExtent2D extent;
+    VkFormat format;
+    virga_memory memory;
+} virga_image_2d;
+
+typedef struct virga_pipeline {
+    virga_resource resource; /* first */
+    VkPipeline pipeline;
+} virga_pipeline;
+
+/* Timestamps of one frame in flight. */
+typedef struct virga_timer_slot {
+    VkQueryPool pool;
+    uint64_t frame_index;
+    uint32_t count;                        /* queries written */
+    uint8_t names[VIRGA_MAX_QUERIES / 2];  /* of the pass that the pair belongs to */
+    bool reset;                            /* the pool was reset in this frame */
+} virga_timer_slot;
+
+struct virga_context {
+    virga_functions vk;
+    virga_log log;
+    virga_host_heap heap;
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    VkPipelineCache pipeline_cache;
+    VkPhysicalDeviceMemoryProperties memory_properties;
+    VkPhysicalDeviceProperties properties;
+    virga_device_memory device_memory;
+    VkDeviceSize memory_budget;
+    uint32_t frames_in_flight;
+    bool debug_names;
+    bool lost;
+
+    uint64_t frame_index, completed_index;
+    uint32_t ring_slot; /* frame_index modulo frames_in_flight, by count of frames begun */
+    virga_resource *graveyard;
+
+    struct virga_memory_page *pages;
+    VkDeviceSize device_bytes, device_used;
+    uint32_t device_allocations, objects;
+    uint32_t effects; /* alive */
+    uint64_t target_serial;
+
+    bool timings;
+    double timestamp_ns;
+    uint64_t timestamp_mask;
+    virga_timer_slot timers[VIRGA_MAX_FRAMES_IN_FLIGHT];
+    virga_pass_time pass_times[VIRGA_MAX_PASSES];
+    uint32_t pass_count;
+};
+
+/* Logs a failed Vulkan call, remembers a lost device, and gives the result that the API returns. */
+virga_result virga_vulkan_failed(virga_context *context, VkResult result, const char *call);
+
+/* One Vulkan call in a function that has `virga_result result` and a label `error`. */
+#define VK_TRY(context, call)                                                                                          \
+    do {                                                                                                               \
+        const VkResult vk_result_ = (context)->vk.call;                                                                \
+        if (vk_result_ != VK_SUCCESS) {                                                                                \
+            result = virga_vulkan_failed(context, vk_result_, "vk" #call);                                             \
+            goto error;                                                                                                \
+        }                                                                                                              \
+    } while (0)
+
+/* One call of ours in such a function. */
+#define TRY(call)                                                                                                      \
+    do {                                                                                                               \
+        result = (call);                                                                                               \
+        if (result < 0)                                                                                                \
+            goto error;                                                                                                \
+    } while (0)
+
+/* An out of host memory result, with its line in the log. */
+virga_result virga_out_of_host_memory(virga_context *context, const char *what);
+
+/* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
+virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
+
+/* ---- memory.c */
+virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequirements *requirements,
+                                   VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool for_image,
+                                   const char *name, virga_memory *memory);
+void virga_memory_release(virga_context *context, virga_memory *memory);
+
+/* ---- resources.c */
+
+/* Where a buffer lives. */
+typedef enum virga_heap_kind {
+    VIRGA_HEAP_DEVICE,   /* on the device */
+    VIRGA_HEAP_UPLOAD,   /* mapped, written by the host each frame */
+    VIRGA_HEAP_READBACK, /* mapped, read by the host */
+} virga_heap_kind;
+
+virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 virga_heap_kind heap, const char *name, virga_buffer **buffer);
+virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
+                                VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
+                                virga_image_2d **image);
+
+/* Makes what the host wrote visible to the device, or what the device wrote visible to the host. */
+void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
+void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
+
+/* Lets go of a resource (buffer, image, pipeline) and sets the pointer to NULL; accepts NULL. */
+void virga_retire(virga_context *context, virga_resource *resource);
+#define VIRGA_RETIRE(context, pointer)                                                                                 \
+    do {                                                                                                               \
+        if (pointer)                                                                                                   \
+            virga_retire(context, &(pointer)->resource);                                                               \
+        (pointer) = NULL;                                                                                              \
+    } while (0)
+
+/* Destroys what completed frames have let go of; all of it where `all`. */
+void virga_graveyard_sweep(virga_context *context, bool all);
+
+void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, const char *name);
+
+/* ---- pipelines.c */
+typedef struct virga_spirv {
+    const uint32_t *code;
+    size_t size; /* bytes */
+} virga_spirv;
+
+/* An embedded shader: the array that the build made of shaders/<effect>/<pass>. */
+#define VIRGA_SPIRV(name) ((virga_spirv){name##_spv, sizeof name##_spv})
+
+virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
+                                           const char *name, virga_pipeline **pipeline);
+
+/* What a graphics pipeline of ours varies in. */
+typedef struct virga_graphics_def {
+    virga_spirv vertex, fragment;
+    VkPipelineLayout layout;
+    VkRenderPass render_pass;
+    uint32_t subpass;
+    const void *next;               /* chain for dynamic rendering */
+    uint32_t vertex_stride;         /* 0: no vertex input; else one vec3 at location 0 */
+    uint32_t color_count;           /* those beyond the first are not written */
+    bool blend_premultiplied;
+    bool depth_test, depth_write, reversed_depth;
+    VkSampleCountFlagBits samples;
+    const char *name;
+} virga_graphics_def;
+
+virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
+                                            virga_pipeline **pipeline);
+
+/* ---- record.c */
+
+/* Label and timestamps around a pass; `name` is static, e.g. "rain.step". */
+typedef struct virga_pass_scope {
+    uint32_t query; /* of the end; 0: untimed */
+} virga_pass_scope;
+
+virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
+void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope);
+
+/* All writes before, in these stages, are seen by all reads and writes after, in those. */
+void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
+                   VkPipelineStageFlags to, VkAccessFlags reads);
+
+/* Between two compute passes. */
+void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
+
+void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
+                         virga_image_state before, virga_image_state after);
+
+/* Before the passes of a call that records outside rendering. */
+void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
+
+void virga_timers_collect(virga_context *context, virga_timer_slot *slot);
+
+/* ---- target.c */
+struct virga_target {
+    virga_context *context;
+    virga_target_def def;
+    uint64_t serial; /* another for each target of a context, never used again */
+};
+
+/* A graphics pipeline for a target: fills what the target decides, then creates it. */
+virga_result virga_target_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline);
+
+#endif

@@ -1,0 +1,205 @@
+/* gpu/pipelines.c - compute and graphics pipelines from embedded SPIR-V, and the pipeline cache blob. */
+#include "gpu/context.h"
+
+#include <string.h>
+
+static void pipeline_destroy(virga_context *context, virga_resource *resource)
+{
+    virga_pipeline *pipeline = (virga_pipeline *)resource;
+    if (pipeline->pipeline) {
+        context->vk.DestroyPipeline(context->device, pipeline->pipeline, NULL);
+        context->objects--;
+    }
+    virga_free(&context->heap, pipeline);
+}
+
+static virga_result module_create(virga_context *context, virga_spirv shader, VkShaderModule *module)
+{
+    virga_result result = VIRGA_OK;
+    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                           .codeSize = shader.size,
+                                           .pCode = shader.code};
+    VK_TRY(context, CreateShaderModule(context->device, &info, NULL, module));
+error:
+    return result;
+}
+
+static virga_result pipeline_object(virga_context *context, const char *name, virga_pipeline **pipeline)
+{
+    *pipeline = virga_alloc(&context->heap, sizeof **pipeline);
+    if (!*pipeline)
+        return virga_out_of_host_memory(context, name);
+    (*pipeline)->resource.destroy = pipeline_destroy;
+    return VIRGA_OK;
+}
+
+virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
+                                           const char *name, virga_pipeline **created)
+{
+    VkShaderModule module = VK_NULL_HANDLE;
+    virga_pipeline *pipeline = NULL;
+    virga_result result = pipeline_object(context, name, &pipeline);
+    if (result)
+        return result;
+    TRY(module_create(context, shader, &module));
+    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                        .module = module,
+                                                        .pName = "main"},
+                                              .layout = layout};
+    VK_TRY(context, CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL,
+                                           &pipeline->pipeline));
+    context->objects++;
+    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, name);
+    *created = pipeline;
+    pipeline = NULL;
+error:
+    if (module)
+        context->vk.DestroyShaderModule(context->device, module, NULL);
+    if (pipeline)
+        pipeline_destroy(context, &pipeline->resource);
+    return result;
+}
+
+/* Everything about a graphics pipeline but its shaders. The state structs point into one another, so they live in
+ * the caller's frame. */
+typedef struct graphics_state {
+    VkVertexInputBindingDescription binding;
+    VkVertexInputAttributeDescription attribute;
+    VkPipelineVertexInputStateCreateInfo input;
+    VkPipelineInputAssemblyStateCreateInfo assembly;
+    VkPipelineViewportStateCreateInfo viewport;
+    VkPipelineRasterizationStateCreateInfo raster;
+    VkPipelineMultisampleStateCreateInfo multisample;
+    VkPipelineDepthStencilStateCreateInfo depth;
+    VkPipelineColorBlendAttachmentState attachments[8];
+    VkPipelineColorBlendStateCreateInfo blend;
+    VkDynamicState dynamics[2];
+    VkPipelineDynamicStateCreateInfo dynamic;
+} graphics_state;
+
+static void describe_blend(const virga_graphics_def *def, graphics_state *state)
+{
+    memset(state->attachments, 0, sizeof state->attachments);
+    state->attachments[0] = (VkPipelineColorBlendAttachmentState){
+        .blendEnable = def->blend_premultiplied,
+        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .colorBlendOp = VK_BLEND_OP_ADD,
+        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .alphaBlendOp = VK_BLEND_OP_ADD,
+        .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                          VK_COLOR_COMPONENT_A_BIT};
+    /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
+    state->blend = (VkPipelineColorBlendStateCreateInfo){.sType =
+                                                             VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+                                                         .attachmentCount = def->color_count,
+                                                         .pAttachments = state->attachments};
+}
+
+static void describe_input(const virga_graphics_def *def, graphics_state *state)
+{
+    state->binding = (VkVertexInputBindingDescription){0, def->vertex_stride, VK_VERTEX_INPUT_RATE_VERTEX};
+    state->attribute = (VkVertexInputAttributeDescription){0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    const uint32_t used = def->vertex_stride ? 1 : 0;
+    state->input = (VkPipelineVertexInputStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = used,
+        .pVertexBindingDescriptions = &state->binding,
+        .vertexAttributeDescriptionCount = used,
+        .pVertexAttributeDescriptions = &state->attribute};
+    state->assembly = (VkPipelineInputAssemblyStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+}
+
+static void describe_raster(const virga_graphics_def *def, graphics_state *state)
+{
+    state->viewport = (VkPipelineViewportStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+    state->raster = (VkPipelineRasterizationStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = VK_CULL_MODE_NONE,
+        .lineWidth = 1};
+    state->multisample = (VkPipelineMultisampleStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = def->samples ? def->samples : VK_SAMPLE_COUNT_1_BIT};
+    state->depth = (VkPipelineDepthStencilStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = def->depth_test,
+        .depthWriteEnable = def->depth_write,
+        .depthCompareOp = def->reversed_depth ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL};
+    state->dynamics[0] = VK_DYNAMIC_STATE_VIEWPORT;
+    state->dynamics[1] = VK_DYNAMIC_STATE_SCISSOR;
+    state->dynamic = (VkPipelineDynamicStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                        .dynamicStateCount = 2,
+                                                        .pDynamicStates = state->dynamics};
+}
+
+static VkGraphicsPipelineCreateInfo describe(const virga_graphics_def *def, graphics_state *state,
+                                             const VkPipelineShaderStageCreateInfo stages[2])
+{
+    describe_input(def, state);
+    describe_raster(def, state);
+    describe_blend(def, state);
+    return (VkGraphicsPipelineCreateInfo){.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                          .pNext = def->next,
+                                          .stageCount = 2,
+                                          .pStages = stages,
+                                          .pVertexInputState = &state->input,
+                                          .pInputAssemblyState = &state->assembly,
+                                          .pViewportState = &state->viewport,
+                                          .pRasterizationState = &state->raster,
+                                          .pMultisampleState = &state->multisample,
+                                          .pDepthStencilState = &state->depth,
+                                          .pColorBlendState = &state->blend,
+                                          .pDynamicState = &state->dynamic,
+                                          .layout = def->layout,
+                                          .renderPass = def->render_pass,
+                                          .subpass = def->subpass};
+}
+
+virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
+                                            virga_pipeline **created)
+{
+    VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
+    virga_pipeline *pipeline = NULL;
+    virga_result result = pipeline_object(context, def->name, &pipeline);
+    if (result)
+        return result;
+    TRY(module_create(context, def->vertex, &modules[0]));
+    TRY(module_create(context, def->fragment, &modules[1]));
+    VkPipelineShaderStageCreateInfo stages[2];
+    for (int i = 0; i < 2; i++)
+        stages[i] = (VkPipelineShaderStageCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
+            .module = modules[i],
+            .pName = "main"};
+    graphics_state state;
+    const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);
+    VK_TRY(context, CreateGraphicsPipelines(context->device, context->pipeline_cache, 1, &info, NULL,
+                                            &pipeline->pipeline));
+    context->objects++;
+    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, def->name);
+    *created = pipeline;
+    pipeline = NULL;
+error:
+    for (int i = 0; i < 2; i++)
+        if (modules[i])
+            context->vk.DestroyShaderModule(context->device, modules[i], NULL);
+    if (pipeline)
+        pipeline_destroy(context, &pipeline->resource);
+    return result;
+}
+
+virga_result virga_pipeline_cache_get(virga_context *context, size_t *size, void *data)
+{
+    if (!context || !size)
+        return virga_wrong_argument(context ? &context->log : NULL, "virga_pipeline_cache_get: NULL argument");
+    const VkResult got = context->vk.GetPipelineCacheData(context->device, context->pipeline_cache, size, data);
+    return got == VK_SUCCESS ? VIRGA_OK : virga_vulkan_failed(context, got, "vkGetPipelineCacheData");
+}

@@ -1,0 +1,121 @@
+/* gpu/record.c - labels, timestamps and barriers: what surrounds a pass. */
+#include "gpu/context.h"
+
+#include <string.h>
+
+void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
+                   VkPipelineStageFlags to, VkAccessFlags reads)
+{
+    const VkMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = wrote, .dstAccessMask = reads};
+    context->vk.CmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
+void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
+                         virga_image_state before, virga_image_state after)
+{
+    const VkImageMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+        .srcAccessMask = before.access,
+        .dstAccessMask = after.access,
+        .oldLayout = before.layout,
+        .newLayout = after.layout,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = image,
+        .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+    const VkPipelineStageFlags from = before.stage ? before.stage : VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT;
+    context->vk.CmdPipelineBarrier(cmd, from, after.stage, 0, 0, NULL, 0, NULL, 1, &barrier);
+}
+
+static void label_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+{
+    if (!context->debug_names || !context->vk.CmdBeginDebugUtilsLabelEXT)
+        return;
+    const VkDebugUtilsLabelEXT label = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name};
+    context->vk.CmdBeginDebugUtilsLabelEXT(cmd, &label);
+}
+
+static void label_end(virga_context *context, VkCommandBuffer cmd)
+{
+    if (context->debug_names && context->vk.CmdEndDebugUtilsLabelEXT)
+        context->vk.CmdEndDebugUtilsLabelEXT(cmd);
+}
+
+/* Index of a pass's name among the times; names are static, so their addresses tell them apart. */
+static uint32_t pass_index(virga_context *context, const char *name)
+{
+    for (uint32_t i = 0; i < context->pass_count; i++)
+        if (context->pass_times[i].name == name || !strcmp(context->pass_times[i].name, name))
+            return i;
+    if (context->pass_count == VIRGA_MAX_PASSES)
+        return VIRGA_MAX_PASSES;
+    context->pass_times[context->pass_count].name = name;
+    return context->pass_count++;
+}
+
+virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+{
+    label_begin(context, cmd, name);
+    virga_timer_slot *slot = &context->timers[context->ring_slot];
+    if (!context->timings || slot->count + 2 > VIRGA_MAX_QUERIES || !slot->reset)
+        return (virga_pass_scope){0};
+    const uint32_t pass = pass_index(context, name);
+    if (pass == VIRGA_MAX_PASSES)
+        return (virga_pass_scope){0};
+    slot->names[slot->count / 2] = (uint8_t)pass;
+    context->vk.CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, slot->pool, slot->count);
+    slot->count += 2;
+    return (virga_pass_scope){slot->count - 1};
+}
+
+void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope)
+{
+    if (scope.query)
+        context->vk.CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
+                                      context->timers[context->ring_slot].pool, scope.query);
+    label_end(context, cmd);
+}
+
+/* A pool can only be reset outside rendering, so every call that records outside rendering makes sure of it; a
+ * frame's first such call does it, and a frame without one has no timings. */
+void virga_timers_reset(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_timer_slot *slot = &context->timers[context->ring_slot];
+    if (!context->timings || slot->reset)
+        return;
+    context->vk.CmdResetQueryPool(cmd, slot->pool, 0, VIRGA_MAX_QUERIES);
+    slot->reset = true;
+    slot->frame_index = context->frame_index;
+}
+
+void virga_timers_collect(virga_context *context, virga_timer_slot *slot)
+{
+    uint64_t ticks[VIRGA_MAX_QUERIES];
+    if (!slot->count || context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks, ticks,
+                                                        sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+        return;
+    for (uint32_t i = 0; i < slot->count / 2; i++) {
+        virga_pass_time *time = &context->pass_times[slot->names[i]];
+        if (time->frame_index != slot->frame_index)
+            time->milliseconds = 0;
+        time->frame_index = slot->frame_index;
+        const uint64_t passed = (ticks[2 * i + 1] - ticks[2 * i]) & context->timestamp_mask;
+        time->milliseconds += (double)passed * context->timestamp_ns * 1e-6;
+    }
+}
+
+uint32_t virga_timings_get(const virga_context *context, virga_pass_time *times, uint32_t capacity)
+{
+    if (!context)
+        return 0;
+    for (uint32_t i = 0; i < context->pass_count && i < capacity && times; i++)
+        times[i] = context->pass_times[i];
+    return context->pass_count;
+}

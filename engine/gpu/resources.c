@@ -1,0 +1,204 @@
+/* gpu/resources.c - buffers and images with memory, name and count, and the graveyard that outlives their frames. */
+#include "gpu/context.h"
+
+#include <string.h>
+
+void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, const char *name)
+{
+    if (!context->debug_names || !context->vk.SetDebugUtilsObjectNameEXT)
+        return;
+    const VkDebugUtilsObjectNameInfoEXT info = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                                .objectType = type,
+                                                .objectHandle = handle,
+                                                .pObjectName = name};
+    context->vk.SetDebugUtilsObjectNameEXT(context->device, &info);
+}
+
+/* ---- buffers */
+
+static void buffer_destroy(virga_context *context, virga_resource *resource)
+{
+    virga_buffer *buffer = (virga_buffer *)resource;
+    if (buffer->buffer) {
+        context->vk.DestroyBuffer(context->device, buffer->buffer, NULL);
+        context->objects--;
+    }
+    virga_memory_release(context, &buffer->memory);
+    virga_free(&context->heap, buffer);
+}
+
+static void heap_flags(virga_heap_kind heap, VkMemoryPropertyFlags *wanted, VkMemoryPropertyFlags *preferred)
+{
+    *wanted = heap == VIRGA_HEAP_DEVICE ? 0 : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+    *preferred = heap == VIRGA_HEAP_DEVICE   ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+                 : heap == VIRGA_HEAP_UPLOAD ? VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                                             : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+}
+
+virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 virga_heap_kind heap, const char *name, virga_buffer **created)
+{
+    virga_result result = VIRGA_OK;
+    virga_buffer *buffer = virga_alloc(&context->heap, sizeof *buffer);
+    if (!buffer)
+        return virga_out_of_host_memory(context, name);
+    buffer->resource.destroy = buffer_destroy;
+    buffer->size = size;
+
+    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+    VkMemoryRequirements need;
+    VkMemoryPropertyFlags wanted, preferred;
+    VK_TRY(context, CreateBuffer(context->device, &info, NULL, &buffer->buffer));
+    context->objects++;
+    context->vk.GetBufferMemoryRequirements(context->device, buffer->buffer, &need);
+    /* Mapped ranges are flushed whole, so they must not share an atom with a neighbour. */
+    const VkDeviceSize atom = context->properties.limits.nonCoherentAtomSize;
+    if (heap != VIRGA_HEAP_DEVICE && need.alignment < atom)
+        need.alignment = atom;
+    if (heap != VIRGA_HEAP_DEVICE)
+        need.size = (need.size + atom - 1) / atom * atom;
+    heap_flags(heap, &wanted, &preferred);
+    TRY(virga_memory_allocate(context, &need, wanted, preferred, false, name, &buffer->memory));
+    const virga_memory_block *block = &buffer->memory.block;
+    VK_TRY(context, BindBufferMemory(context->device, buffer->buffer, block->memory, block->offset));
+    buffer->coherent = context->memory_properties.memoryTypes[buffer->memory.type_index].propertyFlags &
+                       VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    virga_set_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);
+    *created = buffer;
+    return VIRGA_OK;
+error:
+    buffer_destroy(context, &buffer->resource);
+    return result;
+}
+
+/* The mapped range, widened to whole atoms; buffer_create saw to it that they are the buffer's own. */
+static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset,
+                                        VkDeviceSize size)
+{
+    const VkDeviceSize atom = context->properties.limits.nonCoherentAtomSize;
+    const VkDeviceSize first = (buffer->memory.block.offset + offset) / atom * atom;
+    const VkDeviceSize end = (buffer->memory.block.offset + offset + size + atom - 1) / atom * atom;
+    return (VkMappedMemoryRange){.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+                                 .memory = buffer->memory.block.memory,
+                                 .offset = first,
+                                 .size = end - first};
+}
+
+void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size)
+{
+    const VkMappedMemoryRange range = mapped_range(context, buffer, offset, size);
+    if (!buffer->coherent)
+        context->vk.FlushMappedMemoryRanges(context->device, 1, &range);
+}
+
+void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
+{
+    const VkMappedMemoryRange range = mapped_range(context, buffer, 0, buffer->size);
+    if (!buffer->coherent)
+        context->vk.InvalidateMappedMemoryRanges(context->device, 1, &range);
+}
+
+/* ---- images */
+
+static void image_destroy(virga_context *context, virga_resource *resource)
+{
+    virga_image_2d *image = (virga_image_2d *)resource;
+    for (uint32_t i = 0; image->layer_views && i < image->layers; i++)
+        if (image->layer_views[i]) {
+            context->vk.DestroyImageView(context->device, image->layer_views[i], NULL);
+            context->objects--;
+        }
+    virga_free(&context->heap, image->layer_views);
+    if (image->view) {
+        context->vk.DestroyImageView(context->device, image->view, NULL);
+        context->objects--;
+    }
+    if (image->image) {
+        context->vk.DestroyImage(context->device, image->image, NULL);
+        context->objects--;
+    }
+    virga_memory_release(context, &image->memory);
+    virga_free(&context->heap, image);
+}
+
+static virga_result view_create(virga_context *context, const virga_image_2d *image, VkImageAspectFlags aspect,
+                                uint32_t first, uint32_t count, VkImageView *view)
+{
+    virga_result result = VIRGA_OK;
+    const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                        .image = image->image,
+                                        .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                                        .format = image->format,
+                                        .subresourceRange = {aspect, 0, 1, first, count}};
+    VK_TRY(context, CreateImageView(context->device, &info, NULL, view));
+    context->objects++;
+error:
+    return result;
+}
+
+virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
+                                VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
+                                virga_image_2d **created)
+{
+    virga_result result = VIRGA_OK;
+    virga_image_2d *image = virga_alloc(&context->heap, sizeof *image);
+    if (!image)
+        return virga_out_of_host_memory(context, name);
+    image->resource.destroy = image_destroy;
+    image->format = format;
+    image->extent = extent;
+    image->layers = layers;
+    image->layer_views = virga_alloc_array(&context->heap, layers, sizeof image->layer_views[0]);
+    if (!image->layer_views) {
+        result = virga_out_of_host_memory(context, name);
+        goto error;
+    }
+    const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                    .imageType = VK_IMAGE_TYPE_2D,
+                                    .format = format,
+                                    .extent = {extent.width, extent.height, 1},
+                                    .mipLevels = 1,
+                                    .arrayLayers = layers,
+                                    .samples = VK_SAMPLE_COUNT_1_BIT,
+                                    .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                    .usage = usage};
+    VkMemoryRequirements need;
+    VK_TRY(context, CreateImage(context->device, &info, NULL, &image->image));
+    context->objects++;
+    context->vk.GetImageMemoryRequirements(context->device, image->image, &need);
+    TRY(virga_memory_allocate(context, &need, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true, name, &image->memory));
+    VK_TRY(context, BindImageMemory(context->device, image->image, image->memory.block.memory,
+                                    image->memory.block.offset));
+    TRY(view_create(context, image, aspect, 0, layers, &image->view));
+    for (uint32_t i = 0; i < layers; i++)
+        TRY(view_create(context, image, aspect, i, 1, &image->layer_views[i]));
+    virga_set_name(context, VK_OBJECT_TYPE_IMAGE, (uint64_t)image->image, name);
+    *created = image;
+    return VIRGA_OK;
+error:
+    image_destroy(context, &image->resource);
+    return result;
+}
+
+/* ---- the graveyard */
+
+void virga_retire(virga_context *context, virga_resource *resource)
+{
+    resource->last_frame = context->frame_index;
+    resource->next = context->graveyard;
+    context->graveyard = resource;
+}
+
+void virga_graveyard_sweep(virga_context *context, bool all)
+{
+    virga_resource **at = &context->graveyard;
+    while (*at) {
+        virga_resource *resource = *at;
+        if (all || resource->last_frame <= context->completed_index) {
+            *at = resource->next;
+            resource->destroy(context, resource);
+        } else {
+            at = &resource->next;
+        }
+    }
+}

@@ -1,0 +1,225 @@
+/* virga/vulkan.h - a host's device, taken into use; the recording contract; targets, views, memory and timings.
+ *
+ * The contract in short: Virga records into the host's command buffers and does nothing else. It never submits,
+ * waits, creates queues, threads or surfaces, and keeps no globals. Recording allocates and compiles nothing.
+ * Vulkan 1.2 with the features of virga_required_features() and no extension. The library links no Vulkan symbol:
+ * all entry points come from the host's vkGetInstanceProcAddr.
+ *
+ * A frame:
+ *
+ *     virga_frame_begin(context, frame_index, completed_index);
+ *     virga_rain_occlusion(rain, cmd, ...);      // outside rendering
+ *     virga_rain_step(rain, cmd, ...);           // outside rendering
+ *     virga_rain_prepare(rain, cmd, ...);        // outside rendering, once a view
+ *     ... host begins rendering its scene ...
+ *     virga_rain_draw(rain, cmd, ...);           // inside rendering, after the opaque scene
+ *     ... host ends, submits, and says in a later frame that this one completed ...
+ *
+ * Thread-safety: calls on one context and on what was made from it must not overlap; different contexts, also on
+ * one device, may be used from different threads at once.
+ */
+#ifndef VIRGA_VULKAN_H
+#define VIRGA_VULKAN_H
+
+#include <virga/base.h>
+#include <vulkan/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define VIRGA_VULKAN_API VK_API_VERSION_1_2 /* least VkApplicationInfo::apiVersion and device version */
+#define VIRGA_MAX_FRAMES_IN_FLIGHT 8
+
+/* ---- what a device must have ---------------------------------------------------------------------------------- */
+
+/* One required feature: the VkBool32 at `offset` in the Vulkan struct with sType `struct_type` of `struct_size`. */
+typedef struct virga_feature {
+    VkStructureType struct_type; /* VkPhysicalDeviceFeatures2 or VkPhysicalDeviceVulkan12Features */
+    size_t offset;               /* of the VkBool32, from the start of that struct */
+    const char *name;            /* as Vulkan spells it */
+    const char *why;             /* what Virga uses it for */
+} virga_feature;
+
+/* The required features, `*count` of them; static data. Thread-safety: any thread. */
+VIRGA_API const virga_feature *virga_required_features(uint32_t *count);
+
+/* Sets each required feature to VK_TRUE in the structs of a pNext chain that is to go into VkDeviceCreateInfo; it
+ * changes nothing else. Returns VIRGA_ERROR_INVALID if the chain lacks a struct that a feature lives in.
+ * Thread-safety: any thread. */
+VIRGA_API virga_result virga_enable_features(VkPhysicalDeviceFeatures2 *chain);
+
+/* Whether a physical device can run Virga. On VIRGA_ERROR_UNSUPPORTED `reason` (may be NULL) gets one line that
+ * names what is missing. Creates nothing. Thread-safety: any thread. */
+VIRGA_API virga_result virga_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                                          VkPhysicalDevice physical_device, char *reason, size_t reason_size);
+
+/* ---- a context: one host device taken into use ---------------------------------------------------------------- */
+
+typedef struct virga_context virga_context; /* opaque */
+
+/* Where a piece of device memory lives, as the host's callback hands it out. */
+typedef struct virga_memory_block {
+    VkDeviceMemory memory;
+    VkDeviceSize offset; /* aligned as asked */
+    void *mapped;        /* host address of `offset`, or NULL if not mapped; required for host-visible requests */
+    void *host_handle;   /* the host's own, given back to `free` */
+} virga_memory_block;
+
+/* Device memory from the host's allocator. Leave all zero and Virga takes few large blocks and suballocates.
+ * `alloc` returns VK_SUCCESS and fills *block. `type_index` was chosen by Virga; `mapped` says that a host address
+ * is needed. Called in create, destroy, set and frame_begin only, never while recording. */
+typedef struct virga_device_memory {
+    void *user;
+    VkResult (*alloc)(void *user, const VkMemoryRequirements *requirements, uint32_t type_index, bool mapped,
+                      virga_memory_block *block);
+    void (*free)(void *user, const virga_memory_block *block);
+} virga_device_memory;
+
+/* What virga_context_create needs. Fill with virga_default_context_def. */
+typedef struct virga_context_def {
+    uint32_t size, cookie; /* set by the default function */
+
+    VkInstance instance;                               /* required */
+    VkPhysicalDevice physical_device;                  /* required */
+    VkDevice device;                                   /* required, made with the required features */
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;  /* required */
+    uint32_t queue_family; /* family of the queue that the command buffers go to; graphics and compute. Default 0 */
+
+    uint32_t frames_in_flight; /* [1; 8] how many frames may be recorded before the first is complete. Default 3.
+                                * Host-written rings have this many places; it has nothing to do with a swapchain */
+
+    virga_host_memory host_memory;     /* (optional) */
+    virga_device_memory device_memory; /* (optional) */
+    VkDeviceSize memory_budget;        /* (optional) most device memory in bytes; over it creating fails with
+                                        * VIRGA_ERROR_DEVICE_MEMORY. 0 means no limit */
+
+    virga_log_fn log; /* (optional) */
+    void *log_user;
+
+    const void *pipeline_cache;  /* (optional) a blob from virga_pipeline_cache_get; a stale one is ignored */
+    size_t pipeline_cache_size;
+
+    bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none */
+    bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled. Default true */
+} virga_context_def;
+
+VIRGA_API virga_context_def virga_default_context_def(void);
+
+/* Takes a device into use: function table, memory, pipeline cache. The VkDevice must outlive the context.
+ * Errors: INVALID, UNSUPPORTED, HOST_MEMORY, DEVICE_MEMORY, VULKAN, DEVICE_LOST; *context is NULL then. */
+VIRGA_API virga_result virga_context_create(const virga_context_def *def, virga_context **context);
+
+/* Destroys the context and sets *context to NULL. Accepts NULL and a pointer to NULL. All effects made from it must
+ * be destroyed before (else VIRGA_LOG_LIVE_OBJECTS), and the device must have completed all work recorded with it. */
+VIRGA_API void virga_context_destroy(virga_context **context);
+
+/* Begins a frame. `frame_index` rises by any amount from call to call (VIRGA_ERROR_INVALID if not);
+ * `completed_index` is the last frame whose device work has completed (0: none yet; indices start at 1). At most
+ * frames_in_flight frames may be open: frame_index - completed_index <= frames_in_flight is required.
+ * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. */
+VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index);
+
+/* The pipeline cache: call with data NULL for the size, then with a buffer of *size bytes. */
+VIRGA_API virga_result virga_pipeline_cache_get(virga_context *context, size_t *size, void *data);
+
+/* Live objects and memory. All zero but for the context's own just before virga_context_destroy. */
+typedef struct virga_memory_stats {
+    VkDeviceSize device_bytes;     /* taken from the device (or from the host's callback) */
+    VkDeviceSize device_used;      /* of which in use by buffers and images */
+    uint32_t device_allocations;   /* live VkDeviceMemory or host blocks */
+    uint32_t objects;              /* live Vulkan objects of any kind */
+    size_t host_bytes;             /* live host memory */
+    uint32_t host_allocations;
+} virga_memory_stats;
+
+VIRGA_API void virga_memory_get(const virga_context *context, virga_memory_stats *stats);
+
+/* The device time of one pass in the newest completed frame that recorded it. */
+typedef struct virga_pass_time {
+    const char *name;    /* e.g. "rain.step"; static */
+    double milliseconds; /* summed over the frame's dispatches or draws of that name */
+    uint64_t frame_index;
+} virga_pass_time;
+
+/* Copies up to `capacity` pass times and returns how many there are. Late by the frames in flight. */
+VIRGA_API uint32_t virga_timings_get(const virga_context *context, virga_pass_time *times, uint32_t capacity);
+
+/* ---- images, targets and views -------------------------------------------------------------------------------- */
+
+/* How an image is used at a moment: what a barrier needs to know. */
+typedef struct virga_image_state {
+    VkImageLayout layout;
+    VkPipelineStageFlags stage;
+    VkAccessFlags access;
+} virga_image_state;
+
+/* A host's image. Virga finds it as in `before` and leaves it as in `after`. */
+typedef struct virga_image {
+    VkImage image;
+    VkImageView view; /* all layers and levels that are to be used */
+    VkFormat format;
+    VkExtent3D extent;
+    uint32_t layers; /* 0 means 1 */
+    virga_image_state before, after;
+} virga_image;
+
+/* What draws go into. A target is an object of its own: change formats by making another; simulation state stays. */
+typedef struct virga_target virga_target; /* opaque */
+
+typedef enum virga_target_kind {
+    VIRGA_TARGET_RENDER_PASS = 0, /* a host's VkRenderPass and subpass */
+    VIRGA_TARGET_DYNAMIC = 1,     /* dynamic rendering (Vulkan 1.3 or VK_KHR_dynamic_rendering, enabled by the host) */
+} virga_target_kind;
+
+typedef struct virga_target_def {
+    uint32_t size, cookie;
+    virga_target_kind kind;
+    VkRenderPass render_pass; /* (render pass) */
+    uint32_t subpass;         /* (render pass) */
+    VkFormat color_format;    /* (dynamic) of attachment 0, which gets premultiplied linear radiance and coverage */
+    VkFormat depth_format;    /* (dynamic) VK_FORMAT_UNDEFINED: no depth attachment */
+    VkFormat stencil_format;  /* (dynamic) */
+    uint32_t color_count;     /* [1; 8] attachments in the pass; others than 0 are not written. Default 1 */
+    VkSampleCountFlagBits samples; /* default 1 */
+    bool depth_attached;      /* a depth attachment is there and drawing is to be tested against it (never written).
+                               * Default true */
+    bool reversed_depth;      /* nearer is greater. Default false */
+} virga_target_def;
+
+VIRGA_API virga_target_def virga_default_target_def(void);
+
+/* Makes a target. Each effect then builds its pipelines for it once, e.g. virga_rain_attach. Errors as
+ * virga_context_create. */
+VIRGA_API virga_result virga_target_create(virga_context *context, const virga_target_def *def, virga_target **target);
+
+/* Destroys it and sets *target to NULL; accepts NULL. What effects built for it stays until they are destroyed. */
+VIRGA_API void virga_target_destroy(virga_target **target);
+
+/* What a camera sees, at the end of the shutter time. Fill with virga_default_view. */
+typedef struct virga_view {
+    uint32_t size, cookie;
+    double position_m[3];         /* of the camera in the world; double, so that it may be far from the origin */
+    float view_from_world[16];    /* rotation part only is read; the translation is taken from position_m */
+    float clip_from_view[16];     /* projection with the jitter in it; Vulkan clip space, y down, depth 0..1 */
+    double open_position_m[3];    /* the same at the start of the shutter time (a game: the previous frame's camera) */
+    float open_view_from_world[16];
+    float open_clip_from_view[16]; /* with this frame's jitter, so that jitter does not show as motion */
+    double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn. Default 1/96: 24
+                                   * frames a second, half of it open. With a previous frame's camera as the open one,
+                                   * give its time distance here and scale the rain's look with streak settings */
+    double open_camera_s;         /* how long before the time drawn the open camera was; 0 means shutter_s */
+    float viewport[4];            /* x, y, width, height in pixels */
+    bool reversed_depth;          /* must match the target's. Default false */
+    bool infinite_far;            /* the projection has no far plane. Default false */
+    virga_image depth;            /* (optional) the scene's depth, sampled for soft edges and for haze; layout and
+                                   * access while drawing are `before`, and stay. A single-sample view of the depth
+                                   * aspect. image VK_NULL_HANDLE: hard edges by the depth test, no haze */
+} virga_view;
+
+VIRGA_API virga_view virga_default_view(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
