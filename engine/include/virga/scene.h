@@ -1,0 +1,54 @@
+/* virga/scene.h - the effects of one place, wired along their events, in the order that a frame needs.
+ *
+ * A host that wants all of it calls scene functions; one that wants a single effect uses that effect's header alone.
+ * Today a scene holds rain. What reads impacts is called here between the step and the picture.
+ */
+#ifndef VIRGA_SCENE_H
+#define VIRGA_SCENE_H
+
+#include <virga/rain.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct virga_scene virga_scene; /* opaque */
+
+typedef struct virga_scene_def {
+    uint32_t size, cookie;
+    virga_rain_def rain;
+} virga_scene_def;
+
+VIRGA_API virga_scene_def virga_default_scene_def(void);
+
+/* Creates all effects of the definition. Errors as virga_context_create; *scene is NULL then. */
+VIRGA_API virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene);
+
+/* Destroys the scene and its effects, sets *scene to NULL; accepts NULL. */
+VIRGA_API void virga_scene_destroy(virga_scene **scene);
+
+/* The rain of the scene, for its settings, buffers and statistics. Never NULL; owned by the scene. */
+VIRGA_API virga_rain *virga_scene_rain(virga_scene *scene);
+
+/* What a frame needs outside rendering. */
+typedef struct virga_scene_frame {
+    double dt_s;                      /* [0; 10] host time since the last frame */
+    double camera_m[3];
+    const virga_occluder *occluders;  /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
+    uint32_t occluder_count;
+    const virga_view *view;           /* (optional) the view to prepare; NULL: the scene is stepped only */
+} virga_scene_frame;
+
+/* Occlusion, step and prepare, in that order. The worst of their results is returned. */
+VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
+
+/* Builds the pipelines of all effects for a target, see virga_rain_attach. */
+VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target *target);
+
+/* All draws, inside rendering of `target`. */
+VIRGA_API virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

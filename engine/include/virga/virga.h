@@ -1,0 +1,9 @@
+/* virga/virga.h - everything at once. */
+#ifndef VIRGA_VIRGA_H
+#define VIRGA_VIRGA_H
+#include <virga/base.h>
+#include <virga/drops.h>
+#include <virga/rain.h>
+#include <virga/scene.h>
+#include <virga/vulkan.h>
+#endif

@@ -1,0 +1,184 @@
+/* rain/rain_internal.h - the object behind virga_rain, and what its files do for each other. Internal.
+ *
+ *   rain.c            create, destroy, settings
+ *   classes.c         size classes: which slots, what weights, how they move
+ *   wind.c            the uniform wind with its gusts
+ *   rain_descriptors.c  the one binding model of all passes
+ *   rain_step.c       ticks and impacts
+ *   rain_occlusion.c  maps of where no rain falls
+ *   rain_draw.c       prepare, attach, draw
+ */
+#ifndef VIRGA_RAIN_INTERNAL_H
+#define VIRGA_RAIN_INTERNAL_H
+
+#include "gpu/context.h"
+
+#include <virga/rain.h>
+#include <virga/shared/drop.h>
+#include <virga/shared/rain_gpu.h>
+
+/* ---- classes.c: on the host, in double */
+
+typedef struct rain_class {
+    double diameter_m, terminal_m_s, density_share; /* the last: logarithmic width x diameter, for bins */
+    double velocity[3];
+    int64_t travel[3]; /* fixed point, see virga_class_gpu */
+} rain_class;
+
+typedef struct rain_classes {
+    rain_class classes[VIRGA_RAIN_CLASSES];
+    uint32_t slot_count[VIRGA_RAIN_MAX_LEVELS][VIRGA_RAIN_CLASSES];
+    double per_m3[VIRGA_RAIN_CLASSES];     /* drops of the class per m^3, in force */
+    double per_m3_from[VIRGA_RAIN_CLASSES]; /* eased from */
+    double per_m3_to[VIRGA_RAIN_CLASSES];
+    double eased_s, ease_s;                 /* how far, and how long it takes in all; 0: done */
+    virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
+    uint32_t levels, slots_per_level;
+    double side_m; /* of the widest box */
+} rain_classes;
+
+/* Sizes, boxes and the number of slots of each class in each box. */
+void rain_classes_init(rain_classes *classes, uint32_t levels, uint32_t slots_per_level, double side_m);
+
+/* The slots themselves, levels x slots_per_level of them. */
+void rain_classes_fill_slots(const rain_classes *classes, uint32_t seed, virga_slot_gpu *slots);
+
+/* New densities, eased into over `ease_s`; 0 at once. */
+void rain_classes_set_rain(rain_classes *classes, const virga_sizes *sizes, double rate_mm_h, double air_density,
+                           double ease_s);
+
+/* New air density: terminal speeds; velocities follow by drag. */
+void rain_classes_set_air(rain_classes *classes, double air_density);
+
+/* Velocities of drops long since at rest with the wind. */
+void rain_classes_settle(rain_classes *classes, const double wind[3]);
+
+/* One tick: eases weights, moves velocities by drag and lattices by velocities. */
+void rain_classes_tick(rain_classes *classes, const double wind[3], double tick_s);
+
+/* Half of the side of a box within which every slot is one drop; 0 where even the innermost stands for several. */
+double rain_classes_bodies_radius(const rain_classes *classes);
+
+/* ---- wind.c */
+
+typedef struct rain_wind {
+    double phase; /* knots of gust noise passed */
+} rain_wind;
+
+void rain_wind_tick(rain_wind *wind, double tick_s, double gust_time_s);
+void rain_wind_at(const rain_wind *wind, const virga_rain_settings *settings, uint32_t seed, double velocity[3]);
+
+/* ---- the object */
+
+typedef struct rain_map {
+    double centre[2]; /* world, sheared about y = 0 */
+    double slant[2];
+    double half_m, top_m, height_m;
+} rain_map;
+
+typedef struct rain_target {
+    uint64_t serial; /* of the virga_target; 0: free */
+    virga_pipeline *streaks, *haze;
+} rain_target;
+
+enum { RAIN_BINDINGS = 13, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
+
+/* What the statistics ring reads back for one frame. */
+typedef struct rain_readback {
+    virga_impacts_gpu impacts;
+    virga_prepared_gpu prepared;
+} rain_readback;
+
+typedef struct rain_frame_stats {
+    uint64_t frame_index; /* 0: nothing was recorded */
+    double time_s;
+    uint32_t ticks;
+    float wind_m_s[3];
+    bool counted; /* taken into the totals */
+} rain_frame_stats;
+
+struct virga_rain {
+    virga_context *context;
+    virga_rain_def def;
+    virga_rain_settings settings;
+    virga_image wind_image;        /* copy of what settings.wind_texture points to */
+    double *table_diameter_m, *table_number; /* copies of a host's sizes */
+
+    rain_classes *classes;
+    rain_wind wind;
+    double wind_now[3];
+    uint32_t levels, groups_per_level, groups, slots;
+    uint64_t ticks;                /* run since creation */
+    double left_over_s;            /* host time not yet run */
+    double origin[3];              /* of the newest tick */
+    bool stepped, slots_uploaded, sway_cleared, sway_on;
+    double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
+
+    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *streak_buffer,
+        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload;
+    virga_buffer *tick_ring, *view_ring, *readback_ring;
+    virga_image_2d *map_depth, *map_surface;
+    virga_image_2d *blank;         /* depth, for the scene depth that a view has not */
+    VkImage blank_wind_image;
+    VkImageView blank_wind_view;
+    virga_memory blank_wind_memory;
+    bool images_ready;             /* first layouts have been recorded */
+
+    VkRenderPass map_pass;
+    VkFramebuffer map_framebuffers[VIRGA_RAIN_MAX_MAPS];
+    VkPipelineLayout map_layout;
+    virga_pipeline *map_pipelines[4]; /* for def.occluder_strides */
+    rain_map maps[VIRGA_RAIN_MAX_MAPS];
+    uint32_t map_count;            /* drawn and in use */
+    bool host_maps;
+    virga_image host_map_image;
+
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet sets[VIRGA_MAX_FRAMES_IN_FLIGHT][RAIN_SETS];
+    uint64_t step_set_frame;
+    VkSampler nearest, linear;
+    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan, *prepare_write;
+    rain_target targets[VIRGA_RAIN_MAX_TARGETS];
+
+    uint64_t ring_frame;           /* frame that the ring cursors below belong to */
+    uint32_t ring_ticks, ring_views;
+    uint32_t tick_offset, view_offset; /* of the newest tick and view, bytes */
+    uint32_t view_slot;
+    bool prepared;
+    bool prepared_haze;
+    VkDescriptorSet prepared_set;
+    float prepared_viewport[4];
+    rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
+    virga_rain_stats stats;
+};
+
+/* Bytes that one tick or view takes in its ring. */
+uint32_t rain_tick_bytes(void);
+uint32_t rain_view_bytes(void);
+
+/* ---- rain_descriptors.c */
+virga_result rain_descriptors_create(virga_rain *rain);
+void rain_descriptors_destroy(virga_rain *rain);
+
+/* Writes a set of this frame; `scene_depth` NULL for a blank. */
+VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);
+void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
+
+/* ---- rain_step.c */
+
+/* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
+void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
+
+/* ---- rain_occlusion.c */
+virga_result rain_occlusion_create(virga_rain *rain);
+void rain_occlusion_destroy(virga_rain *rain);
+uint32_t rain_class_slant(const virga_rain *rain, double diameter_m);
+void rain_occlusion_tick(virga_rain *rain);
+void rain_fill_maps(const virga_rain *rain, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS]);
+
+/* ---- rain_draw.c */
+void rain_targets_destroy(virga_rain *rain);
+
+#endif

@@ -1,0 +1,85 @@
+/* scene/scene.c - the effects of a place along their events. The only file that knows them all. */
+#include "gpu/context.h"
+
+#include <virga/scene.h>
+
+#define SCENE_COOKIE VIRGA_COOKIE(6)
+
+struct virga_scene {
+    virga_context *context;
+    virga_rain *rain;
+};
+
+virga_scene_def virga_default_scene_def(void)
+{
+    return (virga_scene_def){
+        .size = sizeof(virga_scene_def), .cookie = SCENE_COOKIE, .rain = virga_default_rain_def()};
+}
+
+virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene)
+{
+    if (scene)
+        *scene = NULL;
+    if (!context || !def || !scene)
+        return virga_wrong_argument(context ? &context->log : NULL, "virga_scene_create: NULL argument");
+    virga_result result =
+        virga_settings_check(&context->log, "scene_def", def->size, sizeof *def, def->cookie, SCENE_COOKIE);
+    if (result)
+        return result;
+    virga_scene *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "a scene");
+    made->context = context;
+    result = virga_rain_create(context, &def->rain, &made->rain);
+    if (result < 0)
+        virga_scene_destroy(&made);
+    *scene = made;
+    return result;
+}
+
+void virga_scene_destroy(virga_scene **scene)
+{
+    if (!scene || !*scene)
+        return;
+    virga_rain_destroy(&(*scene)->rain);
+    virga_free(&(*scene)->context->heap, *scene);
+    *scene = NULL;
+}
+
+virga_rain *virga_scene_rain(virga_scene *scene)
+{
+    return scene ? scene->rain : NULL;
+}
+
+/* The first error, else the last remark. */
+static virga_result worst(virga_result a, virga_result b)
+{
+    return a < 0 ? a : b ? b : a;
+}
+
+virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    if (!scene || !frame)
+        return VIRGA_ERROR_INVALID;
+    virga_result result = VIRGA_OK;
+    if (frame->occluders)
+        result = virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
+    virga_rain_step_info step = {.dt_s = frame->dt_s};
+    for (int axis = 0; axis < 3; axis++)
+        step.camera_m[axis] = frame->camera_m[axis];
+    if (result >= 0)
+        result = worst(result, virga_rain_step(scene->rain, cmd, &step));
+    if (result >= 0 && frame->view)
+        result = worst(result, virga_rain_prepare(scene->rain, cmd, frame->view, virga_rain_time(scene->rain)));
+    return result;
+}
+
+virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
+{
+    return scene ? virga_rain_attach(scene->rain, target) : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target)
+{
+    return scene ? virga_rain_draw(scene->rain, cmd, target) : VIRGA_ERROR_INVALID;
+}

@@ -1,0 +1,25 @@
+// haze.frag - the rain that is too small or too far to be drops: extinction 0.312 R^0.67 per km, and the light it
+// scatters, which comes from nearly straight ahead (Henyey-Greenstein with g = 0.97: moments g and g^2).
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "field.glsl"
+#include "view.glsl"
+#include "scene_depth.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    const float stored = buffer_depth(gl_FragCoord.xy);
+    const vec2 ndc = (gl_FragCoord.xy - vec2(view.viewport[0], view.viewport[1])) /
+                         vec2(view.viewport[2], view.viewport[3]) * 2.0 - 1.0;
+    const vec3 ray = to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead);
+    // The sky is an environment seen through its own rain already.
+    const float way = stored == view.far_depth ? 0.0 : view_depth(stored) * length(ray);
+    const float thick = view.haze_near_per_m * min(way, view.range_m) + view.haze_per_m * max(way - view.range_m, 0.0);
+    const float alpha = 1.0 - exp(-thick);
+    if (alpha <= 0.0)
+        discard;
+    radiance = vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha);
+}

@@ -1,0 +1,21 @@
+// map.vert - a host's mesh into an occlusion map: parallel to the fall of the drops, depth by height.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define VIRGA_GLSL
+#include "shared/rain_gpu.h"
+
+layout(scalar, push_constant) uniform Push { virga_map_push push; };
+layout(location = 0) in vec3 position;
+layout(location = 0) out vec3 place;
+
+void main()
+{
+    const vec4 p = vec4(position, 1.0);
+    for (int row = 0; row < 3; row++)
+        place[row] = dot(p, vec4(push.rel_from_mesh[row * 4], push.rel_from_mesh[row * 4 + 1],
+                                 push.rel_from_mesh[row * 4 + 2], push.rel_from_mesh[row * 4 + 3]));
+    const vec2 sheared = place.xz + vec2(push.slant[0], push.slant[1]) * place.y;
+    gl_Position = vec4((sheared - vec2(push.centre[0], push.centre[1])) * push.inv_half_m,
+                       (push.top_m - place.y) * push.inv_height, 1.0);
+}

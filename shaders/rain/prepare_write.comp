@@ -1,0 +1,174 @@
+// prepare_write.comp - a streak for each marked slot: where the drop goes while the shutter is open, cut where it meets
+// something, and the light in it.
+//
+// A sphere of diameter D that moves by l >> D while the shutter is open covers a point on its middle line for the share
+// D / (l + D) of the time: that share is the streak's coverage (Garg and Nayar 2007). What is narrower than the
+// sampling is drawn as wide as that and covers less.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "field.glsl"
+#include "view.glsl"
+#include "scan_buffers.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
+layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
+layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
+
+#define NEAR_W 0.01     // m; streaks are cut where they come nearer to the camera's plane
+#define MOST_COVERAGE 0.6 // that a streak which stands for many gets, before it is drawn wider instead
+
+vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
+
+mat4 to_mat(float a[16])
+{
+    return mat4(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13], a[14], a[15]);
+}
+
+// Cuts the way from `tail` to `head` where it meets a surface. False: nothing of it is under the sky.
+bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)
+{
+    if (tick.maps == 0u)
+        return true;
+    if (find_shelter(tail, slant).height >= tail.y)
+        return false;
+    const Shelter below = find_shelter(head, slant);
+    if (head.y > below.height)
+        return true;
+    const float way = tail.y - head.y;
+    if (way <= 1e-6 || below.height > tail.y + 0.5 * way)
+        return false;
+    head = mix(tail, head, clamp((tail.y - below.height) / way, 0.0, 1.0));
+    return true;
+}
+
+float phase(float cos_angle)
+{
+    const float x = acos(clamp(cos_angle, -1.0, 1.0)) * (64.0 / 3.14159265) - 0.5;
+    const int bin = clamp(int(floor(x)), 0, 62);
+    return mix(view.phase[bin], view.phase[bin + 1], clamp(x - float(bin), 0.0, 1.0));
+}
+
+// Point and spot lights: irradiance on the drop times its phase function. Looking along d, light that comes straight
+// from ahead is the forward direction: a lamp behind the rain glitters most.
+vec3 lamps(vec3 p, vec3 d)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < view.light_count; i++) {
+        const vec3 way = to_vec(view.lights[i].position) - p;
+        const float distance2 = max(dot(way, way), 1e-4);
+        const vec3 towards = way * inversesqrt(distance2);
+        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
+        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
+        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
+                                     view.lights[i].inv_cos_width, 0.0, 1.0);
+        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * phase(dot(towards, d)));
+    }
+    return sum * view.light_gain;
+}
+
+// Height over width; the polynomial of virga_drop_axis_ratio.
+float axis_ratio(float mm)
+{
+    return clamp(0.9951 + mm * (0.0251 + mm * (-0.03644 + mm * (0.005303 - 0.0002492 * mm))), 0.5, 1.0);
+}
+
+void cut_at_near_plane(inout vec4 a, vec4 b)
+{
+    if (a.w < NEAR_W && b.w > NEAR_W)
+        a = mix(a, b, (NEAR_W - a.w) / (b.w - a.w));
+}
+
+virga_streak_gpu empty_streak()
+{
+    virga_streak_gpu streak;
+    streak.head = float[4](2.0, 2.0, 2.0, 1.0);
+    streak.tail = streak.head;
+    streak.width_px = 0.0;
+    streak.alpha = 0.0;
+    streak.wave = 0.0;
+    streak.wave_phase = 0.0;
+    streak.wave_size = 0.0;
+    streak.centre = float[3](0.0, 0.0, 0.0);
+    streak.rim = streak.centre;
+    streak.body_px = 0.0;
+    return streak;
+}
+
+// Coverage and drawn width from the drop's width, length of its way and weight.
+void set_coverage(inout virga_streak_gpu streak, float width_px, float body_px, float way_px, float weight)
+{
+    const float drawn = max(width_px, view.min_width_px);
+    const float narrow = width_px < view.min_width_px ? width_px / drawn : 1.0;
+    const float one = min(view.streak_gain * body_px / (way_px + body_px), 1.0) * narrow;
+    const float all = one * weight;
+    const float wider = max(all / max(one, MOST_COVERAGE), 1.0);
+    streak.width_px = drawn * wider;
+    streak.alpha = all / wider;
+    streak.body_px = body_px;
+}
+
+void shade(inout virga_streak_gpu streak, vec3 middle, float diameter_mm, uint id)
+{
+    const vec3 d = normalize(middle);
+    const vec3 glitter = lamps(middle, d);
+    // Near the middle rays are bent by up to 16 degrees, at the rim by 50 and more (Legendre: cosines of those).
+    const vec3 centre = environment(d, vec2(0.97, 0.90)) + glitter;
+    const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
+    streak.centre = float[3](centre.x, centre.y, centre.z);
+    streak.rim = float[3](rim.x, rim.y, rim.z);
+    // Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996).
+    const float radius = 0.5e-3 * diameter_mm;
+    const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
+    streak.wave = hz * (view.time_close_s - view.time_open_s);
+    streak.wave_phase = 6.2831853 * (virga_unit(virga_hash2(tick.seed, id)) + fract(hz * view.time_open_s));
+    streak.wave_size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * view.oscillation;
+}
+
+virga_streak_gpu make_streak(uint slot_index, uint level)
+{
+    virga_streak_gpu streak = empty_streak();
+    const uint class_rank = slots[slot_index].class_rank;
+    const uint size_class = class_rank & 0xffffu;
+    const virga_drop_gpu drop = drops[slot_index];
+    const vec3 at_tick = to_vec(drop.position);
+    const float diameter = classes[size_class].diameter_m;
+    vec3 velocity = to_vec(classes[size_class].velocity);
+    if (tick.sway != 0u)
+        velocity += to_vec(sways[slot_index].velocity);
+    vec3 head = at_tick + velocity * view.time_close_s, tail = at_tick + velocity * view.time_open_s;
+    const float whole_way = distance(head, tail);
+    if (!cut_at_surface(tail, head, classes[size_class].slant))
+        return streak;
+    head += to_vec(view.origin_offset);
+    tail += to_vec(view.origin_offset);
+
+    vec4 clip_head = project(to_mat(view.clip_from_rel), head);
+    vec4 clip_tail = project(to_mat(view.open_clip_from_rel), tail);
+    cut_at_near_plane(clip_head, clip_tail);
+    cut_at_near_plane(clip_tail, clip_head);
+    if (clip_head.w < NEAR_W || clip_tail.w < NEAR_W)
+        return streak;
+    const vec2 way = (clip_head.xy / clip_head.w - clip_tail.xy / clip_tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const float depth = 0.5 * (clip_head.w + clip_tail.w);
+    const float width_px = diameter / (depth * view.pixel_angle);
+    const float mm = diameter * 1e3;
+    const float near = view.near_m > 0.0 ? clamp(length(0.5 * (head + tail)) / view.near_m - 1.0, 0.0, 1.0) : 1.0;
+    const float weight = near * drop_weight(at_tick, level, size_class, class_rank >> 16);
+    // A cut streak is as bright along its length as the whole one: the drop passed it at the same speed.
+    const float kept = clamp(distance(head, tail) / max(whole_way, 1e-6), 0.02, 1.0);
+    set_coverage(streak, width_px, width_px * axis_ratio(mm), length(way) / kept, weight);
+    streak.head = float[4](clip_head.x, clip_head.y, clip_head.z, clip_head.w);
+    streak.tail = float[4](clip_tail.x, clip_tail.y, clip_tail.z, clip_tail.w);
+    shade(streak, 0.5 * (head + tail), mm, drop.id);
+    streak.wave *= kept;
+    return streak;
+}
+
+void main()
+{
+    const uint place = pick_place();
+    if (place < view.max_streaks)
+        streaks[place] = make_streak(gl_GlobalInvocationID.x, gl_WorkGroupID.x / tick.groups_per_level);
+}

@@ -1,0 +1,73 @@
+// step.comp - where each slot's drop is at the end of a tick.
+//
+// A slot's lattice moves with its class: lattice coordinate = place + travel. The box around the camera shows one cell
+// of it, so each slot has one drop there. Layers of the lattice (above each other) are shifted sideways by a hash, and
+// columns of a layer once more, or every drop would land where the one before it did. All in integers: wrapping is
+// overflow, the same place gives the same bits however far from the start, and the camera never enters but in the
+// choice of the cell.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "field.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+layout(scalar, set = 0, binding = 3) buffer Drops { virga_drop_gpu drops[]; };
+layout(scalar, set = 0, binding = 8) buffer Sways { virga_sway_gpu sways[]; };
+
+// 64-bit values as (low, high).
+uvec2 add64(uvec2 a, uvec2 b)
+{
+    uint carry;
+    const uint low = uaddCarry(a.x, b.x, carry);
+    return uvec2(low, a.y + b.y + carry);
+}
+
+uvec2 shift64(uvec2 a, uint bits) { return bits == 0u ? a : uvec2(a.x << bits, (a.y << bits) | (a.x >> (32u - bits))); }
+
+// One round of multiply-xorshift: enough to scatter layers, of which a few thousand pass in an hour.
+uint scatter(uint h, uint word)
+{
+    h = (h ^ word) * 0xed5ad4bbu;
+    h ^= h >> 15;
+    h *= 0xac4c1b51u;
+    return h ^ (h >> 16);
+}
+
+// From the middle of the box, along one axis: the lattice coordinate less the camera's; .y tells the cell.
+uvec2 from_camera(uint place, uint travel_low, uint travel_high, uint axis, uint shift)
+{
+    const uvec2 moved = shift64(uvec2(travel_low, travel_high), shift);
+    const uvec2 camera = shift64(uvec2(tick.camera_low[axis], tick.camera_high[axis]), shift);
+    const uvec2 minus_camera = add64(~camera, uvec2(1u, 0u));
+    return add64(add64(add64(moved, minus_camera), uvec2(place, 0u)), uvec2(0x80000000u, 0u));
+}
+
+void main()
+{
+    const uint slot_index = gl_GlobalInvocationID.x;
+    const uint level = gl_WorkGroupID.x / tick.groups_per_level;
+    const uint shift = tick.levels - 1u - level;
+    const virga_slot_gpu slot = slots[slot_index];
+    const uint size_class = slot.class_rank & 0xffffu;
+
+    uvec2 x = from_camera(slot.place[0], classes[size_class].travel_low[0], classes[size_class].travel_high[0], 0, shift);
+    uvec2 y = from_camera(slot.place[1], classes[size_class].travel_low[1], classes[size_class].travel_high[1], 1, shift);
+    uvec2 z = from_camera(slot.place[2], classes[size_class].travel_low[2], classes[size_class].travel_high[2], 2, shift);
+    if (tick.sway != 0u) {
+        const virga_sway_gpu sway = sways[slot_index];
+        x = add64(x, uvec2(sway.offset_low[0], sway.offset_high[0]));
+        y = add64(y, uvec2(sway.offset_low[1], sway.offset_high[1]));
+        z = add64(z, uvec2(sway.offset_low[2], sway.offset_high[2]));
+    }
+    uint h = scatter(slot_index ^ tick.seed, y.y);
+    x = add64(x, uvec2(h, 0u));
+    h = scatter(h, x.y);
+    z = add64(z, uvec2(h, 0u));
+    h = scatter(h, z.y);
+
+    const float unit = tick.side_m * exp2(-32.0 - float(shift));
+    const ivec3 middle = ivec3(uvec3(x.x, y.x, z.x) - 0x80000000u);
+    const vec3 p = vec3(middle) * unit;
+    const uint id = slot_index | (h << VIRGA_RAIN_ID_SLOT_BITS);
+    drops[slot_index] = virga_drop_gpu(float[3](p.x, p.y, p.z), id);
+}

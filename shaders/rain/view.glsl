@@ -1,0 +1,16 @@
+// view.glsl - a view's parameters, and what a drop shows of the light around it.
+layout(scalar, set = 0, binding = 1) readonly buffer View { virga_view_gpu view; };
+
+vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
+
+// The environment seen along d through a lobe with Legendre moments 1, g.x, g.y: each band is scaled by its moment
+// (Funk-Hecke). A drop's phase function as the lobe gives what the drop shows on average: nearly the whole environment.
+vec3 environment(vec3 d, vec2 g)
+{
+    vec3 sum = sh_coefficient(0u) * 0.282095;
+    sum += g.x * 0.488603 * (sh_coefficient(1u) * d.y + sh_coefficient(2u) * d.z + sh_coefficient(3u) * d.x);
+    sum += g.y * 1.092548 * (sh_coefficient(4u) * d.x * d.y + sh_coefficient(5u) * d.y * d.z + sh_coefficient(7u) * d.x * d.z);
+    sum += g.y * 0.315392 * sh_coefficient(6u) * (3.0 * d.z * d.z - 1.0);
+    sum += g.y * 0.546274 * sh_coefficient(8u) * (d.x * d.x - d.y * d.y);
+    return max(sum, vec3(0.0));
+}

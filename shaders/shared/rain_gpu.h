@@ -1,0 +1,192 @@
+/* rain_gpu.h - what rain's passes share with the C that feeds them. Internal to Virga. */
+#ifndef VIRGA_SHARED_RAIN_GPU_H
+#define VIRGA_SHARED_RAIN_GPU_H
+
+#include "rain_limits.h"
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_slot_gpu virga_slot_gpu;
+typedef struct virga_class_gpu virga_class_gpu;
+typedef struct virga_weight_gpu virga_weight_gpu;
+typedef struct virga_tick_gpu virga_tick_gpu;
+typedef struct virga_map_gpu virga_map_gpu;
+typedef struct virga_light_gpu virga_light_gpu;
+typedef struct virga_view_gpu virga_view_gpu;
+typedef struct virga_streak_gpu virga_streak_gpu;
+typedef struct virga_sway_gpu virga_sway_gpu;
+typedef struct virga_prepared_gpu virga_prepared_gpu;
+typedef struct virga_map_push virga_map_push;
+#endif
+
+/* A slot: its place in the lattice of its class, and which drops it stands for. Never changes. */
+struct virga_slot_gpu {
+    uint place[3];   /* fraction of the box's side, in units of 2^-32 */
+    uint class_rank; /* low 16 bits: class; high 16: where among the slots of its class, for thinning [0; 65535] */
+};
+
+/* A size class at a tick. Lengths that wrap are 64-bit fixed point in units of the widest box's side x 2^-32. */
+struct virga_class_gpu {
+    uint travel_low[3];  /* how far the class's lattice has moved since the start of time */
+    uint travel_high[3];
+    float velocity[3];   /* m/s */
+    float diameter_m;
+    float terminal_m_s;  /* in still air */
+    uint slant;          /* which slant's maps its drops use */
+};
+
+/* How many drops a slot of a class stands for in a box. */
+struct virga_weight_gpu {
+    float drops;         /* times presence() of the threshold */
+    float threshold;     /* slots of a rank below it are there, softly; above 1: all */
+};
+
+/* All that a tick's passes need besides maps, classes and weights. */
+struct virga_tick_gpu {
+    uint camera_low[3];  /* origin in the same fixed point */
+    uint camera_high[3];
+    float side_m;        /* of the widest box */
+    uint levels;
+    uint groups_per_level; /* workgroups to a box */
+    uint groups;         /* workgroups in all */
+    uint seed;
+    uint tick;
+    float tick_s;
+    uint tick_in_step;
+    uint max_impacts;
+    uint maps;           /* occlusion maps in use; 0: none */
+    uint slants;
+    uint cascades;
+    float origin[3];     /* of positions, in the world */
+    uint default_material;
+    float wind_min[3];   /* of the 3D wind, relative to origin */
+    uint sway;           /* 1: drops are integrated in a 3D wind */
+    float wind_scale[3]; /* 1 / its size */
+    uint wind_given;     /* 0: no texture at present, drops calm down */
+    float wind_mean[3];  /* uniform wind of this tick, gust included */
+    uint host_depth;     /* 1: maps come from the host, without normals and materials */
+    float gravity;
+    uint pad[3];
+};
+
+/* An occlusion map. The line that a drop of slant s falls along is the texel of
+ * (x + s.x (y - y0), z + s.y (y - y0)), so a texel's depth is where that line first meets something. */
+struct virga_map_gpu {
+    float centre[2];     /* of the map, in the same sheared coordinates relative to the origin of the step */
+    float inv_half_m;    /* 1 / half of its side */
+    float texels;        /* along a side */
+    float slant[2];      /* horizontal metres a metre of fall */
+    float top_m;         /* height of depth 0, relative to the origin */
+    float height_m;      /* between depth 0 and depth 1 */
+};
+
+struct virga_light_gpu {
+    float position[3];   /* relative to the camera */
+    float inv_range;
+    float intensity[3];
+    float cos_outer;
+    float direction[3];
+    float inv_cos_width;
+};
+
+/* All that a view's passes need. */
+struct virga_view_gpu {
+    float clip_from_rel[16];      /* from positions relative to the camera at the shutter's end */
+    float open_clip_from_rel[16]; /* from the same positions, to where the camera at the shutter's start saw them */
+    float right[3];               /* camera axes in the world, scaled so that right x ndc.x + up x ndc.y + ahead is the */
+    float time_close_s;           /* ray of a pixel with view depth 1; and the shutter's end from the state's tick */
+    float up[3];
+    float time_open_s;
+    float ahead[3];
+    float depth_a;                /* view depth = depth_b / (depth_a + depth in the buffer) */
+    float origin_offset[3];       /* step origin minus camera: added to drop positions */
+    float depth_b;
+    float viewport[4];
+    float streak_gain;
+    float light_gain;
+    float min_width_px;
+    float soft_m;
+    float near_m;
+    float oscillation;
+    float bodies_min_m;
+    float pixel_angle;            /* tangent of a pixel's angle at the centre */
+    float haze_per_m;             /* extinction of all rain beyond range_m */
+    float haze_near_per_m;        /* of what is not drawn one by one within it */
+    float range_m;
+    float far_depth;              /* value of the depth buffer where there is nothing */
+    uint light_count;
+    uint depth_given;
+    uint max_streaks;
+    float tangent;                /* of half the wider view angle, with some room */
+    float sh[27];                 /* environment, coefficient-major RGB */
+    float phase_moment[3];
+    float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
+    virga_light_gpu lights[VIRGA_RAIN_LIGHTS];
+};
+
+/* A streak ready to be drawn, 80 bytes. */
+struct virga_streak_gpu {
+    float head[4];       /* clip position at the shutter's end (or where the drop met something) */
+    float tail[4];       /* clip position at its start */
+    float width_px;      /* drawn width */
+    float alpha;         /* coverage at the middle line */
+    float wave;          /* oscillations along the streak */
+    float wave_phase;    /* of them at the tail (rad) */
+    float centre[3];     /* radiance at the middle line */
+    float wave_size;     /* relative amplitude of radiance */
+    float rim[3];        /* radiance at the edge */
+    float body_px;       /* length of the drop itself along the streak */
+};
+
+/* What 3D wind has done to a slot's drop beyond the uniform wind, 40 bytes. */
+struct virga_sway_gpu {
+    uint offset_low[3];  /* 64-bit fixed point in units of its own box's side x 2^-32 */
+    uint offset_high[3];
+    float velocity[3];   /* m/s, beyond its class's */
+    uint pad;
+};
+
+/* Head of the streak buffer: the arguments of its indirect draw, and counts. */
+struct virga_prepared_gpu {
+    uint index_count;
+    uint instance_count;
+    uint first_index;
+    int vertex_offset;
+    uint first_instance;
+    uint streaks;
+    uint dropped;
+    uint pad;
+};
+
+/* Push constants of the occlusion draw, 96 bytes. */
+struct virga_map_push {
+    float rel_from_mesh[12]; /* 3 x 4, relative to the step's origin */
+    float centre[2];
+    float inv_half_m;
+    float inv_height;
+    float slant[2];
+    float top_m;
+    float cover;
+    uint material;
+    uint texels;
+    uint pad[2];
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_slot_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_class_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
+VIRGA_ASSERT_SIZE(virga_tick_gpu, 152);
+VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 88);
+VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 648);
+VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_streak_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
+VIRGA_ASSERT_SIZE(virga_prepared_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_map_push, 96);
+#undef uint
+#endif
+
+#endif

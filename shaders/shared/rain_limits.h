@@ -1,0 +1,16 @@
+/* rain_limits.h - sizes that rain's C and GLSL agree on. */
+#ifndef VIRGA_SHARED_RAIN_LIMITS_H
+#define VIRGA_SHARED_RAIN_LIMITS_H
+
+#define VIRGA_RAIN_GROUP 256      /* slots to a workgroup: a whole number of them to a box, so a group has one box */
+#define VIRGA_RAIN_CLASSES 512    /* sizes of drops, spaced evenly in the logarithm from 0.2 to 6.8 mm: 0.7 % apart */
+#define VIRGA_RAIN_MAX_LEVELS 12  /* boxes */
+#define VIRGA_RAIN_MAX_CASCADES 4
+#define VIRGA_RAIN_MAX_SLANTS 4
+#define VIRGA_RAIN_MAX_MAPS 16    /* cascades x slants */
+#define VIRGA_RAIN_LIGHTS 16
+#define VIRGA_RAIN_MAX_VIEWS 16     /* prepares a frame */
+#define VIRGA_RAIN_MAX_TARGETS 8    /* kinds of target attached at once */
+#define VIRGA_RAIN_ID_SLOT_BITS 22 /* low bits of an id: the slot; the rest tells the slot's drops apart */
+
+#endif
