@@ -1,0 +1,103 @@
+/* exr.h - OpenEXR pictures: layered frames out, environments in.
+ *
+ * Writing uses OpenEXR's C core, reading its C++ library (exr_read.cpp), which knows every compression there is. */
+#ifndef VIRGA_IO_EXR_H
+#define VIRGA_IO_EXR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define EXR_MAX_SIDE 16384 /* pixels; larger pictures are refused, read or written */
+#define EXR_MAX_NAME 31    /* bytes in a channel's or attribute's name: longer ones are not read everywhere */
+
+/* How a channel is stored. */
+typedef enum exr_sample {
+    EXR_SAMPLE_HALF,  /* from floats, rounded to nearest even; beyond +-65504 becomes +-65504, NaN becomes 0 */
+    EXR_SAMPLE_FLOAT, /* from floats, bit for bit */
+    EXR_SAMPLE_UINT,  /* from uint32_t */
+} exr_sample;
+
+typedef enum exr_packing {
+    EXR_PACKING_ZIP, /* 16 lines at a time, level 4: the best trade for frames */
+    EXR_PACKING_ZIPS,
+    EXR_PACKING_RLE,
+    EXR_PACKING_PIZ,
+    EXR_PACKING_NONE,
+} exr_packing;
+
+typedef struct exr_channel {
+    const char *name; /* "R", "rain.R", "Z" */
+    exr_sample type;
+    const void *data;  /* top left sample: float for half and float channels, else uint32_t */
+    size_t stride;     /* bytes from a pixel to the next; 0: 4, tightly packed */
+    size_t row_stride; /* bytes from a row to the next below; 0: width times stride */
+} exr_channel;
+
+typedef enum exr_attribute_kind {
+    EXR_ATTRIBUTE_STRING,
+    EXR_ATTRIBUTE_INT,
+    EXR_ATTRIBUTE_FLOAT,
+    EXR_ATTRIBUTE_DOUBLE,
+    EXR_ATTRIBUTE_M44F,
+    EXR_ATTRIBUTE_RATIONAL,
+} exr_attribute_kind;
+
+typedef struct exr_attribute {
+    const char *name; /* standard ones among them: worldToCamera (M44F), framesPerSecond (RATIONAL), comments */
+    exr_attribute_kind kind;
+    union {
+        const char *string;
+        int32_t integer;
+        float real;
+        double real64;
+        /* OpenEXR multiplies row vectors (p * M), so a column-major matrix for column vectors (GLSL, cglm) has the
+         * right memory order as it is. */
+        float m44f[16];
+        struct {
+            int32_t numerator;
+            uint32_t denominator;
+        } rational;
+    };
+} exr_attribute;
+
+typedef struct exr_frame {
+    uint32_t width, height;
+    const exr_channel *channels; /* in any order: the file has them sorted by name */
+    uint32_t channel_count;
+    const exr_attribute *attributes;
+    uint32_t attribute_count;
+    exr_packing packing;
+} exr_frame;
+
+/* Writes the frame under a temporary name and renames it. Everything the frame points to is only read.
+ * The bytes of the file depend on the frame alone.
+ * Thread-safety: frames may be written by several threads at once; each call works with up to two of its own. */
+bool exr_write(const char *path, const exr_frame *frame, char *error, size_t error_size);
+
+/* Reads R, G and B (or Y alone, as grey) as tightly packed RGB floats, top row first, to be freed by free().
+ * Light can be neither negative nor endless: NaN and below 0 become 0, infinity becomes 65504; `repaired` (may be NULL)
+ * gets the number of such samples. */
+bool exr_read_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, uint64_t *repaired, char *error,
+                  size_t error_size);
+
+/* A channel asked for by exr_read_channels. */
+typedef struct exr_request {
+    const char *name;
+    exr_sample type; /* FLOAT (also for half channels in the file) or UINT */
+    void *data;      /* filled in: width times height floats or uint32_t, untouched bits, to be freed by free() */
+} exr_request;
+
+/* Reads named channels whole; on failure no request has data. */
+bool exr_read_channels(const char *path, uint32_t *width, uint32_t *height, exr_request *requests, uint32_t count,
+                       char *error, size_t error_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

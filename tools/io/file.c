@@ -1,0 +1,183 @@
+/* file.c - temporary name, write, rename. */
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool file_error(char *error, size_t error_size, const char *what, const char *path, int code)
+{
+    char reason[128] = "";
+    if (error && error_size)
+        snprintf(error, error_size, "%s %s: %s", what, path, strerror_r(code, reason, sizeof reason));
+    return false;
+}
+
+/* The name does not grow with the target's, so a target name of full length still has a temporary one. */
+static char *temporary_name(const char *path)
+{
+    static atomic_uint count;
+    const char *slash = strrchr(path, '/');
+    int folder = slash ? (int)(slash - path) + 1 : 0;
+    char *name = NULL;
+    if (asprintf(&name, "%.*s.virga-%ld-%u.tmp", folder, path, (long)getpid(), atomic_fetch_add(&count, 1)) < 0)
+        return NULL;
+    return name;
+}
+
+/* A pipe or a device must not be replaced by a regular file. */
+static bool written_in_place(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+}
+
+static void release(file_writer *file)
+{
+    free(file->path);
+    free(file->temporary);
+    *file = (file_writer){.descriptor = -1};
+}
+
+bool file_start(file_writer *file, const char *path, char *error, size_t error_size)
+{
+    *file = (file_writer){.descriptor = -1, .path = strdup(path)};
+    bool in_place = written_in_place(path);
+    if (file->path && in_place) {
+        file->descriptor = open(path, O_WRONLY | O_CLOEXEC);
+    } else if (file->path) {
+        /* A name left behind by a killed process that had our number is passed over. */
+        for (int tries = 0; tries < 100 && file->descriptor < 0; tries++) {
+            free(file->temporary);
+            file->temporary = temporary_name(path);
+            if (!file->temporary)
+                break;
+            file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (file->descriptor < 0 && errno != EEXIST)
+                break;
+        }
+    }
+    if (file->descriptor >= 0)
+        return true;
+    int code = file->path && (in_place || file->temporary) ? errno : ENOMEM;
+    release(file);
+    return file_error(error, error_size, "cannot write", path, code);
+}
+
+static bool fail(file_writer *file, int code)
+{
+    if (!file->failure)
+        file->failure = code;
+    return false;
+}
+
+bool file_write(file_writer *file, const void *data, size_t size)
+{
+    const char *from = data;
+    if (file->failure)
+        return false;
+    while (size) {
+        ssize_t done = write(file->descriptor, from, size);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0)
+            return fail(file, done < 0 ? errno : ENOSPC);
+        from += done;
+        size -= (size_t)done;
+        file->offset += (uint64_t)done;
+    }
+    return true;
+}
+
+bool file_write_at(file_writer *file, const void *data, size_t size, uint64_t offset)
+{
+    const char *from = data;
+    while (size) {
+        ssize_t done = pwrite(file->descriptor, from, size, (off_t)offset);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0)
+            return fail(file, done < 0 ? errno : ENOSPC);
+        from += done;
+        size -= (size_t)done;
+        offset += (uint64_t)done;
+    }
+    return true;
+}
+
+bool file_finish(file_writer *file, char *error, size_t error_size)
+{
+    /* Some file systems report a full disk only here. */
+    if (close(file->descriptor) != 0)
+        fail(file, errno);
+    if (!file->failure && file->temporary && rename(file->temporary, file->path) != 0)
+        fail(file, errno);
+    if (file->failure) {
+        file_error(error, error_size, "cannot write", file->path, file->failure);
+        if (file->temporary)
+            unlink(file->temporary);
+    }
+    bool ok = !file->failure;
+    release(file);
+    return ok;
+}
+
+void file_abandon(file_writer *file)
+{
+    close(file->descriptor);
+    if (file->temporary)
+        unlink(file->temporary);
+    release(file);
+}
+
+/* read() until the end rather than trust the size: a pipe has none. */
+static bool read_all(int descriptor, size_t limit, char **data, size_t *size, int *code)
+{
+    size_t room = 0;
+    *size = 0;
+    for (;;) {
+        if (room - *size < 2) {
+            char *grown = realloc(*data, room = room ? room * 2 : 65536);
+            if (!grown)
+                return *code = ENOMEM, false;
+            *data = grown;
+        }
+        ssize_t done = read(descriptor, *data + *size, room - *size - 1);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done < 0)
+            return *code = errno, false;
+        if (done == 0)
+            break;
+        *size += (size_t)done;
+        if (*size > limit)
+            return *code = EFBIG, false;
+    }
+    (*data)[*size] = 0;
+    return true;
+}
+
+bool file_read(const char *path, size_t limit, void **data, size_t *size, char *error, size_t error_size)
+{
+    char *bytes = NULL;
+    int code = 0;
+    *data = NULL;
+    *size = 0;
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return file_error(error, error_size, "cannot read", path, errno);
+    bool ok = read_all(descriptor, limit, &bytes, size, &code);
+    close(descriptor);
+    if (!ok) {
+        free(bytes);
+        *size = 0;
+        return file_error(error, error_size, "cannot read", path, code);
+    }
+    *data = bytes;
+    return true;
+}

@@ -1,0 +1,41 @@
+/* file.h - writing files that are whole or absent, and reading small files at once.
+ *
+ * A file is written under a temporary name in the folder where it will live and renamed when whole, so a reader never
+ * sees half of it and an older file stays until the new one is there. What is not a regular file (a pipe, /dev/full)
+ * is written in place. Errors are one line: what could not be done, the path, and the system's reason. */
+#ifndef VIRGA_IO_FILE_H
+#define VIRGA_IO_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct file_writer {
+    char *path;      /* the name asked for */
+    char *temporary; /* the name written to; NULL where the file is written in place */
+    int descriptor;
+    int failure;     /* errno of the first write that failed; 0: none */
+    uint64_t offset; /* where file_write goes on */
+} file_writer;
+
+/* Writes "`what` `path`: reason of `code`" and returns false, so that callers can `return file_error(...)`. */
+bool file_error(char *error, size_t error_size, const char *what, const char *path, int code);
+
+/* Starts a file. After success call file_finish or file_abandon once; after failure, neither. */
+bool file_start(file_writer *file, const char *path, char *error, size_t error_size);
+
+/* Appends, or writes at an offset. False after a failure, which file_finish then reports.
+ * Calls for one file must not overlap in time. */
+bool file_write(file_writer *file, const void *data, size_t size);
+bool file_write_at(file_writer *file, const void *data, size_t size, uint64_t offset);
+
+/* Closes and renames; on any failure, also of an earlier write, removes the temporary file and says why. */
+bool file_finish(file_writer *file, char *error, size_t error_size);
+
+/* Removes what was written so far. */
+void file_abandon(file_writer *file);
+
+/* Whole file into malloc'ed memory with a 0 byte behind it. Refuses files larger than `limit` bytes. */
+bool file_read(const char *path, size_t limit, void **data, size_t *size, char *error, size_t error_size);
+
+#endif
