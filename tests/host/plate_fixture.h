@@ -1,0 +1,60 @@
+/* plate_fixture.h - a device with validation on, for tests that draw. A machine without one skips them. */
+#ifndef VIRGA_TESTS_PLATE_FIXTURE_H
+#define VIRGA_TESTS_PLATE_FIXTURE_H
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "host.h"
+
+typedef struct fixture {
+    host_instance instance;
+    host_device device;
+    char error[1024];
+    char warning[1024]; /* the last one */
+} fixture;
+
+static inline void fixture_warn(void *user, const char *text)
+{
+    fixture *f = user;
+    snprintf(f->warning, sizeof f->warning, "%s", text);
+}
+
+/* Software driver and layer stay loaded: a leak checker cannot name what was unloaded, and blames it. */
+static inline void fixture_keep_loaded(void)
+{
+    dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+    dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+}
+
+/* Validation where the layer is installed; VIRGA_VALIDATE=1 insists on it. */
+static inline bool fixture_begin(fixture *f)
+{
+    host_device_info infos[HOST_MAX_DEVICES];
+    uint32_t index = 0;
+    memset(f, 0, sizeof *f);
+    if (!host_instance_create(&f->instance, true, f->error, sizeof f->error) &&
+        !host_instance_create(&f->instance, false, f->error, sizeof f->error))
+        return false;
+    uint32_t count = host_devices_list(&f->instance, infos, HOST_MAX_DEVICES);
+    if (!host_device_pick(infos, count, NULL, &index, f->error, sizeof f->error) ||
+        !host_device_create(&f->device, &f->instance, &infos[index], f->error, sizeof f->error)) {
+        host_instance_destroy(&f->instance);
+        return false;
+    }
+    fixture_keep_loaded();
+    f->device.warn = fixture_warn;
+    f->device.warn_user = f;
+    return true;
+}
+
+/* Returns live objects plus validation messages: 0 is right. */
+static inline uint32_t fixture_end(fixture *f)
+{
+    uint32_t live = host_device_destroy(&f->device);
+    host_instance_destroy(&f->instance);
+    return live + f->instance.messages;
+}
+
+#endif

@@ -1,0 +1,190 @@
+/* test_camera.c - paths of keys, matrices, and light in harmonics: closed forms. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "camera.h"
+#include "environment.h"
+#include "panorama.h"
+
+static const host_camera_key keys[] = {
+    {.time_s = 0.0, .position_m = {0, 1, 0}, .look_at_m = {0, 1, -5}},
+    {.time_s = 1.0, .position_m = {4, 1, 0}, .look_at_m = {4, 1, -5}},
+    {.time_s = 3.0, .position_m = {4, 2, -9}, .look_at_m = {0, 1, -9}},
+    {.time_s = 4.0, .position_m = {100, 1, 0}, .look_at_m = {100, 1, -5}, .cut = true},
+    {.time_s = 6.0, .position_m = {110, 1, 0}, .look_at_m = {110, 1, -5}},
+};
+static const host_camera_path path = {keys, 5, 50.0, 0.1, 500.0};
+
+static void place(double time_s, double out[3])
+{
+    host_camera camera;
+    host_camera_at(&path, time_s, 160, 90, NULL, &camera);
+    memcpy(out, camera.position_m, sizeof camera.position_m);
+}
+
+static void goes_through_keys(void **state)
+{
+    (void)state;
+    double p[3];
+    for (int i = 0; i < 5; i++) {
+        place(keys[i].time_s, p);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(p[c], keys[i].position_m[c], 1e-9);
+    }
+    place(-5.0, p);
+    assert_float_equal(p[0], 0.0, 0.0);
+    place(50.0, p);
+    assert_float_equal(p[0], 110.0, 0.0);
+}
+
+/* Speed before and after a key differ by no more than the step makes them. */
+static void speed_is_continuous(void **state)
+{
+    (void)state;
+    const double step = 1e-5;
+    double before[3], on[3], after[3];
+    place(1.0 - step, before);
+    place(1.0, on);
+    place(1.0 + step, after);
+    for (int c = 0; c < 3; c++)
+        assert_float_equal((on[c] - before[c]) / step, (after[c] - on[c]) / step, 1e-3);
+}
+
+static void two_keys_are_a_line(void **state)
+{
+    (void)state;
+    double p[3];
+    place(4.5, p);
+    assert_float_equal(p[0], 102.5, 1e-9);
+}
+
+static void cut_holds_and_jumps(void **state)
+{
+    (void)state;
+    double p[3];
+    place(3.999, p);
+    assert_float_equal(p[0], 4.0, 1e-9);
+    place(4.0, p);
+    assert_float_equal(p[0], 100.0, 1e-9);
+    assert_float_equal(host_camera_shot_start(&path, 5.0), 4.0, 0.0);
+    assert_true(isinf(host_camera_shot_start(&path, 3.0)));
+}
+
+static void bad_paths(void **state)
+{
+    (void)state;
+    char error[256];
+    host_camera_key bad[2] = {keys[0], keys[0]};
+    host_camera_path p = {bad, 2, 50.0, 0.1, 500.0};
+    assert_false(host_camera_path_check(&p, error, sizeof error));
+    assert_non_null(strstr(error, "key 1"));
+    bad[1].time_s = 2.0;
+    assert_true(host_camera_path_check(&p, error, sizeof error));
+    bad[1].position_m[2] = NAN;
+    assert_false(host_camera_path_check(&p, error, sizeof error));
+    p = (host_camera_path){keys, 5, 190.0, 0.1, 500.0};
+    assert_false(host_camera_path_check(&p, error, sizeof error));
+    p = (host_camera_path){keys, 5, 50.0, 1.0, 0.5};
+    assert_false(host_camera_path_check(&p, error, sizeof error));
+    p = (host_camera_path){keys, 0, 50.0, 0.1, 500.0};
+    assert_false(host_camera_path_check(&p, error, sizeof error));
+}
+
+/* Projects a world point to pixels and depth. */
+static void project(const host_camera *camera, const float world[3], float out[3])
+{
+    float m[16], clip[4];
+    host_matrix_multiply(camera->clip_from_view, camera->view_from_world, m);
+    for (int r = 0; r < 4; r++)
+        clip[r] = m[r] * world[0] + m[4 + r] * world[1] + m[8 + r] * world[2] + m[12 + r];
+    out[0] = (clip[0] / clip[3] * 0.5f + 0.5f) * (float)camera->width;
+    out[1] = (clip[1] / clip[3] * 0.5f + 0.5f) * (float)camera->height;
+    out[2] = clip[2] / clip[3];
+}
+
+static void projection(void **state)
+{
+    (void)state;
+    host_camera camera;
+    float out[3];
+    const float jitter[2] = {0.25f, -0.5f};
+    host_camera_at(&path, 0.0, 160, 90, jitter, &camera);
+    project(&camera, (const float[3]){0, 1, -10}, out);
+    assert_float_equal(out[0], 80.25, 1e-3);
+    assert_float_equal(out[1], 44.5, 1e-3);
+    assert_float_equal(host_camera_distance(&camera, out[2]), 10.0, 0.01);
+    project(&camera, (const float[3]){1, 2, -10}, out); /* right is right and up is up */
+    assert_true(out[0] > 81.0f && out[1] < 44.0f);
+    project(&camera, (const float[3]){0, 1, -500}, out);
+    assert_float_equal(out[2], 1.0, 1e-5);
+    assert_true(isinf(host_camera_distance(&camera, 1.0f)));
+}
+
+static void jitter_is_balanced(void **state)
+{
+    (void)state;
+    float sum[2] = {0, 0}, j[2];
+    for (uint32_t i = 0; i < 36; i++) {
+        host_camera_jitter(i, 36, j);
+        assert_true(fabsf(j[0]) <= 0.5f && fabsf(j[1]) <= 0.5f);
+        sum[0] += j[0];
+        sum[1] += j[1];
+    }
+    assert_true(fabsf(sum[0]) / 36 < 0.03f && fabsf(sum[1]) / 36 < 0.03f);
+    host_camera_jitter(0, 1, j);
+    assert_true(j[0] == 0.0f && j[1] == 0.0f);
+}
+
+/* A sky of radiance 1 + y/2: irradiance on a level surface is pi (1 + 1/3), beside it pi, below it pi (1 - 1/3). */
+static void irradiance(void **state)
+{
+    (void)state;
+    panorama p;
+    float sh[9][3], rgb[3];
+    assert_true(panorama_alloc(&p, 128, 64));
+    for (uint32_t y = 0; y < 64; y++)
+        for (uint32_t x = 0; x < 128; x++)
+            for (int c = 0; c < 3; c++)
+                p.rgba[(y * 128 + x) * 4 + (uint32_t)c] = 1.0f + 0.5f * cosf(((float)y + 0.5f) / 64.0f * 3.14159265f);
+    panorama_project(&p, 0.0f, sh);
+    host_environment_irradiance(sh, (const float[3]){0, 1, 0}, rgb);
+    assert_float_equal(rgb[0], 3.14159265 * 4.0 / 3.0, 0.005);
+    host_environment_irradiance(sh, (const float[3]){1, 0, 0}, rgb);
+    assert_float_equal(rgb[1], 3.14159265, 0.005);
+    host_environment_irradiance(sh, (const float[3]){0, -1, 0}, rgb);
+    assert_float_equal(rgb[2], 3.14159265 * 2.0 / 3.0, 0.005);
+    panorama_free(&p);
+}
+
+/* A spot in the middle column is seen along -Z; turned by 90 degrees, along -X. */
+static void rotation(void **state)
+{
+    (void)state;
+    panorama p;
+    float sh[9][3];
+    assert_true(panorama_alloc(&p, 64, 32));
+    for (uint32_t x = 30; x < 34; x++)
+        p.rgba[(16 * 64 + x) * 4] = 10.0f;
+    panorama_project(&p, 0.0f, sh);
+    assert_true(sh[2][0] < 0.0f && fabsf(sh[3][0]) < 0.01f * fabsf(sh[2][0]));
+    panorama_project(&p, 3.14159265f / 2.0f, sh);
+    assert_true(sh[3][0] < 0.0f && fabsf(sh[2][0]) < 0.01f * fabsf(sh[3][0]));
+    panorama_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(goes_through_keys), cmocka_unit_test(speed_is_continuous),
+        cmocka_unit_test(two_keys_are_a_line), cmocka_unit_test(cut_holds_and_jumps),
+        cmocka_unit_test(bad_paths), cmocka_unit_test(projection), cmocka_unit_test(jitter_is_balanced),
+        cmocka_unit_test(irradiance), cmocka_unit_test(rotation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

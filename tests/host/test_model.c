@@ -1,0 +1,170 @@
+/* test_model.c - model files as they come: broken ones give one clear line, incomplete ones are repaired. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "plate_fixture.h"
+#include "texture.h"
+
+static char folder[] = "/tmp/virga-model-XXXXXX";
+
+static const char *write_file(const char *name, const char *text)
+{
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    return path;
+}
+
+static int set_up(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    *state = f;
+    if (!fixture_begin(f)) {
+        fprintf(stderr, "no device to load onto: %s\n", f->error);
+        exit(77);
+    }
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    uint32_t wrong = fixture_end(f);
+    free(f);
+    static const char *const names[] = {"plain.obj", "hurt.gltf",   "empty.obj",
+                                        "text.glb",  "picture.obj", "picture.mtl"};
+    char path[256];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+    return wrong ? -1 : 0;
+}
+
+/* A triangle whose third point has a NaN. */
+static const char hurt_triangle[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes"
+    "\":[{\"mesh\":0,\"name\":\"n\"}],\""
+    "meshes\":[{\"name\":\"hurt\",\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferVie"
+    "w\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":["
+    "{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
+    "base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAwH8AAAAA\"}]}";
+
+static void refuses(fixture *f, const char *path, const char *expected)
+{
+    host_mesh mesh;
+    f->error[0] = 0;
+    if (host_mesh_load(&f->device, path, NULL, &mesh, f->error, sizeof f->error))
+        fail_msg("%s was loaded", path);
+    if (!strstr(f->error, expected) || !strstr(f->error, path))
+        fail_msg("\"%s\" does not name %s and say \"%s\"", f->error, path, expected);
+    assert_null(strchr(f->error, '\n'));
+}
+
+static void bad_files(void **state)
+{
+    fixture *f = *state;
+    refuses(f, "/nowhere/model.glb", "no such model file");
+    refuses(f, folder, "no such model file");
+    refuses(f, write_file("text.glb", "this is no model"), "cannot be read as a model");
+    refuses(f, write_file("empty.obj", "v 0 0 0\nv 1 0 0\n"), "");
+    refuses(f, write_file("hurt.gltf", hurt_triangle), "position of vertex 2 is not a finite number");
+}
+
+/* No normals, no uvs, no material. */
+static void plain_triangle(void **state)
+{
+    fixture *f = *state;
+    host_mesh mesh;
+    const char *path = write_file("plain.obj", "o asphalt_lane\nv 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
+    const float up_by_two[12] = {1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1, 0};
+    assert_true(host_mesh_load(&f->device, path, up_by_two, &mesh, f->error, sizeof f->error));
+    assert_int_equal(mesh.primitive_count, 1);
+    assert_int_equal(mesh.index_count, 3);
+    assert_float_equal(mesh.low[1], 2.0, 1e-6);
+    assert_float_equal(mesh.high[0], 1.0, 1e-6);
+    assert_string_equal(host_material_name(mesh.primitives[0].surface), "asphalt");
+
+    virga_occluder occluder;
+    assert_int_equal(host_mesh_occluders(&mesh, &occluder, 1), 1);
+    assert_int_equal(occluder.index_count, 3);
+    assert_int_equal(occluder.vertex_stride, sizeof(host_vertex));
+    assert_int_equal(occluder.material, 1);
+    assert_float_equal(occluder.cover, 1.0, 0.0);
+    host_mesh_destroy(&f->device, &mesh);
+}
+
+static void missing_picture(void **state)
+{
+    fixture *f = *state;
+    host_mesh mesh;
+    write_file("picture.mtl", "newmtl brick\nKd 0.5 0.25 0.125\nmap_Kd absent.png\n");
+    const char *path = write_file("picture.obj", "mtllib picture.mtl\nv 0 0 0\nv 0 0 1\nv 1 0 0\nvt 0 0\nvt 1 0\n"
+                                                 "vt 0 1\nusemtl brick\nf 1/1 2/2 3/3\n");
+    f->warning[0] = 0;
+    assert_true(host_mesh_load(&f->device, path, NULL, &mesh, f->error, sizeof f->error));
+    assert_non_null(strstr(f->warning, "absent.png"));
+    assert_int_equal(mesh.materials[mesh.primitives[0].material].base_texture, -1);
+    host_mesh_destroy(&f->device, &mesh);
+}
+
+/* Cut-out texels keep their share in every mip, and lend no colour to their neighbours. */
+static void mips_keep_coverage(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    uint8_t *rgba = calloc(SIDE * SIDE, 4);
+    assert_non_null(rgba);
+    uint32_t bits = 1;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        bits = bits * 1664525u + 1013904223u;
+        bool leaf = bits >> 24 < 90;
+        rgba[i * 4 + 1] = leaf ? 200 : 0;
+        rgba[i * 4 + 3] = leaf ? 255 : 0;
+    }
+    host_picture picture;
+    assert_true(host_picture_from_rgba(rgba, SIDE, SIDE, &picture));
+    assert_true(picture.alpha);
+    assert_true(host_picture_make_mips(&picture, 0.5f));
+    assert_int_equal(picture.levels, 7);
+    int covered = 0;
+    const uint8_t *third = picture.texels + (SIDE * SIDE + SIDE * SIDE / 4) * 4;
+    for (int i = 0; i < SIDE * SIDE / 16; i++) {
+        covered += third[i * 4 + 3] >= 128;
+        if (third[i * 4 + 3] > 0)
+            assert_in_range(third[i * 4 + 1], 198, 202);
+    }
+    assert_in_range(covered, SIDE * SIDE / 16 * 30 / 100, SIDE * SIDE / 16 * 42 / 100); /* 35 % of the first level */
+    host_picture_free(&picture);
+    free(rgba);
+}
+
+static void words(void **state)
+{
+    (void)state;
+    assert_string_equal(host_material_name(host_material_word("TR-Asphalt-2")), "asphalt");
+    assert_string_equal(host_material_name(host_material_word("grass-aa.rgb")), "grass");
+    assert_string_equal(host_material_name(host_material_word("nothing known")), "default");
+    assert_int_equal(host_material_word(""), 0);
+    assert_string_equal(host_material_name(255), "default");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_files),          cmocka_unit_test(plain_triangle), cmocka_unit_test(missing_picture),
+        cmocka_unit_test(mips_keep_coverage), cmocka_unit_test(words),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,259 @@
+/* test_plate.c - a cube on a plane under a white sky: colour, depth, id, normal and velocity are known in advance. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "plate_fixture.h"
+
+enum { WIDTH = 128, HEIGHT = 96 };
+
+#define ROUGHNESS 0.9f
+#define PLANE_ALBEDO 0.5f
+#define CUBE_ALBEDO 0.2f
+
+static const host_camera_key keys[2] = {
+    {.time_s = 0.0, .position_m = {0.0, 1.5, 8.0}, .look_at_m = {0.0, 1.5, 0.0}},
+    {.time_s = 1.0, .position_m = {2.4, 1.5, 8.0}, .look_at_m = {2.4, 1.5, 0.0}},
+};
+static const host_camera_path path = {keys, 2, 60.0, 0.1, 100.0};
+
+typedef struct scene {
+    fixture base;
+    host_target target;
+    host_renderer *renderer;
+    host_environment environment;
+    host_mesh plane, cube;
+    host_accumulator picture;
+} scene;
+
+static host_material matte(float albedo)
+{
+    return (host_material){.base_color = {albedo, albedo, albedo, 1.0f}, .roughness = ROUGHNESS};
+}
+
+static bool make_plane(scene *s)
+{
+    const host_vertex v[4] = {
+        {{-50, 0, -50}, {0, 1, 0}, {0, 0}},
+        {{-50, 0, 50}, {0, 1, 0}, {0, 1}},
+        {{50, 0, 50}, {0, 1, 0}, {1, 1}},
+        {{50, 0, -50}, {0, 1, 0}, {1, 0}},
+    };
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_material material = matte(PLANE_ALBEDO);
+    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, &s->plane, s->base.error,
+                            sizeof s->base.error);
+}
+
+/* From (-1, 1, -1) to (1, 3, 1), wound so that a culling pipeline shows the outside. */
+static bool make_cube(scene *s)
+{
+    host_vertex v[24];
+    uint32_t indices[36];
+    memset(v, 0, sizeof v);
+    for (uint32_t face = 0; face < 6; face++) {
+        uint32_t axis = face / 2, b = (axis + 1) % 3, c = (axis + 2) % 3;
+        float side = face % 2 ? 1.0f : -1.0f;
+        for (uint32_t corner = 0; corner < 4; corner++) {
+            static const float square[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+            host_vertex *out = &v[face * 4 + corner];
+            out->position[axis] = side;
+            out->position[b] = square[corner][0] * side;
+            out->position[c] = square[corner][1];
+            out->position[1] += 2.0f;
+            out->normal[axis] = side;
+        }
+        const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
+        for (uint32_t i = 0; i < 6; i++)
+            indices[face * 6 + i] = face * 4 + quad[i];
+    }
+    host_material material = matte(CUBE_ALBEDO);
+    return host_mesh_create(&s->base.device, v, 24, indices, 36, &material, &s->cube, s->base.error,
+                            sizeof s->base.error);
+}
+
+static bool build(scene *s)
+{
+    host_device *device = &s->base.device;
+    char *error = s->base.error;
+    size_t size = sizeof s->base.error;
+    host_environment_def white = {
+        .zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
+    return host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
+           host_renderer_create(device, &s->target, &s->renderer, error, size) && make_plane(s) && make_cube(s) &&
+           host_renderer_add(s->renderer, &s->plane, error, size) &&
+           host_renderer_add(s->renderer, &s->cube, error, size) &&
+           host_environment_create(device, &white, &s->environment, error, size) &&
+           host_renderer_set_environment(s->renderer, &s->environment, error, size) &&
+           host_accumulator_create(&s->picture, WIDTH, HEIGHT, error, size);
+}
+
+static bool draw(scene *s, uint32_t samples)
+{
+    host_device *device = &s->base.device;
+    host_accumulator_reset(&s->picture);
+    for (uint32_t i = 0; i < samples; i++) {
+        float jitter[2];
+        host_camera now, before;
+        VkCommandBuffer cmd;
+        host_camera_jitter(i, samples, jitter);
+        host_camera_at(&path, 0.5, WIDTH, HEIGHT, jitter, &now);
+        host_camera_at(&path, 0.5 - 1.0 / 24.0, WIDTH, HEIGHT, jitter, &before);
+        if (!host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
+            return false;
+        host_renderer_plate(s->renderer, cmd, &s->target, &now, &before);
+        host_target_begin_layer(&s->target, cmd);
+        host_target_end_layer(&s->target, cmd);
+        host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
+        if (!host_submit(device, s->base.error, sizeof s->base.error) ||
+            !host_wait(device, s->base.error, sizeof s->base.error))
+            return false;
+        host_accumulator_add(&s->picture, device, &s->target, false);
+    }
+    host_accumulator_finish(&s->picture);
+    return true;
+}
+
+static int set_up(void **state)
+{
+    scene *s = calloc(1, sizeof *s);
+    *state = s;
+    if (!fixture_begin(&s->base)) {
+        fprintf(stderr, "no device to draw with: %s\n", s->base.error);
+        exit(77);
+    }
+    if (build(s))
+        return 0;
+    fprintf(stderr, "%s\n", s->base.error);
+    return -1;
+}
+
+static int tear_down(void **state)
+{
+    scene *s = *state;
+    host_accumulator_destroy(&s->picture);
+    host_renderer_destroy(&s->renderer);
+    host_environment_destroy(&s->base.device, &s->environment);
+    host_mesh_destroy(&s->base.device, &s->cube);
+    host_mesh_destroy(&s->base.device, &s->plane);
+    host_target_destroy(&s->base.device, &s->target);
+    uint32_t wrong = fixture_end(&s->base);
+    if (wrong)
+        fprintf(stderr, "live objects and validation messages: %u\n", wrong);
+    free(s);
+    return wrong ? -1 : 0;
+}
+
+static size_t at(int x, int y)
+{
+    return (size_t)y * WIDTH + (size_t)x;
+}
+
+/* The middle row looks level at the cube's front, 7 m away; the camera has moved 2.4 m/s / 24 to the right. */
+static void cube_pixel(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 1));
+    size_t pixel = at(WIDTH / 2 - 6, HEIGHT / 2);
+    host_camera camera;
+    host_camera_at(&path, 0.5, WIDTH, HEIGHT, NULL, &camera);
+    assert_int_equal(s->picture.id[pixel], 2);
+    assert_float_equal(host_camera_distance(&camera, s->picture.depth[pixel]), 7.0, 0.001);
+    assert_float_equal(s->picture.normal[pixel * 4 + 2], 1.0, 1e-4);
+    double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    assert_float_equal(s->picture.velocity[pixel * 2], -0.1 * focal_px / 7.0, 0.002);
+    assert_float_equal(s->picture.velocity[pixel * 2 + 1], 0.0, 0.002);
+    const host_primitive *primitive = host_renderer_primitive(s->renderer, 2);
+    assert_ptr_equal(primitive, s->cube.primitives);
+    assert_null(host_renderer_primitive(s->renderer, 0));
+    assert_null(host_renderer_primitive(s->renderer, 3));
+}
+
+/* Far from the cube the plane sees all of a white sky: its albedo comes back, and a few percent of reflection. */
+static void plane_pixel(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 1));
+    size_t pixel = at(4, HEIGHT - 3);
+    assert_int_equal(s->picture.id[pixel], 1);
+    float color = s->picture.color[pixel * 4];
+    assert_in_range((int)(color * 1000.0f), (int)(PLANE_ALBEDO * 1000.0f), (int)((PLANE_ALBEDO + 0.06f) * 1000.0f));
+    assert_float_equal(s->picture.color[pixel * 4 + 3], 1.0, 0.0);
+    assert_float_equal(s->picture.normal[pixel * 4 + 1], 1.0, 1e-4);
+}
+
+/* Under the cube less of the sky arrives than beside it. */
+static void shade_under_cube(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 1));
+    double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    int row = HEIGHT / 2 + (int)(focal_px * 1.5 / 8.0);
+    int column = WIDTH / 2 - (int)(focal_px * 1.2 / 8.0);
+    size_t under = at(column, row), beside = at(2, row);
+    assert_int_equal(s->picture.id[under], 1);
+    assert_int_equal(s->picture.id[beside], 1);
+    assert_true(s->picture.color[under * 4] < 0.75f * s->picture.color[beside * 4]);
+    assert_true(s->picture.color[under * 4] > 0.0f);
+}
+
+static void sky_pixel(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 1));
+    size_t pixel = at(3, 2);
+    assert_int_equal(s->picture.id[pixel], 0);
+    assert_float_equal(s->picture.depth[pixel], 1.0, 0.0);
+    assert_float_equal(s->picture.color[pixel * 4], 1.0, 1e-3);
+    assert_float_equal(s->picture.color[pixel * 4 + 3], 1.0, 0.0);
+    assert_float_equal(s->picture.velocity[pixel * 2], 0.0, 1e-3); /* the camera moves, but does not turn */
+    assert_float_equal(s->picture.layer[pixel * 4 + 3], 0.0, 0.0);
+}
+
+/* A lamp adds what the inverse square law says: I cos / d^2 times albedo / pi, and a little gloss. */
+static void lamp_light(void **state)
+{
+    scene *s = *state;
+    size_t pixel = at(4, HEIGHT - 3);
+    assert_true(draw(s, 1));
+    float before = s->picture.color[pixel * 4];
+    host_camera camera;
+    host_camera_at(&path, 0.5, WIDTH, HEIGHT, NULL, &camera);
+    double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    double distance = 1.5 * focal_px / (HEIGHT - 3 + 0.5 - HEIGHT / 2.0);
+    double x = camera.position_m[0] + (4.5 - WIDTH / 2.0) * distance / focal_px, z = 8.0 - distance;
+    virga_light lamp = {.position_m = {x, 2.0, z}, .intensity = {10, 10, 10}};
+    host_renderer_set_lights(s->renderer, &lamp, 1);
+    assert_true(draw(s, 1));
+    host_renderer_set_lights(s->renderer, NULL, 0);
+    double added = s->picture.color[pixel * 4] - before, diffuse = 10.0 / 4.0 * PLANE_ALBEDO / 3.14159265358979;
+    assert_true(added > diffuse * 0.99 && added < diffuse * 1.2);
+}
+
+/* Sub-frames fill the steps of an edge. */
+static void sub_frames(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 8));
+    double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    int edge = HEIGHT / 2 - (int)ceil(focal_px * 1.5 / 7.0), x = WIDTH / 2 - 6;
+    float sky = s->picture.color[at(x, edge - 2) * 4], cube = s->picture.color[at(x, edge + 2) * 4];
+    float between = s->picture.color[at(x, edge) * 4];
+    assert_true(sky > 0.9f && cube < 0.4f);
+    assert_true(between > cube + 0.05f && between < sky - 0.05f);
+    assert_int_equal(s->picture.samples, 8);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_pixel), cmocka_unit_test(plane_pixel), cmocka_unit_test(shade_under_cube),
+        cmocka_unit_test(sky_pixel),  cmocka_unit_test(lamp_light),  cmocka_unit_test(sub_frames),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,249 @@
+/* camera.c - interpolation along a path of keys and the matrices of a view. */
+#include "camera.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "device.h"
+
+#define PI 3.14159265358979323846
+
+/* ---- path --------------------------------------------------------------------------------------------------- */
+
+static bool finite3(const double v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+bool host_camera_path_check(const host_camera_path *path, char *error, size_t error_size)
+{
+    if (path->count == 0)
+        return host_fail(error, error_size, "camera: needs at least one key");
+    if (!(path->fov_deg > 0.0 && path->fov_deg < 180.0))
+        return host_fail(error, error_size, "camera: fov_deg %g is not between 0 and 180", path->fov_deg);
+    if (!(path->near_m > 0.0 && path->near_m < path->far_m && isfinite(path->far_m)))
+        return host_fail(error, error_size, "camera: expected 0 < near_m (%g) < far_m (%g)", path->near_m,
+                         path->far_m);
+    for (uint32_t i = 0; i < path->count; i++) {
+        const host_camera_key *key = &path->keys[i];
+        if (!isfinite(key->time_s) || !isfinite(key->roll_deg) || !finite3(key->position_m) ||
+            !finite3(key->look_at_m))
+            return host_fail(error, error_size, "camera: key %u has a value that is not finite", i);
+        if (i > 0 && !(key->time_s > path->keys[i - 1].time_s))
+            return host_fail(error, error_size, "camera: time of key %u (%g s) does not rise", i, key->time_s);
+        if (memcmp(key->position_m, key->look_at_m, sizeof key->position_m) == 0)
+            return host_fail(error, error_size, "camera: key %u looks at its own position", i);
+    }
+    return true;
+}
+
+/* First and last key of the shot that a time lies in. */
+static void find_shot(const host_camera_path *path, double time_s, uint32_t *first, uint32_t *last)
+{
+    *first = 0;
+    for (uint32_t i = 1; i < path->count; i++)
+        if (path->keys[i].cut && path->keys[i].time_s <= time_s)
+            *first = i;
+    *last = *first;
+    while (*last + 1 < path->count && !path->keys[*last + 1].cut)
+        ++*last;
+}
+
+double host_camera_shot_start(const host_camera_path *path, double time_s)
+{
+    uint32_t first, last;
+    find_shot(path, time_s, &first, &last);
+    return first == 0 ? -INFINITY : path->keys[first].time_s;
+}
+
+/* Position, target and roll as one vector, so that one spline moves them all. */
+enum { CHANNELS = 7 };
+
+static double channel(const host_camera_key *key, int c)
+{
+    return c < 3 ? key->position_m[c] : c < 6 ? key->look_at_m[c - 3] : key->roll_deg;
+}
+
+static double slope(const host_camera_path *path, uint32_t i, int c)
+{
+    const host_camera_key *a = &path->keys[i], *b = &path->keys[i + 1];
+    return (channel(b, c) - channel(a, c)) / (b->time_s - a->time_s);
+}
+
+/* Speed at key i: of the parabola through it and its neighbours, which keeps uneven key times smooth (Catmull and
+ * Rom 1974, for uneven knots). At the ends of a shot the parabola of the neighbour goes on. */
+static double speed(const host_camera_path *path, uint32_t i, uint32_t first, uint32_t last, int c)
+{
+    if (i > first && i < last) {
+        double before = path->keys[i].time_s - path->keys[i - 1].time_s;
+        double after = path->keys[i + 1].time_s - path->keys[i].time_s;
+        return (slope(path, i - 1, c) * after + slope(path, i, c) * before) / (before + after);
+    }
+    if (last - first == 1)
+        return slope(path, first, c);
+    if (i == first)
+        return 1.5 * slope(path, i, c) - 0.5 * speed(path, i + 1, first, last, c);
+    return 1.5 * slope(path, i - 1, c) - 0.5 * speed(path, i - 1, first, last, c);
+}
+
+static void evaluate(const host_camera_path *path, double time_s, double value[CHANNELS])
+{
+    uint32_t first, last;
+    find_shot(path, time_s, &first, &last);
+    const host_camera_key *keys = path->keys;
+    uint32_t i = first;
+    while (i + 1 < last && keys[i + 1].time_s <= time_s)
+        i++;
+    for (int c = 0; c < CHANNELS; c++) {
+        if (time_s <= keys[first].time_s) {
+            value[c] = channel(&keys[first], c);
+        } else if (time_s >= keys[last].time_s) {
+            value[c] = channel(&keys[last], c);
+        } else {
+            double h = keys[i + 1].time_s - keys[i].time_s;
+            double u = (time_s - keys[i].time_s) / h, v = 1.0 - u;
+            value[c] = channel(&keys[i], c) * (1.0 + 2.0 * u) * v * v +
+                       channel(&keys[i + 1], c) * (3.0 - 2.0 * u) * u * u +
+                       h * u * v * (v * speed(path, i, first, last, c) - u * speed(path, i + 1, first, last, c));
+        }
+    }
+}
+
+/* ---- matrices ----------------------------------------------------------------------------------------------- */
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool normalize(double v[3])
+{
+    double length = sqrt(dot(v, v));
+    if (!(length > 1e-12))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+    return true;
+}
+
+/* Right, up and back of a camera; any sideways axis will do when it looks straight up or down. */
+static void basis(const double position[3], const double target[3], double roll_deg, double axes[3][3])
+{
+    double *right = axes[0], *up = axes[1], *back = axes[2];
+    for (int i = 0; i < 3; i++)
+        back[i] = position[i] - target[i];
+    if (!normalize(back))
+        back[0] = back[1] = 0.0, back[2] = 1.0;
+    const double world_up[3] = {0.0, 1.0, 0.0};
+    cross(world_up, back, right);
+    if (!normalize(right))
+        right[0] = 1.0, right[1] = right[2] = 0.0;
+    cross(back, right, up);
+    double c = cos(roll_deg * PI / 180.0), s = sin(roll_deg * PI / 180.0);
+    for (int i = 0; i < 3; i++) {
+        double r = right[i], u = up[i];
+        right[i] = c * r - s * u;
+        up[i] = s * r + c * u;
+    }
+}
+
+static void projection(const host_camera_path *path, uint32_t width, uint32_t height, const float jitter_px[2],
+                       float m[16])
+{
+    double focal = 1.0 / tan(path->fov_deg * PI / 360.0);
+    double range = path->near_m - path->far_m;
+    memset(m, 0, 16 * sizeof *m);
+    m[0] = (float)(focal * height / width);
+    m[5] = (float)-focal;
+    m[8] = -2.0f * jitter_px[0] / (float)width; /* times -w: a shift of the picture by jitter pixels */
+    m[9] = -2.0f * jitter_px[1] / (float)height;
+    m[10] = (float)(path->far_m / range);
+    m[11] = -1.0f;
+    m[14] = (float)(path->near_m * path->far_m / range);
+}
+
+void host_camera_at(const host_camera_path *path, double time_s, uint32_t width, uint32_t height,
+                    const float jitter_px[2], host_camera *camera)
+{
+    static const float centre[2] = {0.0f, 0.0f};
+    double value[CHANNELS], axes[3][3];
+    evaluate(path, time_s, value);
+    basis(&value[0], &value[3], value[6], axes);
+
+    memset(camera, 0, sizeof *camera);
+    memcpy(camera->position_m, value, sizeof camera->position_m);
+    memcpy(camera->jitter_px, jitter_px ? jitter_px : centre, sizeof camera->jitter_px);
+    camera->near_m = path->near_m;
+    camera->far_m = path->far_m;
+    camera->width = width;
+    camera->height = height;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            camera->view_from_world[column * 4 + row] = (float)axes[row][column];
+        camera->view_from_world[12 + row] = (float)-dot(axes[row], value);
+    }
+    camera->view_from_world[15] = 1.0f;
+    projection(path, width, height, camera->jitter_px, camera->clip_from_view);
+    projection(path, width, height, centre, camera->clip_from_view_plain);
+}
+
+void host_matrix_multiply(const float a[16], const float b[16], float out[16])
+{
+    float result[16];
+    for (int column = 0; column < 4; column++) {
+        for (int row = 0; row < 4; row++) {
+            float sum = 0.0f;
+            for (int k = 0; k < 4; k++)
+                sum += a[k * 4 + row] * b[column * 4 + k];
+            result[column * 4 + row] = sum;
+        }
+    }
+    memcpy(out, result, sizeof result);
+}
+
+/* ---- what a frame needs ------------------------------------------------------------------------------------- */
+
+static double radical_inverse(uint32_t index, uint32_t base)
+{
+    double result = 0.0, digit = 1.0 / base;
+    for (; index > 0; index /= base, digit /= base)
+        result += digit * (index % base);
+    return result;
+}
+
+void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2])
+{
+    bool single = count <= 1;
+    jitter_px[0] = single ? 0.0f : (float)(radical_inverse(index + 1, 2) - 0.5); /* Halton 1964 */
+    jitter_px[1] = single ? 0.0f : (float)(radical_inverse(index + 1, 3) - 0.5);
+}
+
+double host_camera_distance(const host_camera *camera, float depth)
+{
+    if (!(depth < 1.0f))
+        return INFINITY;
+    return camera->near_m * camera->far_m / (camera->far_m - (double)depth * (camera->far_m - camera->near_m));
+}
+
+void host_camera_view(const host_camera *camera, const host_camera *open, double shutter_s, virga_view *view)
+{
+    memcpy(view->position_m, camera->position_m, sizeof view->position_m);
+    memcpy(view->view_from_world, camera->view_from_world, sizeof view->view_from_world);
+    memcpy(view->clip_from_view, camera->clip_from_view, sizeof view->clip_from_view);
+    memcpy(view->open_position_m, open->position_m, sizeof view->open_position_m);
+    memcpy(view->open_view_from_world, open->view_from_world, sizeof view->open_view_from_world);
+    memcpy(view->open_clip_from_view, open->clip_from_view, sizeof view->open_clip_from_view);
+    view->shutter_s = shutter_s;
+    view->viewport[0] = view->viewport[1] = 0.0f;
+    view->viewport[2] = (float)camera->width;
+    view->viewport[3] = (float)camera->height;
+    view->reversed_depth = false;
+    view->infinite_far = false;
+}

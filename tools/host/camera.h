@@ -1,0 +1,61 @@
+/* camera.h - a camera on a path of keys, and its matrices. Right-handed, Y up, looking along -Z; column-major. */
+#ifndef VIRGA_HOST_CAMERA_H
+#define VIRGA_HOST_CAMERA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <virga/vulkan.h>
+
+typedef struct host_camera_key {
+    double time_s;
+    double position_m[3];
+    double look_at_m[3];
+    double roll_deg; /* clockwise turn of the camera around its own axis; default 0 */
+    bool cut;        /* a new shot begins here: the one before holds its last key until this time */
+} host_camera_key;
+
+typedef struct host_camera_path {
+    const host_camera_key *keys; /* by rising time; not owned */
+    uint32_t count;              /* at least 1 */
+    double fov_deg;              /* of the picture's height, (0; 180) */
+    double near_m, far_m;        /* 0 < near < far */
+} host_camera_path;
+
+/* The camera at one time, for one picture size and one jitter. */
+typedef struct host_camera {
+    double position_m[3];
+    float view_from_world[16];
+    float clip_from_view[16];       /* with jitter; Vulkan clip space, y down, depth 0 near to 1 far */
+    float clip_from_view_plain[16]; /* without */
+    float jitter_px[2];             /* moves the picture right and down */
+    double near_m, far_m;
+    uint32_t width, height;
+} host_camera;
+
+/* One line about what is wrong with a path, or true. */
+bool host_camera_path_check(const host_camera_path *path, char *error, size_t error_size);
+
+/* The camera at a time: cubic in time between the keys of a shot, position and speed continuous; constant before the
+ * first key and after the last. `jitter_px` may be NULL. */
+void host_camera_at(const host_camera_path *path, double time_s, uint32_t width, uint32_t height,
+                    const float jitter_px[2], host_camera *camera);
+
+/* When the shot that `time_s` lies in began; -INFINITY for the first one. Motion must not reach back beyond it. */
+double host_camera_shot_start(const host_camera_path *path, double time_s);
+
+/* Place `index` of `count` in a low-discrepancy pattern of jitters in [-0.5; 0.5]; (0, 0) if count is 1. */
+void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2]);
+
+/* Distance in metres along the camera's axis of a depth value; INFINITY for 1 (nothing was drawn there). */
+double host_camera_distance(const host_camera *camera, float depth);
+
+/* Fills cameras, viewport and times of a view from virga_default_view; `open` is the camera `shutter_s` earlier, made
+ * with the same jitter. Depth image and flags stay. */
+void host_camera_view(const host_camera *camera, const host_camera *open, double shutter_s, virga_view *view);
+
+/* out = a * b, all column-major 4 x 4; `out` may be `a` or `b`. */
+void host_matrix_multiply(const float a[16], const float b[16], float out[16]);
+
+#endif

@@ -1,0 +1,206 @@
+/* device.c - the logical device with one queue, and the ring of command buffers that frames are recorded into. */
+#include "device.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <virga/vulkan.h>
+
+#define ANISOTROPY 8.0f
+#define ANISOTROPY_SOFTWARE 4.0f /* a plate takes two to three times as long as without, and a road looks like one */
+
+/* What the host takes where it is there; what Virga requires is set by virga_enable_features. */
+static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled)
+{
+    VkPhysicalDeviceFeatures there;
+    vkGetPhysicalDeviceFeatures(device->physical, &there);
+    device->independent_blend = there.independentBlend;
+    enabled->independentBlend = there.independentBlend;
+    if (there.samplerAnisotropy) {
+        enabled->samplerAnisotropy = VK_TRUE;
+        bool software = device->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+        float limit = device->properties.limits.maxSamplerAnisotropy, wanted = ANISOTROPY;
+        if (software)
+            wanted = ANISOTROPY_SOFTWARE;
+        device->anisotropy = limit < wanted ? limit : wanted;
+    }
+}
+
+static bool create_logical(host_device *device, char *error, size_t error_size)
+{
+    VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                          .pNext = &features12};
+    virga_result result = virga_enable_features(&features);
+    if (result < 0)
+        return host_fail(error, error_size, "virga_enable_features gave %s", virga_result_name(result));
+    take_optional(device, &features.features);
+
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+        .queueFamilyIndex = device->queue_family,
+        .queueCount = 1,
+        .pQueuePriorities = &priority,
+    };
+    VkDeviceCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+        .pNext = &features,
+        .queueCreateInfoCount = 1,
+        .pQueueCreateInfos = &queue,
+    };
+    HOST_TRY(vkCreateDevice(device->physical, &info, NULL, &device->device));
+    vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
+    return true;
+}
+
+static bool create_frames(host_device *device, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
+        host_frame *frame = &device->frames[i];
+        VkCommandPoolCreateInfo pool = {
+            .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+            .queueFamilyIndex = device->queue_family,
+        };
+        HOST_TRY(vkCreateCommandPool(device->device, &pool, NULL, &frame->pool));
+        VkCommandBufferAllocateInfo allocate = {
+            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+            .commandPool = frame->pool,
+            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+            .commandBufferCount = 1,
+        };
+        HOST_TRY(vkAllocateCommandBuffers(device->device, &allocate, &frame->cmd));
+        VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        HOST_TRY(vkCreateFence(device->device, &fence, NULL, &frame->fence));
+    }
+    return true;
+}
+
+bool host_device_create(host_device *device, const host_instance *instance, const host_device_info *info, char *error,
+                        size_t error_size)
+{
+    memset(device, 0, sizeof *device);
+    device->instance = instance;
+    device->physical = info->physical;
+    device->queue_family = info->queue_family;
+    vkGetPhysicalDeviceProperties(info->physical, &device->properties);
+    vkGetPhysicalDeviceMemoryProperties(info->physical, &device->memory);
+    if (!create_logical(device, error, error_size) || !create_frames(device, error, error_size)) {
+        host_device_destroy(device);
+        return false;
+    }
+    if (instance->debug_utils) {
+        VkInstance vk = instance->instance;
+        device->set_name =
+            (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(vk, "vkSetDebugUtilsObjectNameEXT");
+        device->begin_label =
+            (PFN_vkCmdBeginDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdBeginDebugUtilsLabelEXT");
+        device->end_label = (PFN_vkCmdEndDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdEndDebugUtilsLabelEXT");
+    }
+    return true;
+}
+
+uint32_t host_device_destroy(host_device *device)
+{
+    if (!device->device)
+        return 0;
+    vkDeviceWaitIdle(device->device);
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
+        vkDestroyFence(device->device, device->frames[i].fence, NULL);
+        vkDestroyCommandPool(device->device, device->frames[i].pool, NULL);
+    }
+    vkDestroyDevice(device->device, NULL);
+    uint32_t live = device->live;
+    memset(device, 0, sizeof *device);
+    return live;
+}
+
+void host_warn(const host_device *device, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (device->warn)
+        device->warn(device->warn_user, text);
+    else
+        fprintf(stderr, "warning: %s\n", text);
+}
+
+void host_name(const host_device *device, VkObjectType type, uint64_t handle, const char *name)
+{
+    if (!device->set_name || !handle || !name)
+        return;
+    VkDebugUtilsObjectNameInfoEXT info = {
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+        .objectType = type,
+        .objectHandle = handle,
+        .pObjectName = name,
+    };
+    device->set_name(device->device, &info);
+}
+
+void host_label_begin(const host_device *device, VkCommandBuffer cmd, const char *name)
+{
+    VkDebugUtilsLabelEXT label = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name};
+    if (device->begin_label)
+        device->begin_label(cmd, &label);
+}
+
+void host_label_end(const host_device *device, VkCommandBuffer cmd)
+{
+    if (device->end_label)
+        device->end_label(cmd);
+}
+
+/* Waits for what was last submitted from a place of the ring. */
+static bool wait_frame(host_device *device, host_frame *frame, char *error, size_t error_size)
+{
+    if (frame->index <= device->completed)
+        return true;
+    HOST_TRY(vkWaitForFences(device->device, 1, &frame->fence, VK_TRUE, UINT64_MAX));
+    device->completed = frame->index; /* one queue: what came before is complete too */
+    return true;
+}
+
+bool host_begin_frame(host_device *device, VkCommandBuffer *cmd, char *error, size_t error_size)
+{
+    host_frame *frame = &device->frames[(device->frame + 1) % HOST_FRAMES];
+    if (!wait_frame(device, frame, error, error_size))
+        return false;
+    HOST_TRY(vkResetCommandPool(device->device, frame->pool, 0));
+    VkCommandBufferBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+    };
+    HOST_TRY(vkBeginCommandBuffer(frame->cmd, &begin));
+    device->frame++;
+    *cmd = frame->cmd;
+    return true;
+}
+
+bool host_submit(host_device *device, char *error, size_t error_size)
+{
+    host_frame *frame = &device->frames[device->frame % HOST_FRAMES];
+    HOST_TRY(vkEndCommandBuffer(frame->cmd));
+    HOST_TRY(vkResetFences(device->device, 1, &frame->fence));
+    VkSubmitInfo submit = {
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+        .commandBufferCount = 1,
+        .pCommandBuffers = &frame->cmd,
+    };
+    HOST_TRY(vkQueueSubmit(device->queue, 1, &submit, frame->fence));
+    frame->index = device->frame;
+    return true;
+}
+
+bool host_wait(host_device *device, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) /* oldest first, so that `completed` only rises */
+        if (!wait_frame(device, &device->frames[(device->frame + 1 + i) % HOST_FRAMES], error, error_size))
+            return false;
+    return true;
+}

@@ -1,0 +1,64 @@
+/* memory.h - buffers and images with memory of their own, uploads through a staging buffer, read-back. */
+#ifndef VIRGA_HOST_MEMORY_H
+#define VIRGA_HOST_MEMORY_H
+
+#include "device.h"
+
+typedef enum host_buffer_kind {
+    HOST_BUFFER_DEVICE,   /* fast for the device, not mapped */
+    HOST_BUFFER_UPLOAD,   /* written by the CPU */
+    HOST_BUFFER_READBACK, /* read by the CPU: cached where there is such memory */
+} host_buffer_kind;
+
+typedef struct host_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    VkDeviceSize size;
+    void *mapped;  /* NULL for HOST_BUFFER_DEVICE */
+    bool coherent; /* else invalidate before reading: host_buffer_invalidate */
+} host_buffer;
+
+bool host_buffer_create(host_device *device, VkDeviceSize size, VkBufferUsageFlags usage, host_buffer_kind kind,
+                        const char *name, host_buffer *buffer, char *error, size_t error_size);
+void host_buffer_destroy(host_device *device, host_buffer *buffer);
+
+/* Makes what the device wrote visible to the CPU. */
+void host_buffer_invalidate(const host_device *device, const host_buffer *buffer);
+
+/* Makes a device buffer with data in it; TRANSFER_DST is added to the usage. Waits until it is there. */
+bool host_buffer_create_with(host_device *device, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
+                             const char *name, host_buffer *buffer, char *error, size_t error_size);
+
+typedef struct host_image {
+    VkImage image;
+    VkDeviceMemory memory;
+    VkImageView view; /* everything */
+    VkFormat format;
+    VkExtent3D extent;
+    uint32_t levels, layers;
+} host_image;
+
+typedef struct host_image_def {
+    VkFormat format;
+    VkExtent3D extent; /* depth above 1 makes a 3D image */
+    uint32_t levels;   /* 0 means 1 */
+    uint32_t layers;   /* 0 means 1; above 1 makes an array */
+    VkImageUsageFlags usage;
+    const char *name;
+} host_image_def;
+
+bool host_image_create(host_device *device, const host_image_def *def, host_image *image, char *error,
+                       size_t error_size);
+void host_image_destroy(host_device *device, host_image *image);
+
+/* Fills all levels of a one-layer image, tightly packed one after another in `data` (`size` bytes, `texel` bytes
+ * each), and leaves it in SHADER_READ_ONLY_OPTIMAL. The image needs TRANSFER_DST. Waits until it is there. */
+bool host_image_upload(host_device *device, host_image *image, const void *data, VkDeviceSize size, uint32_t texel,
+                       char *error, size_t error_size);
+
+/* Records a layout change of a whole image. */
+void host_image_barrier(VkCommandBuffer cmd, const host_image *image, VkImageLayout from, VkImageLayout to,
+                        VkPipelineStageFlags from_stage, VkAccessFlags from_access, VkPipelineStageFlags to_stage,
+                        VkAccessFlags to_access);
+
+#endif

@@ -1,0 +1,71 @@
+/* mesh.h - a model file as one vertex and one index buffer, with materials and textures. */
+#ifndef VIRGA_HOST_MESH_H
+#define VIRGA_HOST_MESH_H
+
+#include <virga/rain.h>
+
+#include "memory.h"
+#include "words.h"
+
+typedef struct host_vertex {
+    float position[3]; /* in the world: transforms are applied while loading */
+    float normal[3];   /* unit length */
+    float uv[2];
+} host_vertex;
+
+typedef enum host_alpha {
+    HOST_ALPHA_OPAQUE = 0,
+    HOST_ALPHA_MASK = 1,  /* cut out below the cutoff */
+    HOST_ALPHA_GLASS = 2, /* thin glass: see-through, with reflections */
+} host_alpha;
+
+typedef struct host_material {
+    char name[96];
+    float base_color[4]; /* linear, times the texture's */
+    float emissive[3];   /* radiance, times the texture's */
+    float roughness, metallic;
+    float cutoff;        /* (mask) */
+    host_alpha alpha;
+    bool two_sided;
+    int32_t base_texture;     /* into host_mesh::textures, or -1 */
+    int32_t emissive_texture; /* likewise */
+} host_material;
+
+typedef struct host_primitive {
+    char name[96]; /* of the mesh, or of its node */
+    uint32_t first_index, index_count;
+    uint32_t material;      /* into host_mesh::materials */
+    uint32_t surface;       /* host_material_word of its names, for impacts */
+    float cover;            /* share of the surface that is there; below 1 for cut-outs */
+    float low[3], high[3];  /* bounds */
+} host_primitive;
+
+typedef struct host_mesh {
+    char *path;
+    host_buffer vertices, indices; /* host_vertex, and uint32 from the first vertex on */
+    uint32_t vertex_count, index_count;
+    host_primitive *primitives;
+    uint32_t primitive_count;
+    host_material *materials;
+    uint32_t material_count;
+    host_image *textures;
+    uint32_t texture_count;
+    float low[3], high[3];
+} host_mesh;
+
+/* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. What can be repaired is (normals, uvs,
+ * textures that are missing: with a warning); what cannot is an error. */
+bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
+                    char *error, size_t error_size);
+
+/* Makes a mesh of one opaque primitive from memory. */
+bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count,
+                      const uint32_t *indices, uint32_t index_count, const host_material *material, host_mesh *mesh,
+                      char *error, size_t error_size);
+
+void host_mesh_destroy(host_device *device, host_mesh *mesh);
+
+/* Fills up to `capacity` occluders, one a primitive (glass stops drops too), and returns how many there are. */
+uint32_t host_mesh_occluders(const host_mesh *mesh, virga_occluder *occluders, uint32_t capacity);
+
+#endif

@@ -1,0 +1,30 @@
+/* mesh_geometry.h - what mesh.c, mesh_geometry.c and mesh_material.c share while a file is being loaded. */
+#ifndef VIRGA_HOST_MESH_GEOMETRY_H
+#define VIRGA_HOST_MESH_GEOMETRY_H
+
+#include <assimp/scene.h>
+
+#include "mesh.h"
+#include "texture.h"
+
+typedef struct host_mesh_build {
+    host_device *device;
+    const struct aiScene *scene;
+    const char *path;
+    host_mesh *mesh;
+    host_vertex *vertices;
+    uint32_t *indices;
+    uint32_t vertex_count, index_count, primitive_count; /* filled so far */
+    host_picture *pictures; /* as many as mesh->textures, without mips until all materials are read */
+    char **picture_keys;
+    char *error;
+    size_t error_size;
+} host_mesh_build;
+
+/* Fills vertices, indices and primitives from all nodes of the scene. */
+bool host_mesh_build_geometry(host_mesh_build *build, const float world_from_model[12]);
+
+/* Fills materials and pictures. */
+bool host_mesh_build_materials(host_mesh_build *build);
+
+#endif

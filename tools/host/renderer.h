@@ -1,0 +1,36 @@
+/* renderer.h - draws the plate: meshes under an environment and lights, forward, depth first. */
+#ifndef VIRGA_HOST_RENDERER_H
+#define VIRGA_HOST_RENDERER_H
+
+#include <virga/rain.h>
+
+#include "camera.h"
+#include "environment.h"
+#include "mesh.h"
+#include "target.h"
+
+typedef struct host_renderer host_renderer; /* opaque */
+
+/* Builds pipelines and samplers for targets like `target` (of any size). */
+bool host_renderer_create(host_device *device, const host_target *target, host_renderer **renderer, char *error,
+                          size_t error_size);
+void host_renderer_destroy(host_renderer **renderer); /* accepts a pointer to NULL; the device must be idle */
+
+/* Adds a mesh, which must outlive the renderer. Its primitives get the next ids. */
+bool host_renderer_add(host_renderer *renderer, const host_mesh *mesh, char *error, size_t error_size);
+
+/* Takes an environment, which must outlive the renderer. Required before the first plate; the device must be idle. */
+bool host_renderer_set_environment(host_renderer *renderer, const host_environment *environment, char *error,
+                                   size_t error_size);
+
+/* Takes up to 16 lights, as the rain does; more are not used. */
+void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights, uint32_t count);
+
+/* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. */
+void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
+                         const host_camera *camera, const host_camera *previous);
+
+/* The primitive behind an id of the plate (HOST_ID), or NULL for the sky. */
+const host_primitive *host_renderer_primitive(const host_renderer *renderer, uint32_t id);
+
+#endif

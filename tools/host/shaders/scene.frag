@@ -1,0 +1,139 @@
+#version 460
+// scene.frag - Lambert and GGX under the environment and up to 16 lights.
+#extension GL_GOOGLE_include_directive : require
+#include "frame_gpu.h"
+
+layout(set = 0, binding = 0, std140) uniform Frame { host_frame_gpu frame; };
+layout(set = 0, binding = 2) uniform sampler3D reflection_texture;
+layout(set = 0, binding = 3) uniform sampler3D skylight_texture;
+layout(set = 1, binding = 0) uniform sampler2D base_texture;
+layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
+layout(push_constant) uniform Surface { host_surface_gpu surface; };
+
+layout(location = 0) in vec3 in_relative;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec2 in_uv;
+
+#include "outputs.glsl"
+
+const float PI = 3.14159265;
+
+vec3 diffuse_light(vec3 n)
+{
+    vec3 sum = frame.irradiance[0].rgb + frame.irradiance[1].rgb * n.y + frame.irradiance[2].rgb * n.z +
+               frame.irradiance[3].rgb * n.x + frame.irradiance[4].rgb * (n.x * n.y) +
+               frame.irradiance[5].rgb * (n.y * n.z) + frame.irradiance[6].rgb * (3.0 * n.z * n.z - 1.0) +
+               frame.irradiance[7].rgb * (n.x * n.z) + frame.irradiance[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(sum, vec3(0.0));
+}
+
+vec3 reflected_light(vec3 d, float roughness)
+{
+    float u = atan(d.x, -d.z) / (2.0 * PI) + 0.5 + frame.environment.x;
+    float v = acos(clamp(d.y, -1.0, 1.0)) / PI;
+    float levels = float(textureSize(reflection_texture, 0).z);
+    return textureLod(reflection_texture, vec3(u, v, (roughness * (levels - 1.0) + 0.5) / levels), 0.0).rgb;
+}
+
+// Moments of the sky's visibility: mean direction (1 up where all is open) and share.
+vec4 sky_moments(vec3 n)
+{
+    vec3 place = in_relative + n * frame.skylight_low.w; // a voxel off the surface, clear of what lies behind it
+    vec3 t = (place - frame.skylight_low.xyz) * frame.skylight_scale.xyz;
+    vec4 moments = textureLod(skylight_texture, t, 0.0);
+    float off = max(abs(in_relative.x), abs(in_relative.z)) - frame.skylight_fade.x;
+    float above = (t.y - 1.0) * 8.0;
+    float open = clamp(max(off * frame.skylight_scale.w, above), 0.0, 1.0);
+    moments = mix(moments, vec4(0.0, 1.0, 0.0, 1.0), open);
+    return vec4(moments.xyz, max(moments.w, 0.04)); // even deep inside some light arrives by bounces
+}
+
+// How much of the environment's light is left for a normal: the sky it sees; the ground, as lit as this place is; and
+// what stands in the way, which gives back a quarter. 1 where all is open.
+float sky_share(vec4 moments, vec3 n)
+{
+    float sky = clamp(0.5 * (moments.w + dot(moments.xyz, n)), 0.0, 1.0);
+    float open = 0.5 + 0.5 * n.y;
+    return sky + moments.w * ((1.0 - open) + 0.25 * max(open - sky, 0.0));
+}
+
+// What the specular lobe reflects of a white environment: analytic fit of Karis 2014 to the split sum.
+vec3 environment_brdf(vec3 f0, float roughness, float n_v)
+{
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
+    vec2 ab = vec2(-1.04, 1.04) * a + r.zw;
+    return f0 * ab.x + ab.y;
+}
+
+// GGX with the height-correlated visibility of Smith, as approximated by Hammon 2017; Schlick's Fresnel.
+vec3 specular_lobe(vec3 f0, float roughness, float n_l, float n_v, vec3 n, vec3 v, vec3 l)
+{
+    vec3 h = normalize(v + l);
+    float n_h = clamp(dot(n, h), 0.0, 1.0), v_h = clamp(dot(v, h), 0.0, 1.0);
+    float a = max(roughness * roughness, 0.002), a2 = a * a;
+    float d = (n_h * a2 - n_h) * n_h + 1.0;
+    float distribution = a2 / (PI * d * d);
+    float visibility = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, a);
+    float c = 1.0 - v_h, c2 = c * c;
+    return (f0 + (1.0 - f0) * (c2 * c2 * c)) * (distribution * visibility);
+}
+
+vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
+{
+    vec3 sum = vec3(0.0);
+    int count = int(frame.moved.w);
+    for (int i = 0; i < count; i++) {
+        vec3 to = frame.lights[i].place.xyz - in_relative;
+        float distance2 = max(dot(to, to), 1e-4);
+        vec3 l = to * inversesqrt(distance2);
+        float n_l = dot(n, l);
+        float part = distance2 * frame.lights[i].place.w * frame.lights[i].place.w;
+        float window = max(1.0 - part * part, 0.0);
+        vec4 cone = frame.lights[i].cone;
+        float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);
+        float reach = window * window * spot * spot;
+        if (n_l > 0.0 && reach > 0.0) {
+            vec3 brdf = albedo / PI + specular_lobe(f0, roughness, n_l, n_v, n, v, l);
+            sum += frame.lights[i].intensity.rgb * brdf * (n_l * reach / distance2);
+        }
+    }
+    return sum;
+}
+
+void main()
+{
+    vec4 base = surface.base_color;
+    int bits = int(surface.traits.w);
+    if ((bits & HOST_HAS_BASE_TEXTURE) != 0)
+        base *= texture(base_texture, in_uv);
+    vec3 emissive = surface.emissive.rgb;
+    if ((bits & HOST_HAS_EMISSIVE_TEXTURE) != 0)
+        emissive *= texture(emissive_texture, in_uv).rgb;
+
+    // The triangle's own normal turns the smooth one to the side that is seen, whichever way a file winds it.
+    vec3 v = -normalize(in_relative);
+    vec3 flat_normal = cross(dFdx(in_relative), dFdy(in_relative));
+    vec3 n = normalize(in_normal);
+    n = dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
+
+    float roughness = surface.emissive.w, metallic = surface.traits.x;
+    float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
+    vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
+    vec3 albedo = base.rgb * (1.0 - metallic);
+    vec4 moments = sky_moments(n);
+    vec3 r = reflect(-v, n);
+    vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
+    vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
+    vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
+
+    float alpha = 1.0;
+    if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it
+        alpha = base.a;
+        color = color * alpha + reflected * (1.0 - alpha);
+    }
+    out_color = vec4(color, alpha);
+    out_normal = vec4(n, 1.0);
+    out_velocity = velocity_of(vec4(in_relative + frame.moved.xyz, 1.0));
+    out_id = uint(surface.traits.z);
+}

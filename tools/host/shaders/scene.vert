@@ -1,0 +1,26 @@
+#version 460
+// scene.vert - places a vertex. Positions are taken relative to the camera first: floats stay precise far away.
+#extension GL_GOOGLE_include_directive : require
+#include "frame_gpu.h"
+
+layout(set = 0, binding = 0, std140) uniform Frame { host_frame_gpu frame; };
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec2 in_uv;
+
+layout(location = 0) out vec3 out_relative;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec2 out_uv;
+
+void main()
+{
+    out_normal = in_normal;
+    out_uv = in_uv;
+    // Depth is drawn first and then tested for equality, so every pipeline must come to the same bits.
+    precise vec3 relative = in_position - frame.camera.xyz;
+    mat4 m = frame.clip_from_relative;
+    precise vec4 clip = m[0] * relative.x + m[1] * relative.y + m[2] * relative.z + m[3];
+    gl_Position = clip;
+    out_relative = relative;
+}

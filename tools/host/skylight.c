@@ -1,0 +1,494 @@
+/* skylight.c - depth maps of the sky's directions and the volume that is gathered from them. */
+#include "skylight.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "mesh.h"
+
+#include "skylight_comp.spv.h"
+#include "skylight_frag.spv.h"
+#include "skylight_vert.spv.h"
+
+#define MAP_SIZE 512
+#define WHOLE_M 160.0f   /* scenes up to this wide are held as a whole */
+#define BOX_M 128.0f     /* else a box of this width moves with the camera */
+#define BOX_HEIGHT_M 44.0f
+#define BOX_STEP_M 16.0f /* in steps, so that it is not filled anew each frame */
+#define REACH_M 600.0f   /* what is farther away towards the sky casts no shade */
+
+/* ---- create ------------------------------------------------------------------------------------------------- */
+
+static bool create_pass(host_device *device, host_skylight *s, char *error, size_t error_size)
+{
+    VkAttachmentDescription attachment = {
+        .format = VK_FORMAT_D32_SFLOAT,
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+        .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    };
+    VkAttachmentReference depth = {0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass = {
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+        .pDepthStencilAttachment = &depth,
+    };
+    const VkPipelineStageFlags tests =
+        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+    const VkSubpassDependency dependencies[] = {
+        {
+            .srcSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | tests,
+            .dstStageMask = tests,
+            .srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask =
+                VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+        },
+        {
+            .dstSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = tests,
+            .dstStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+            .srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
+        },
+    };
+    VkRenderPassCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment,
+        .subpassCount = 1,
+        .pSubpasses = &subpass,
+        .dependencyCount = 2,
+        .pDependencies = dependencies,
+    };
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &s->pass));
+    return true;
+}
+
+static bool create_images(host_device *device, host_skylight *s, char *error, size_t error_size)
+{
+    host_image_def maps = {
+        .format = VK_FORMAT_D32_SFLOAT,
+        .extent = {MAP_SIZE, MAP_SIZE, 1},
+        .layers = HOST_SKYLIGHT_DIRECTIONS,
+        .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = "skylight maps",
+    };
+    host_image_def volume = {
+        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+        .extent = {HOST_SKYLIGHT_SIDE, HOST_SKYLIGHT_HEIGHT, HOST_SKYLIGHT_SIDE},
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = "skylight volume",
+    };
+    if (!host_image_create(device, &maps, &s->maps, error, error_size) ||
+        !host_image_create(device, &volume, &s->volume, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
+        VkImageViewCreateInfo view = {
+            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+            .image = s->maps.image,
+            .viewType = VK_IMAGE_VIEW_TYPE_2D,
+            .format = s->maps.format,
+            .subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, i, 1},
+        };
+        HOST_TRY(vkCreateImageView(device->device, &view, NULL, &s->layers[i]));
+        VkFramebufferCreateInfo framebuffer = {
+            .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+            .renderPass = s->pass,
+            .attachmentCount = 1,
+            .pAttachments = &s->layers[i],
+            .width = MAP_SIZE,
+            .height = MAP_SIZE,
+            .layers = 1,
+        };
+        HOST_TRY(vkCreateFramebuffer(device->device, &framebuffer, NULL, &s->framebuffers[i]));
+    }
+    return true;
+}
+
+static bool create_set(host_device *device, host_skylight *s, char *error, size_t error_size)
+{
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+        {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+    };
+    VkDescriptorSetLayoutCreateInfo layout = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = 3,
+        .pBindings = bindings,
+    };
+    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &layout, NULL, &s->set_layout));
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
+    };
+    VkDescriptorPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+        .maxSets = 1,
+        .poolSizeCount = 3,
+        .pPoolSizes = sizes,
+    };
+    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &s->pool));
+    VkDescriptorSetAllocateInfo allocate = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = s->pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &s->set_layout,
+    };
+    HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &s->set));
+    VkSamplerCreateInfo sampler = { /* nearest: depth must not be mixed */
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+    };
+    HOST_TRY(vkCreateSampler(device->device, &sampler, NULL, &s->sampler));
+
+    const VkDescriptorBufferInfo buffer = {s->numbers.buffer, 0, VK_WHOLE_SIZE};
+    const VkDescriptorImageInfo images[] = {
+        {s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL},
+        {VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL},
+    };
+    VkWriteDescriptorSet writes[3];
+    for (uint32_t i = 0; i < 3; i++)
+        writes[i] = (VkWriteDescriptorSet){
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = s->set,
+            .dstBinding = i,
+            .descriptorCount = 1,
+            .descriptorType = bindings[i].descriptorType,
+            .pBufferInfo = i == 0 ? &buffer : NULL,
+            .pImageInfo = i > 0 ? &images[i - 1] : NULL,
+        };
+    vkUpdateDescriptorSets(device->device, 3, writes, 0, NULL);
+    return true;
+}
+
+/* ---- pipelines ---------------------------------------------------------------------------------------------- */
+
+static bool create_draw(host_device *device, host_skylight *s, VkShaderModule vertex, VkShaderModule fragment,
+                        VkPipeline *pipeline, char *error, size_t error_size)
+{
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        {
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = VK_SHADER_STAGE_VERTEX_BIT,
+            .module = vertex,
+            .pName = "main",
+        },
+        {
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+            .module = fragment,
+            .pName = "main",
+        },
+    };
+    const VkVertexInputBindingDescription binding = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+    const VkVertexInputAttributeDescription attributes[] = {
+        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, position)},
+        {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
+    };
+    VkPipelineVertexInputStateCreateInfo input = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = 1,
+        .pVertexBindingDescriptions = &binding,
+        .vertexAttributeDescriptionCount = 2,
+        .pVertexAttributeDescriptions = attributes,
+    };
+    VkPipelineInputAssemblyStateCreateInfo assembly = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+    };
+    const VkViewport view = {0.0f, 0.0f, MAP_SIZE, MAP_SIZE, 0.0f, 1.0f};
+    const VkRect2D scissor = {{0, 0}, {MAP_SIZE, MAP_SIZE}};
+    VkPipelineViewportStateCreateInfo viewport = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .pViewports = &view,
+        .scissorCount = 1,
+        .pScissors = &scissor,
+    };
+    VkPipelineRasterizationStateCreateInfo raster = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .lineWidth = 1.0f,
+    };
+    VkPipelineMultisampleStateCreateInfo samples = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
+    };
+    VkPipelineDepthStencilStateCreateInfo depth = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = VK_TRUE,
+        .depthWriteEnable = VK_TRUE,
+        .depthCompareOp = VK_COMPARE_OP_LESS,
+    };
+    VkGraphicsPipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .stageCount = fragment ? 2 : 1,
+        .pStages = stages,
+        .pVertexInputState = &input,
+        .pInputAssemblyState = &assembly,
+        .pViewportState = &viewport,
+        .pRasterizationState = &raster,
+        .pMultisampleState = &samples,
+        .pDepthStencilState = &depth,
+        .layout = s->draw_layout,
+        .renderPass = s->pass,
+    };
+    HOST_TRY(vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, pipeline));
+    return true;
+}
+
+static bool create_module(host_device *device, const uint32_t *code, size_t size, VkShaderModule *module,
+                          char *error, size_t error_size)
+{
+    VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .codeSize = size,
+        .pCode = code,
+    };
+    HOST_TRY(vkCreateShaderModule(device->device, &info, NULL, module));
+    return true;
+}
+
+static bool create_layouts(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
+                           size_t error_size)
+{
+    const VkPushConstantRange push = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                      sizeof(struct host_skylight_draw_gpu)};
+    VkPipelineLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = 1,
+        .pSetLayouts = &material_layout,
+        .pushConstantRangeCount = 1,
+        .pPushConstantRanges = &push,
+    };
+    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, &s->draw_layout));
+    info.pSetLayouts = &s->set_layout;
+    info.pushConstantRangeCount = 0;
+    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, &s->gather_layout));
+    return true;
+}
+
+static bool create_gather(host_device *device, host_skylight *s, VkShaderModule module, char *error,
+                          size_t error_size)
+{
+    VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = s->gather_layout,
+    };
+    HOST_TRY(vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &s->gather));
+    return true;
+}
+
+static bool create_pipelines(host_device *device, host_skylight *s, char *error, size_t error_size)
+{
+    VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE, compute = VK_NULL_HANDLE;
+    bool ok = create_module(device, skylight_vert_spv, sizeof skylight_vert_spv, &vertex, error, error_size) &&
+              create_module(device, skylight_frag_spv, sizeof skylight_frag_spv, &fragment, error, error_size) &&
+              create_module(device, skylight_comp_spv, sizeof skylight_comp_spv, &compute, error, error_size) &&
+              create_draw(device, s, vertex, VK_NULL_HANDLE, &s->opaque, error, error_size) &&
+              create_draw(device, s, vertex, fragment, &s->cutout, error, error_size) &&
+              create_gather(device, s, compute, error, error_size);
+    vkDestroyShaderModule(device->device, compute, NULL);
+    vkDestroyShaderModule(device->device, fragment, NULL);
+    vkDestroyShaderModule(device->device, vertex, NULL);
+    return ok;
+}
+
+/* Directions of equal solid angle over the upper hemisphere, on a spiral of the golden angle. */
+static void spread_directions(host_skylight *s)
+{
+    for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
+        double y = (i + 0.5) / HOST_SKYLIGHT_DIRECTIONS, flat = sqrt(1.0 - y * y), angle = i * 2.39996322972865332;
+        s->gpu.direction[i][0] = (float)(flat * cos(angle));
+        s->gpu.direction[i][1] = (float)y;
+        s->gpu.direction[i][2] = (float)(flat * sin(angle));
+    }
+}
+
+bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
+                          size_t error_size)
+{
+    memset(s, 0, sizeof *s);
+    spread_directions(s);
+    bool ok = create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
+              host_buffer_create(device, sizeof s->gpu,
+                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                 HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
+              create_set(device, s, error, error_size) &&
+              create_layouts(device, material_layout, s, error, error_size) &&
+              create_pipelines(device, s, error, error_size);
+    if (!ok)
+        host_skylight_destroy(device, s);
+    return ok;
+}
+
+void host_skylight_destroy(host_device *device, host_skylight *s)
+{
+    VkDevice vk = device->device;
+    vkDestroyPipeline(vk, s->gather, NULL);
+    vkDestroyPipeline(vk, s->cutout, NULL);
+    vkDestroyPipeline(vk, s->opaque, NULL);
+    vkDestroyPipelineLayout(vk, s->gather_layout, NULL);
+    vkDestroyPipelineLayout(vk, s->draw_layout, NULL);
+    vkDestroyDescriptorPool(vk, s->pool, NULL);
+    vkDestroyDescriptorSetLayout(vk, s->set_layout, NULL);
+    vkDestroySampler(vk, s->sampler, NULL);
+    for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
+        vkDestroyFramebuffer(vk, s->framebuffers[i], NULL);
+        vkDestroyImageView(vk, s->layers[i], NULL);
+    }
+    vkDestroyRenderPass(vk, s->pass, NULL);
+    host_buffer_destroy(device, &s->numbers);
+    host_image_destroy(device, &s->maps);
+    host_image_destroy(device, &s->volume);
+    memset(s, 0, sizeof *s);
+}
+
+/* ---- where -------------------------------------------------------------------------------------------------- */
+
+/* Looks from a direction of the sky onto the ball around the box: depth 0 at REACH_M above it, 1 at its far side. */
+static void look(const float d[3], const float centre[3], float radius, float m[16])
+{
+    float side[3] = {d[2], 0.0f, -d[0]}; /* never zero: no direction is straight up */
+    float length = sqrtf(side[0] * side[0] + side[2] * side[2]);
+    for (int i = 0; i < 3; i++)
+        side[i] /= length;
+    const float up[3] = {d[1] * side[2], d[2] * side[0] - d[0] * side[2], -d[1] * side[0]};
+    float range = 2.0f * radius + REACH_M;
+    memset(m, 0, 16 * sizeof *m);
+    m[14] = (radius + REACH_M) / range;
+    m[15] = 1.0f;
+    for (int i = 0; i < 3; i++) {
+        m[i * 4] = side[i] / radius;
+        m[i * 4 + 1] = up[i] / radius;
+        m[i * 4 + 2] = -d[i] / range;
+        m[12] -= side[i] * centre[i] / radius;
+        m[13] -= up[i] * centre[i] / radius;
+        m[14] += d[i] * centre[i] / range;
+    }
+}
+
+bool host_skylight_place(host_skylight *s, const double camera_m[3], const float scene_low[3],
+                         const float scene_high[3])
+{
+    float low[3], size[3];
+    s->whole = scene_high[0] - scene_low[0] <= WHOLE_M && scene_high[2] - scene_low[2] <= WHOLE_M;
+    for (int i = 0; i < 3; i++) {
+        float least = i == 1 ? 4.0f : 8.0f, margin = 0.5f;
+        size[i] = fmaxf(scene_high[i] - scene_low[i] + 2.0f * margin, least);
+        low[i] = scene_low[i] - margin;
+        if (!s->whole) {
+            size[i] = i == 1 ? BOX_HEIGHT_M : BOX_M;
+            float place = (float)(floor(camera_m[i] / BOX_STEP_M + 0.5) * BOX_STEP_M);
+            low[i] = place - size[i] * (i == 1 ? 0.4f : 0.5f);
+        } else if (i == 1 && size[i] > BOX_HEIGHT_M) {
+            size[i] = BOX_HEIGHT_M;
+        }
+    }
+    if (s->ready && memcmp(low, s->low, sizeof low) == 0 && memcmp(size, s->size, sizeof size) == 0)
+        return false;
+    memcpy(s->low, low, sizeof low);
+    memcpy(s->size, size, sizeof size);
+
+    float centre[3], radius = 0.0f;
+    const float voxels[3] = {HOST_SKYLIGHT_SIDE, HOST_SKYLIGHT_HEIGHT, HOST_SKYLIGHT_SIDE};
+    for (int i = 0; i < 3; i++) {
+        centre[i] = low[i] + 0.5f * size[i];
+        radius += 0.25f * size[i] * size[i];
+        s->gpu.low[i] = low[i];
+        s->gpu.voxel[i] = size[i] / voxels[i];
+    }
+    radius = sqrtf(radius);
+    /* Half a voxel of bias: places close over a slope do not shade themselves. */
+    s->gpu.low[3] = 0.5f * s->gpu.voxel[0] / (2.0f * radius + REACH_M);
+    for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
+        look(s->gpu.direction[i], centre, radius, s->gpu.map_from_world[i]);
+    return true;
+}
+
+void host_skylight_frame(const host_skylight *s, const double camera_m[3], struct host_frame_gpu *frame)
+{
+    for (int i = 0; i < 3; i++) {
+        frame->skylight_low[i] = (float)(s->low[i] - camera_m[i]);
+        frame->skylight_scale[i] = 1.0f / s->size[i];
+    }
+    frame->skylight_low[3] = s->gpu.voxel[0];
+    /* The fade ends where the box may end: half of it, less the half step that the camera is off its middle. */
+    float end = 0.5f * BOX_M - 0.5f * BOX_STEP_M - 2.0f, begin = 0.6f * end;
+    frame->skylight_fade[0] = begin;
+    frame->skylight_scale[3] = s->whole ? 0.0f : 1.0f / (end - begin);
+}
+
+/* ---- recording ---------------------------------------------------------------------------------------------- */
+
+void host_skylight_begin(host_skylight *s, VkCommandBuffer cmd)
+{
+    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                               .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0,
+                         NULL, 0, NULL);
+    vkCmdUpdateBuffer(cmd, s->numbers.buffer, 0, sizeof s->gpu, &s->gpu);
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_UNIFORM_READ_BIT;
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &barrier, 0,
+                         NULL, 0, NULL);
+}
+
+void host_skylight_begin_map(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction)
+{
+    VkClearValue clear;
+    memset(&clear, 0, sizeof clear);
+    clear.depthStencil.depth = 1.0f;
+    VkRenderPassBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+        .renderPass = s->pass,
+        .framebuffer = s->framebuffers[direction],
+        .renderArea = {{0, 0}, {MAP_SIZE, MAP_SIZE}},
+        .clearValueCount = 1,
+        .pClearValues = &clear,
+    };
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction, float alpha, float cutoff)
+{
+    struct host_skylight_draw_gpu draw;
+    memcpy(draw.map_from_world, s->gpu.map_from_world[direction], sizeof draw.map_from_world);
+    draw.cutout[0] = alpha;
+    draw.cutout[1] = cutoff;
+    draw.cutout[2] = draw.cutout[3] = 0.0f;
+    vkCmdPushConstants(cmd, s->draw_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof draw,
+                       &draw);
+}
+
+void host_skylight_end_map(const host_skylight *s, VkCommandBuffer cmd)
+{
+    (void)s;
+    vkCmdEndRenderPass(cmd);
+}
+
+void host_skylight_gather(host_skylight *s, VkCommandBuffer cmd)
+{
+    host_image_barrier(cmd, &s->volume, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_SHADER_WRITE_BIT);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->gather);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->gather_layout, 0, 1, &s->set, 0, NULL);
+    vkCmdDispatch(cmd, HOST_SKYLIGHT_SIDE / 8, HOST_SKYLIGHT_HEIGHT / 4, HOST_SKYLIGHT_SIDE / 4);
+    host_image_barrier(cmd, &s->volume, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    s->ready = true;
+}

@@ -1,0 +1,53 @@
+/* skylight.h - soft shade from the whole sky: under bridges and awnings, between houses.
+ *
+ * The scene is seen from many directions of the sky, orthographically, as depth maps. A volume of voxels around the
+ * camera keeps, for each place, the share of directions that reach it and their mean direction: two moments of
+ * visibility, from which any normal's share of the sky follows. The volume depends on the camera's place alone.
+ */
+#ifndef VIRGA_HOST_SKYLIGHT_H
+#define VIRGA_HOST_SKYLIGHT_H
+
+#include "memory.h"
+#include "shaders/frame_gpu.h"
+
+typedef struct host_skylight {
+    host_image maps;   /* depth, one layer a direction */
+    host_image volume; /* xyz: mean direction, 1 up if all the sky is seen; w: its share */
+    VkImageView layers[HOST_SKYLIGHT_DIRECTIONS];
+    VkFramebuffer framebuffers[HOST_SKYLIGHT_DIRECTIONS];
+    VkRenderPass pass;
+    host_buffer numbers; /* host_skylight_gpu */
+    VkSampler sampler;
+    VkDescriptorSetLayout set_layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkPipelineLayout draw_layout, gather_layout;
+    VkPipeline opaque, cutout, gather;
+
+    bool ready;          /* the volume was filled, for: */
+    float low[3], size[3];
+    bool whole;          /* it holds the whole scene */
+    struct host_skylight_gpu gpu;
+} host_skylight;
+
+/* `material_layout` is the set that holds a material's base texture at binding 0. */
+bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *skylight,
+                          char *error, size_t error_size);
+void host_skylight_destroy(host_device *device, host_skylight *skylight);
+
+/* Chooses the box for a camera in a scene of these bounds. Returns whether it must be filled anew. */
+bool host_skylight_place(host_skylight *skylight, const double camera_m[3], const float scene_low[3],
+                         const float scene_high[3]);
+
+/* Records filling: begin, then for each direction begin_map, draws with host_skylight_push, end_map, then gather. */
+void host_skylight_begin(host_skylight *skylight, VkCommandBuffer cmd);
+void host_skylight_begin_map(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction);
+void host_skylight_push(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction, float alpha,
+                        float cutoff);
+void host_skylight_end_map(const host_skylight *skylight, VkCommandBuffer cmd);
+void host_skylight_gather(host_skylight *skylight, VkCommandBuffer cmd);
+
+/* What the plate's shader needs to look the volume up. */
+void host_skylight_frame(const host_skylight *skylight, const double camera_m[3], struct host_frame_gpu *frame);
+
+#endif

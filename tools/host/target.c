@@ -1,0 +1,350 @@
+/* target.c - images, the two render passes between them, and copies to the CPU. */
+#include "target.h"
+
+#include <string.h>
+
+static const struct {
+    VkFormat format;
+    uint32_t channels;
+    const char *name;
+} outputs_table[HOST_OUTPUT_COUNT] = {
+    [HOST_COLOR] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate color"},
+    [HOST_NORMAL] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate normal"},
+    [HOST_VELOCITY] = {VK_FORMAT_R32G32_SFLOAT, 2, "plate velocity"},
+    [HOST_ID] = {VK_FORMAT_R32_UINT, 1, "plate id"},
+    [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
+    [HOST_LAYER] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "rain layer"},
+};
+
+uint32_t host_output_channels(host_output output)
+{
+    return outputs_table[output].channels;
+}
+
+/* ---- passes ------------------------------------------------------------------------------------------------- */
+
+/* An attachment that is cleared, drawn, and left ready to be copied. */
+static VkAttachmentDescription drawn(host_output output, VkImageLayout final)
+{
+    return (VkAttachmentDescription){
+        .format = outputs_table[output].format,
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+        .finalLayout = final,
+    };
+}
+
+#define DEPTH_STAGES (VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT)
+#define DEPTH_READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
+
+static bool create_plate_pass(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    VkAttachmentDescription attachments[HOST_PLATE_COLORS + 1];
+    VkAttachmentReference colors[HOST_PLATE_COLORS];
+    for (uint32_t i = 0; i < HOST_PLATE_COLORS; i++) {
+        attachments[i] = drawn((host_output)i, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        colors[i] = (VkAttachmentReference){i, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    }
+    attachments[HOST_DEPTH] = drawn(HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    VkAttachmentReference depth = {HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass = {
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+        .colorAttachmentCount = HOST_PLATE_COLORS,
+        .pColorAttachments = colors,
+        .pDepthStencilAttachment = &depth,
+    };
+    const VkSubpassDependency dependencies[] = {
+        {
+            /* After the copies and the depth reads of the frame before. */
+            .srcSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                            DEPTH_STAGES | DEPTH_READERS,
+            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
+                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+        },
+        {
+            /* Before the copies, the layer's depth test and whoever samples the depth. */
+            .dstSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
+            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_STAGES | DEPTH_READERS,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+        },
+    };
+    VkRenderPassCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+        .attachmentCount = HOST_PLATE_COLORS + 1,
+        .pAttachments = attachments,
+        .subpassCount = 1,
+        .pSubpasses = &subpass,
+        .dependencyCount = 2,
+        .pDependencies = dependencies,
+    };
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->plate_pass));
+    return true;
+}
+
+static bool create_layer_pass(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    VkAttachmentDescription attachments[2] = {
+        drawn(HOST_LAYER, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+        drawn(HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL),
+    };
+    attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachments[1].initialLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
+    VkSubpassDescription subpass = {
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+        .colorAttachmentCount = 1,
+        .pColorAttachments = &color,
+        .pDepthStencilAttachment = &depth,
+    };
+    const VkSubpassDependency dependencies[] = {
+        {
+            .srcSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask =
+                VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
+            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES |
+                            VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
+                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
+        },
+        {
+            /* The depth's store at the end counts as a write, though nothing changes. */
+            .dstSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
+            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_READERS,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
+        },
+    };
+    VkRenderPassCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+        .attachmentCount = 2,
+        .pAttachments = attachments,
+        .subpassCount = 1,
+        .pSubpasses = &subpass,
+        .dependencyCount = 2,
+        .pDependencies = dependencies,
+    };
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->layer_pass));
+    return true;
+}
+
+static bool create_framebuffer(host_device *device, const host_target *target, VkRenderPass pass,
+                               const VkImageView *views, uint32_t count, VkFramebuffer *framebuffer, char *error,
+                               size_t error_size)
+{
+    VkFramebufferCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+        .renderPass = pass,
+        .attachmentCount = count,
+        .pAttachments = views,
+        .width = target->width,
+        .height = target->height,
+        .layers = 1,
+    };
+    HOST_TRY(vkCreateFramebuffer(device->device, &info, NULL, framebuffer));
+    return true;
+}
+
+/* ---- create and destroy ------------------------------------------------------------------------------------- */
+
+static bool create_output(host_device *device, host_target *target, host_output output, char *error,
+                          size_t error_size)
+{
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    usage |= output == HOST_DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    host_image_def def = {
+        .format = outputs_table[output].format,
+        .extent = {target->width, target->height, 1},
+        .usage = usage,
+        .name = outputs_table[output].name,
+    };
+    VkDeviceSize size = (VkDeviceSize)target->width * target->height * outputs_table[output].channels * 4;
+    return host_image_create(device, &def, &target->images[output], error, error_size) &&
+           host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
+                              outputs_table[output].name, &target->copies[output], error, error_size);
+}
+
+static bool create_parts(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (!create_output(device, target, (host_output)i, error, error_size))
+            return false;
+    if (!create_plate_pass(device, target, error, error_size) || !create_layer_pass(device, target, error, error_size))
+        return false;
+    VkImageView plate[HOST_PLATE_COLORS + 1];
+    for (int i = 0; i <= HOST_PLATE_COLORS; i++)
+        plate[i] = target->images[i].view;
+    const VkImageView layer[] = {target->images[HOST_LAYER].view, target->images[HOST_DEPTH].view};
+    return create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
+                              &target->plate_framebuffer, error, error_size) &&
+           create_framebuffer(device, target, target->layer_pass, layer, 2, &target->layer_framebuffer, error,
+                              error_size);
+}
+
+bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
+                        size_t error_size)
+{
+    memset(target, 0, sizeof *target);
+    uint32_t limit = device->properties.limits.maxImageDimension2D;
+    if (width == 0 || height == 0 || width > limit || height > limit)
+        return host_fail(error, error_size, "picture size %u x %u: expected 1 to %u on this device", width, height,
+                         limit);
+    target->width = width;
+    target->height = height;
+    if (create_parts(device, target, error, error_size))
+        return true;
+    host_target_destroy(device, target);
+    return false;
+}
+
+void host_target_destroy(host_device *device, host_target *target)
+{
+    vkDestroyFramebuffer(device->device, target->layer_framebuffer, NULL);
+    vkDestroyFramebuffer(device->device, target->plate_framebuffer, NULL);
+    vkDestroyRenderPass(device->device, target->layer_pass, NULL);
+    vkDestroyRenderPass(device->device, target->plate_pass, NULL);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        host_buffer_destroy(device, &target->copies[i]);
+        host_image_destroy(device, &target->images[i]);
+    }
+    memset(target, 0, sizeof *target);
+}
+
+/* ---- recording ---------------------------------------------------------------------------------------------- */
+
+static void begin_pass(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer,
+                       const VkClearValue *clears, uint32_t clear_count)
+{
+    VkRenderPassBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+        .renderPass = pass,
+        .framebuffer = framebuffer,
+        .renderArea = {{0, 0}, {target->width, target->height}},
+        .clearValueCount = clear_count,
+        .pClearValues = clears,
+    };
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    VkViewport viewport = {0.0f, 0.0f, (float)target->width, (float)target->height, 0.0f, 1.0f};
+    vkCmdSetViewport(cmd, 0, 1, &viewport);
+    vkCmdSetScissor(cmd, 0, 1, &begin.renderArea);
+}
+
+void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd)
+{
+    VkClearValue clears[HOST_PLATE_COLORS + 1];
+    memset(clears, 0, sizeof clears);
+    clears[HOST_DEPTH].depthStencil.depth = 1.0f;
+    begin_pass(target, cmd, target->plate_pass, target->plate_framebuffer, clears, HOST_PLATE_COLORS + 1);
+}
+
+void host_target_end_plate(const host_target *target, VkCommandBuffer cmd)
+{
+    (void)target;
+    vkCmdEndRenderPass(cmd);
+}
+
+void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
+{
+    VkClearValue clear;
+    memset(&clear, 0, sizeof clear);
+    begin_pass(target, cmd, target->layer_pass, target->layer_framebuffer, &clear, 1);
+}
+
+void host_target_end_layer(const host_target *target, VkCommandBuffer cmd)
+{
+    (void)target;
+    vkCmdEndRenderPass(cmd);
+}
+
+virga_image host_target_depth(const host_target *target)
+{
+    const host_image *depth = &target->images[HOST_DEPTH];
+    const virga_image_state state = {
+        .layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+        .stage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+        .access = VK_ACCESS_SHADER_READ_BIT,
+    };
+    return (virga_image){
+        .image = depth->image,
+        .view = depth->view,
+        .format = depth->format,
+        .extent = depth->extent,
+        .layers = 1,
+        .before = state,
+        .after = state,
+    };
+}
+
+void host_target_describe_layer(const host_target *target, virga_target_def *def)
+{
+    def->kind = VIRGA_TARGET_RENDER_PASS;
+    def->render_pass = target->layer_pass;
+    def->subpass = 0;
+    def->color_format = outputs_table[HOST_LAYER].format;
+    def->depth_format = outputs_table[HOST_DEPTH].format;
+    def->color_count = 1;
+    def->samples = VK_SAMPLE_COUNT_1_BIT;
+    def->depth_attached = true;
+    def->reversed_depth = false;
+}
+
+static void copy_image(const host_target *target, VkCommandBuffer cmd, host_output output)
+{
+    const host_image *image = &target->images[output];
+    VkBufferImageCopy region = {
+        .imageSubresource = {output == HOST_DEPTH ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+        .imageExtent = image->extent,
+    };
+    vkCmdCopyImageToBuffer(cmd, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target->copies[output].buffer, 1,
+                           &region);
+}
+
+void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs)
+{
+    const host_image *depth = &target->images[HOST_DEPTH];
+    const VkImageLayout read_only = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    bool with_depth = outputs & (1u << HOST_DEPTH);
+    if (with_depth)
+        host_image_barrier(cmd, depth, read_only, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, DEPTH_STAGES | DEPTH_READERS,
+                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                           VK_ACCESS_TRANSFER_READ_BIT);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (outputs & (1u << i))
+            copy_image(target, cmd, (host_output)i);
+    if (with_depth)
+        host_image_barrier(cmd, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, read_only,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, DEPTH_STAGES | DEPTH_READERS,
+                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+    VkMemoryBarrier to_cpu = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+        .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+        .dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+    };
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &to_cpu, 0, NULL, 0, NULL);
+}
+
+const float *host_target_floats(const host_device *device, const host_target *target, host_output output)
+{
+    host_buffer_invalidate(device, &target->copies[output]);
+    return target->copies[output].mapped;
+}
+
+const uint32_t *host_target_ids(const host_device *device, const host_target *target)
+{
+    host_buffer_invalidate(device, &target->copies[HOST_ID]);
+    return target->copies[HOST_ID].mapped;
+}

@@ -1,0 +1,55 @@
+/* target.h - what a frame is drawn into: the plate, the rain layer over it, and their way back to the CPU. */
+#ifndef VIRGA_HOST_TARGET_H
+#define VIRGA_HOST_TARGET_H
+
+#include <virga/vulkan.h>
+
+#include "memory.h"
+
+typedef enum host_output {
+    HOST_COLOR,    /* RGBA float: linear radiance, alpha 1 */
+    HOST_NORMAL,   /* RGBA float: world normal, alpha 1; the sky is all zero */
+    HOST_VELOCITY, /* XY float: pixels moved since a frame ago, right and down */
+    HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
+    HOST_DEPTH,    /* one float: 0 near to 1 far */
+    HOST_LAYER,    /* RGBA float: premultiplied layer over the plate */
+    HOST_OUTPUT_COUNT,
+} host_output;
+
+#define HOST_PLATE_COLORS 4 /* color attachments of the plate pass: the first four outputs */
+
+typedef struct host_target {
+    uint32_t width, height;
+    host_image images[HOST_OUTPUT_COUNT];
+    host_buffer copies[HOST_OUTPUT_COUNT];
+    VkRenderPass plate_pass; /* clears and draws color, normal, velocity, id and depth */
+    VkRenderPass layer_pass; /* clears the layer; the plate's depth is tested, and may be sampled, but not written */
+    VkFramebuffer plate_framebuffer, layer_framebuffer;
+} host_target;
+
+bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
+                        size_t error_size);
+void host_target_destroy(host_device *device, host_target *target);
+
+/* Begin and end rendering; viewport and scissor are set to the whole picture. */
+void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
+void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd);
+void host_target_end_layer(const host_target *target, VkCommandBuffer cmd);
+
+/* The plate's depth as Virga sees it while the layer is drawn. */
+virga_image host_target_depth(const host_target *target);
+
+/* What virga_target_create needs for the layer pass: fills render pass and formats into a default definition. */
+void host_target_describe_layer(const host_target *target, virga_target_def *def);
+
+/* Records copies of the outputs whose bit (1u << output) is set. After rendering; once in a command buffer. */
+void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs);
+
+/* Pixels of an output that was copied out, once the device has completed it: rows from the top, tightly packed,
+ * host_output_channels(output) values of 4 bytes each. Valid until the next copy. */
+const float *host_target_floats(const host_device *device, const host_target *target, host_output output);
+const uint32_t *host_target_ids(const host_device *device, const host_target *target);
+uint32_t host_output_channels(host_output output);
+
+#endif

@@ -1,0 +1,39 @@
+/* texture.h - 8-bit pictures of a mesh: decoding, mips made on the CPU, and what alpha says about coverage. */
+#ifndef VIRGA_HOST_TEXTURE_H
+#define VIRGA_HOST_TEXTURE_H
+
+#include "memory.h"
+
+/* A picture with its mips: RGBA, sRGB-coded colour, levels one after another, each half as wide and high. */
+typedef struct host_picture {
+    uint32_t width, height, levels;
+    uint8_t *texels;
+    size_t size; /* bytes of all levels */
+    bool alpha;  /* some texel is not opaque */
+} host_picture;
+
+/* Decodes PNG, JPEG, BMP, TGA or what else stb_image reads, from memory or from a file, without mips. */
+bool host_picture_decode(const void *data, size_t size, const char *what, host_picture *picture, char *error,
+                         size_t error_size);
+bool host_picture_read(const char *path, host_picture *picture, char *error, size_t error_size);
+
+/* Takes over RGBA bytes from elsewhere: copies them. */
+bool host_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, host_picture *picture);
+
+/* Builds the mips. `cutoff` >= 0 is the alpha below which a texel is cut out: every level then keeps the share of
+ * texels that the first has above it, so that foliage does not thin out with distance; -1: no cut-out. */
+bool host_picture_make_mips(host_picture *picture, float cutoff);
+
+/* Alpha [0; 1] at a texture coordinate, nearest texel, repeated. */
+float host_picture_alpha(const host_picture *picture, float u, float v);
+
+/* Mean of each channel in [0; 1], as stored. */
+void host_picture_mean(const host_picture *picture, float mean[4]);
+
+void host_picture_free(host_picture *picture);
+
+/* An image of the picture with all its levels, in an sRGB format. */
+bool host_picture_upload(host_device *device, const host_picture *picture, const char *name, host_image *image,
+                         char *error, size_t error_size);
+
+#endif
