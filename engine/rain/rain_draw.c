@@ -94,16 +94,46 @@ static void fill_lights(const virga_rain *rain, const double camera[3], virga_vi
     }
 }
 
-/* Share of the extinction (coverage: number x diameter^2) that drops too small to be drawn have. */
-static double small_share(const rain_classes *classes, double bodies_min_m)
+#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
+
+/* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
+static double streak_coverage(const virga_view_gpu *view, const rain_class *c, double drops, double distance_m)
 {
-    double small = 0, all = 0;
+    const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
+    const double narrow = width_px < (double)view->min_width_px ? width_px / (double)view->min_width_px : 1;
+    const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s);
+    const double one = (double)view->streak_gain * c->diameter_m / (way + c->diameter_m);
+    return (one < 1 ? one : 1) * narrow * drops;
+}
+
+/* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too
+ * small to be drawn, and of slots that stand for so many drops that their streak would be a bar. It becomes haze, so
+ * that rain is as thick at any budget. */
+static double hazy_share(const virga_rain *rain, const virga_view_gpu *view, uint32_t level)
+{
+    const rain_classes *classes = rain->classes;
+    const double distance = 0.375 * ldexp(classes->side_m, (int)level + 1 - (int)classes->levels);
+    double hazy = 0, all = 0;
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
-        const double cover = classes->per_m3[k] * classes->classes[k].diameter_m * classes->classes[k].diameter_m;
+        const rain_class *c = &classes->classes[k];
+        const double cover = classes->per_m3[k] * c->diameter_m * c->diameter_m;
+        const double drops = (double)classes->weights[level * VIRGA_RAIN_CLASSES + k].drops;
+        const double would = streak_coverage(view, c, drops, distance);
+        const bool small = c->diameter_m < (double)view->bodies_min_m || !classes->slot_count[level][k];
         all += cover;
-        small += classes->classes[k].diameter_m < bodies_min_m ? cover : 0;
+        hazy += cover * (small ? 1 : would > MOST_COVERAGE && drops > 1 ? 1 - MOST_COVERAGE / would : 0);
     }
-    return all > 0 ? small / all : 0;
+    return all > 0 ? hazy / all : 0;
+}
+
+static void fill_haze(const virga_rain *rain, virga_view_gpu *out)
+{
+    const double extinction =
+        virga_rain_extinction((double)rain->settings.rate_mm_h) * (double)rain->settings.haze;
+    for (uint32_t level = 0; level < rain->levels; level++)
+        out->haze_per_m[level] = (float)(extinction * hazy_share(rain, out, level));
+    out->haze_per_m[rain->levels] = (float)extinction;
+    out->haze_inner_m = (float)(0.5 * ldexp(rain->classes->side_m, 1 - (int)rain->levels));
 }
 
 static void fill_look(const virga_rain *rain, virga_view_gpu *out)
@@ -116,10 +146,7 @@ static void fill_look(const virga_rain *rain, virga_view_gpu *out)
     out->near_m = settings->near_m;
     out->oscillation = settings->oscillation;
     out->bodies_min_m = settings->bodies_min_mm * 1e-3f;
-    const double extinction = virga_rain_extinction((double)settings->rate_mm_h) * (double)settings->haze;
-    out->haze_per_m = (float)extinction;
-    out->haze_near_per_m = (float)(extinction * small_share(rain->classes, (double)out->bodies_min_m));
-    out->range_m = rain->def.range_m;
+    fill_haze(rain, out);
     out->max_streaks = rain->def.max_streaks;
     for (int i = 0; i < 9; i++)
         for (int c = 0; c < 3; c++)
@@ -206,6 +233,8 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
     const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback) + offsetof(rain_readback, prepared),
                                sizeof(virga_prepared_gpu)};
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     context->vk.CmdCopyBuffer(cmd, rain->prepared_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -240,6 +269,8 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->prepared_set = rain_write_set(rain, place, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, rain->prepared_set);
     memcpy(rain->prepared_viewport, view->viewport, sizeof rain->prepared_viewport);
+    rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
+    rain->frame_stats[rain->context->ring_slot].prepared = true;
     rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->settings.rate_mm_h > 0;
     rain->prepared = true;
     return VIRGA_OK;

@@ -94,7 +94,7 @@ typedef struct rain_frame_stats {
     double time_s;
     uint32_t ticks;
     float wind_m_s[3];
-    bool counted; /* taken into the totals */
+    bool stepped, prepared; /* which parts were recorded in that frame */
 } rain_frame_stats;
 
 struct virga_rain {

@@ -33,17 +33,21 @@ static void take_statistics(virga_rain *rain)
                       rain->context->ring_slot * sizeof read, sizeof read);
     virga_rain_stats *stats = &rain->stats;
     stats->frame_index = frame->frame_index;
-    stats->time_s = frame->time_s;
-    stats->ticks = frame->ticks;
     stats->slots = rain->slots;
-    stats->impacts = frame->ticks ? read.impacts.count : 0;
-    stats->impacts_dropped = frame->ticks ? read.impacts.dropped : 0;
-    stats->impact_water_nl =
-        frame->ticks ? (uint64_t)read.impacts.water_nl_high << 32 | read.impacts.water_nl_low : 0;
-    stats->total_water_nl += stats->impact_water_nl;
-    stats->streaks = read.prepared.streaks;
-    memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
-    if (stats->impacts_dropped)
+    if (frame->prepared)
+        stats->streaks = read.prepared.streaks;
+    const bool stepped = frame->stepped;
+    if (stepped) {
+        stats->time_s = frame->time_s;
+        stats->ticks = frame->ticks;
+        stats->impacts = frame->ticks ? read.impacts.count : 0;
+        stats->impacts_dropped = frame->ticks ? read.impacts.dropped : 0;
+        stats->impact_water_nl =
+            frame->ticks ? (uint64_t)read.impacts.water_nl_high << 32 | read.impacts.water_nl_low : 0;
+        stats->total_water_nl += stats->impact_water_nl;
+        memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
+    }
+    if (stepped && stats->impacts_dropped)
         virga_log_say(&rain->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
                       "%u impacts of a step found no room; max_impacts is %u", stats->impacts_dropped,
                       rain->def.max_impacts);
@@ -271,9 +275,10 @@ static void record_impact_readback(virga_rain *rain, VkCommandBuffer cmd)
 {
     virga_context *context = rain->context;
     const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback), sizeof(virga_impacts_gpu)};
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdCopyBuffer(cmd, rain->impact_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -311,6 +316,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     record_impact_readback(rain, cmd);
     rain_frame_stats *frame = &rain->frame_stats[context->ring_slot];
     frame->frame_index = context->frame_index;
+    frame->stepped = true;
     frame->time_s = virga_rain_time(rain);
     frame->ticks = ticks;
     for (int axis = 0; axis < 3; axis++)

@@ -17,7 +17,10 @@ void main()
     const vec3 ray = to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead);
     // The sky is an environment seen through its own rain already.
     const float way = stored == view.far_depth ? 0.0 : view_depth(stored) * length(ray);
-    const float thick = view.haze_near_per_m * min(way, view.range_m) + view.haze_per_m * max(way - view.range_m, 0.0);
+    float thick = 0.0, from = 0.0, to = view.haze_inner_m;
+    for (uint box = 0u; box < tick.levels && way > from; box++, from = to, to *= 2.0)
+        thick += view.haze_per_m[box] * (min(way, to) - from);
+    thick += view.haze_per_m[tick.levels] * max(way - from, 0.0);
     const float alpha = 1.0 - exp(-thick);
     if (alpha <= 0.0)
         discard;

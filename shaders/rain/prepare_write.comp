@@ -17,7 +17,7 @@ layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sway
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
 
 #define NEAR_W 0.01     // m; streaks are cut where they come nearer to the camera's plane
-#define MOST_COVERAGE 0.6 // that a streak which stands for many gets, before it is drawn wider instead
+#define MOST_COVERAGE 0.25 // of a streak that stands for many: what it would cover beyond is haze, see rain_draw.c
 
 vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
 
@@ -102,10 +102,8 @@ void set_coverage(inout virga_streak_gpu streak, float width_px, float body_px, 
     const float drawn = max(width_px, view.min_width_px);
     const float narrow = width_px < view.min_width_px ? width_px / drawn : 1.0;
     const float one = min(view.streak_gain * body_px / (way_px + body_px), 1.0) * narrow;
-    const float all = one * weight;
-    const float wider = max(all / max(one, MOST_COVERAGE), 1.0);
-    streak.width_px = drawn * wider;
-    streak.alpha = all / wider;
+    streak.width_px = drawn;
+    streak.alpha = min(one * weight, max(one, MOST_COVERAGE));
     streak.body_px = body_px;
 }
 

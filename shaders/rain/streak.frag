@@ -44,12 +44,14 @@ vec3 wide_light(float u, float along, vec2 direction, vec3 d)
     return sum / 3.0;
 }
 
+// 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it.
 float soft_edge()
 {
-    if (view.depth_given == 0u || view.soft_m <= 0.0)
+    if (view.depth_given == 0u)
         return 1.0;
     const float stored = buffer_depth(gl_FragCoord.xy);
-    return stored == view.far_depth ? 1.0 : clamp((view_depth(stored) - depth) / view.soft_m, 0.0, 1.0);
+    const float in_front = stored == view.far_depth ? 1e9 : view_depth(stored) - depth;
+    return view.soft_m > 0.0 ? clamp(in_front / view.soft_m, 0.0, 1.0) : float(in_front >= 0.0);
 }
 
 void main()

@@ -111,9 +111,8 @@ struct virga_view_gpu {
     float oscillation;
     float bodies_min_m;
     float pixel_angle;            /* tangent of a pixel's angle at the centre */
-    float haze_per_m;             /* extinction of all rain beyond range_m */
-    float haze_near_per_m;        /* of what is not drawn one by one within it */
-    float range_m;
+    float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
+    float haze_inner_m;           /* radius of the innermost box; each next one is twice as wide */
     float far_depth;              /* value of the depth buffer where there is nothing */
     uint light_count;
     uint depth_given;
@@ -179,7 +178,7 @@ VIRGA_ASSERT_SIZE(virga_class_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 152);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 88);
-VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 648);
+VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 692);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 80);

@@ -92,46 +92,37 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
     return true;
 }
 
+/* The layer is tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
+ * as well, its store at the end would be a write that hazards with those reads; only Vulkan 1.3 can store nothing. */
 static bool create_layer_pass(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    VkAttachmentDescription attachments[2] = {
-        drawn(HOST_LAYER, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-        drawn(HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL),
-    };
-    attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-    attachments[1].initialLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
-    VkSubpassDescription subpass = {
+    const VkAttachmentDescription attachment = drawn(HOST_LAYER, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkSubpassDescription subpass = {
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
         .colorAttachmentCount = 1,
         .pColorAttachments = &color,
-        .pDepthStencilAttachment = &depth,
     };
     const VkSubpassDependency dependencies[] = {
         {
             .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask =
-                VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES |
-                            VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
-                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
+            .srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
         },
         {
-            /* The depth's store at the end counts as a write, though nothing changes. */
             .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_READERS,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
+            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT,
         },
     };
     VkRenderPassCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = 2,
-        .pAttachments = attachments,
+        .attachmentCount = 1,
+        .pAttachments = &attachment,
         .subpassCount = 1,
         .pSubpasses = &subpass,
         .dependencyCount = 2,
@@ -187,10 +178,10 @@ static bool create_parts(host_device *device, host_target *target, char *error, 
     VkImageView plate[HOST_PLATE_COLORS + 1];
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
         plate[i] = target->images[i].view;
-    const VkImageView layer[] = {target->images[HOST_LAYER].view, target->images[HOST_DEPTH].view};
+    const VkImageView layer[] = {target->images[HOST_LAYER].view};
     return create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
                               &target->plate_framebuffer, error, error_size) &&
-           create_framebuffer(device, target, target->layer_pass, layer, 2, &target->layer_framebuffer, error,
+           create_framebuffer(device, target, target->layer_pass, layer, 1, &target->layer_framebuffer, error,
                               error_size);
 }
 
@@ -294,10 +285,9 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
     def->render_pass = target->layer_pass;
     def->subpass = 0;
     def->color_format = outputs_table[HOST_LAYER].format;
-    def->depth_format = outputs_table[HOST_DEPTH].format;
     def->color_count = 1;
     def->samples = VK_SAMPLE_COUNT_1_BIT;
-    def->depth_attached = true;
+    def->depth_attached = false; /* tested in the shader, see create_layer_pass */
     def->reversed_depth = false;
 }
 

@@ -23,7 +23,7 @@ typedef struct host_target {
     host_image images[HOST_OUTPUT_COUNT];
     host_buffer copies[HOST_OUTPUT_COUNT];
     VkRenderPass plate_pass; /* clears and draws color, normal, velocity, id and depth */
-    VkRenderPass layer_pass; /* clears the layer; the plate's depth is tested, and may be sampled, but not written */
+    VkRenderPass layer_pass; /* clears the layer; the plate's depth may be sampled */
     VkFramebuffer plate_framebuffer, layer_framebuffer;
 } host_target;
 

@@ -212,7 +212,8 @@ typedef struct virga_view {
     float viewport[4];            /* x, y, width, height in pixels */
     bool reversed_depth;          /* must match the target's. Default false */
     bool infinite_far;            /* the projection has no far plane. Default false */
-    virga_image depth;            /* (optional) the scene's depth, sampled for soft edges and for haze; layout and
+    virga_image depth;            /* (optional) the scene's depth, sampled for occlusion by the scene (also where a
+                                   * target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
                                    * aspect. image VK_NULL_HANDLE: hard edges by the depth test, no haze */
 } virga_view;

@@ -1,0 +1,187 @@
+/* test_rain_impacts.c - what lands is the rain that was asked for: in litres, in sizes and in speeds. */
+#include "rain_fixture.h"
+
+#include <math.h>
+
+/* Impacts on 5 m x 5 m of floor, gathered over some time. */
+typedef struct landed {
+    double water_m3, variance_m6; /* and the variance of the sum, each impact counted as a Poisson event */
+    double number;
+    uint32_t impacts;
+    double *diameters, *weights;
+} landed;
+
+enum { MOST_IMPACTS = 4000000 };
+
+static void gather(const rain_fixture *f, landed *sum)
+{
+    const virga_impact_gpu *list;
+    const virga_impacts_gpu *head = rain_fixture_impacts(f, &list);
+    assert_int_equal(head->dropped, 0);
+    for (uint32_t i = 0; i < head->count; i++) {
+        const float x = list[i].position[0] + head->origin[0], z = list[i].position[2] + head->origin[2];
+        if (fabsf(x) > 2.5f || fabsf(z) > 2.5f || sum->impacts == MOST_IMPACTS)
+            continue;
+        const double volume = virga_drop_volume((double)list[i].diameter_m), weight = (double)list[i].weight;
+        sum->water_m3 += weight * volume;
+        sum->variance_m6 += weight * weight * volume * volume;
+        sum->number += weight;
+        sum->diameters[sum->impacts] = (double)list[i].diameter_m;
+        sum->weights[sum->impacts++] = weight;
+    }
+}
+
+static void run(rain_fixture *f, double rate, double seconds, landed *sum)
+{
+    virga_rain_def def = virga_default_rain_def();
+    def.max_drops = 65536;
+    def.range_m = 16;
+    def.occlusion_size = 512;
+    def.tick_s = 1.0 / 30;
+    def.seed = (uint32_t)rate;
+    rain_fixture_open(f);
+    rain_fixture_floor(f);
+    rain_fixture_rain(f, &def);
+    f->camera[1] = 1.7;
+    f->settings.rate_mm_h = (float)rate;
+    assert_int_equal(virga_rain_set(f->rain, &f->settings), VIRGA_OK);
+    memset(sum, 0, sizeof *sum);
+    sum->diameters = malloc(MOST_IMPACTS * sizeof(double));
+    sum->weights = malloc(MOST_IMPACTS * sizeof(double));
+    for (int step = 0; step < (int)(seconds * 3); step++) {
+        rain_fixture_step(f, 1.0 / 3);
+        gather(f, sum);
+    }
+}
+
+static void finish(rain_fixture *f, landed *sum)
+{
+    free(sum->diameters);
+    free(sum->weights);
+    rain_fixture_close(f);
+}
+
+static void check_rate(double rate)
+{
+    rain_fixture f;
+    landed sum;
+    const double seconds = 60;
+    run(&f, rate, seconds, &sum);
+    const double asked = rate * 1e-3 / 3600 * seconds * 25, noise = sqrt(sum.variance_m6);
+    printf("%g mm/h: %u impacts, %.4f of the water asked for, counting noise %.2f %%\n", rate, sum.impacts,
+           sum.water_m3 / asked, 100 * noise / asked);
+    assert_true(fabs(sum.water_m3 - asked) <= 0.01 * asked + 2.5 * noise);
+    finish(&f, &sum);
+}
+
+static void drizzle_lands_at_its_rate(void **state)
+{
+    (void)state;
+    check_rate(1);
+}
+
+static void heavy_rain_lands_at_its_rate(void **state)
+{
+    (void)state;
+    check_rate(25);
+}
+
+static void a_cloudburst_lands_at_its_rate(void **state)
+{
+    (void)state;
+    check_rate(100);
+}
+
+typedef struct weighted {
+    double diameter, weight;
+} weighted;
+
+static int by_diameter(const void *a, const void *b)
+{
+    const double x = ((const weighted *)a)->diameter, y = ((const weighted *)b)->diameter;
+    return x < y ? -1 : x > y;
+}
+
+/* Kolmogorov and Smirnov with weights: the effective number of samples is (sum w)^2 / sum w^2. */
+static void sizes_follow_the_distribution(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    landed sum;
+    run(&f, 25, 6, &sum);
+    weighted *sorted = malloc(sum.impacts * sizeof *sorted);
+    double squares = 0;
+    for (uint32_t i = 0; i < sum.impacts; i++) {
+        sorted[i] = (weighted){sum.diameters[i], sum.weights[i]};
+        squares += sum.weights[i] * sum.weights[i];
+    }
+    qsort(sorted, sum.impacts, sizeof *sorted, by_diameter);
+    const virga_sizes sizes = {VIRGA_SIZES_MARSHALL_PALMER, NULL, NULL, 0};
+    double below = 0, worst = 0, share = 0, last = -1;
+    for (uint32_t i = 0; i < sum.impacts; i++) {
+        /* Halfway between classes, where a class's share ends. */
+        if (sorted[i].diameter != last)
+            share = virga_sizes_landing_share(&sizes, 25, 0, sorted[i].diameter * 1.00345);
+        last = sorted[i].diameter;
+        below += sorted[i].weight;
+        if (i + 1 == sum.impacts || sorted[i + 1].diameter != last)
+            worst = fmax(worst, fabs(below / sum.number - share));
+    }
+    const double effective = sum.number * sum.number / squares;
+    printf("largest distance %.5f with %.0f effective samples, limit %.5f\n", worst, effective, 1.63 / sqrt(effective));
+    assert_true(worst < 1.63 / sqrt(effective));
+    free(sorted);
+    finish(&f, &sum);
+}
+
+static void impacts_have_the_speed_of_their_size(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    landed sum;
+    run(&f, 25, 1, &sum);
+    const virga_impact_gpu *list;
+    const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
+    assert_true(head->count > 100);
+    for (uint32_t i = 0; i < head->count; i++) {
+        const double speed = virga_drop_terminal_speed((double)list[i].diameter_m, 0);
+        assert_true(fabs((double)-list[i].velocity[1] - speed) < 1e-3 * speed);
+        assert_true(list[i].normal[1] > 0.999f);
+        assert_true(fabsf(list[i].position[1] + head->origin[1]) < 1e-3f);
+        assert_int_equal(list[i].material, 1);
+        assert_true(list[i].time_s >= 0 && list[i].time_s <= (float)head->ticks * head->tick_s);
+    }
+    finish(&f, &sum);
+}
+
+static void water_in_nanolitres_adds_up_to_the_head(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    landed sum;
+    run(&f, 25, 1, &sum);
+    const virga_impact_gpu *list;
+    const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
+    uint64_t water = 0;
+    double exact = 0;
+    for (uint32_t i = 0; i < head->count; i++) {
+        water += list[i].water_nl;
+        exact += virga_drop_volume((double)list[i].diameter_m) * (double)list[i].weight * 1e12;
+    }
+    assert_true(water == ((uint64_t)head->water_nl_high << 32 | head->water_nl_low));
+    assert_true(fabs((double)water - exact) < 4 * sqrt((double)head->count));
+    finish(&f, &sum);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(impacts_have_the_speed_of_their_size),
+        cmocka_unit_test(water_in_nanolitres_adds_up_to_the_head),
+        cmocka_unit_test(sizes_follow_the_distribution),
+        cmocka_unit_test(drizzle_lands_at_its_rate),
+        cmocka_unit_test(heavy_rain_lands_at_its_rate),
+        cmocka_unit_test(a_cloudburst_lands_at_its_rate),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

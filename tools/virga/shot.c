@@ -1,0 +1,390 @@
+/* shot.c - a scene file brought to life: device, meshes, light, rain; and a frame of it as an average of sub-frames. */
+#include "shot.h"
+
+#include "exr.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- loading */
+
+static void take_log(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    shot *s = user;
+    (void)id;
+    if (level == VIRGA_LOG_INFO)
+        return;
+    snprintf(s->warning, sizeof s->warning, "%s", text);
+    if (level == VIRGA_LOG_WARNING)
+        fprintf(stderr, "virga: %s\n", text);
+}
+
+/* A result of the library as an error line; its log said what went wrong. */
+static bool check(const shot *s, virga_result result, const char *what, char *error, size_t error_size)
+{
+    if (result >= 0)
+        return true;
+    return host_fail(error, error_size, "%s: %s%s%s", what, virga_result_name(result), s->warning[0] ? ": " : "",
+                     s->warning);
+}
+
+static bool open_device(shot *s, char *error, size_t error_size)
+{
+    host_device_info infos[HOST_MAX_DEVICES];
+    uint32_t index = 0;
+    if (!host_instance_create(&s->instance, false, error, error_size))
+        return false;
+    const uint32_t count = host_devices_list(&s->instance, infos, HOST_MAX_DEVICES);
+    if (!host_device_pick(infos, count, s->options.device, &index, error, error_size))
+        return false;
+    s->info = infos[index];
+    if (!host_device_create(&s->device, &s->instance, &infos[index], error, error_size))
+        return false;
+    /* Jitter does part of the filtering of textures where there are several sub-frames. */
+    if (s->options.samples >= 4 && s->info.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
+        s->device.anisotropy = 0;
+    virga_context_def def = virga_default_context_def();
+    def.instance = s->instance.instance;
+    def.physical_device = s->device.physical;
+    def.device = s->device.device;
+    def.queue_family = s->device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.frames_in_flight = HOST_FRAMES + 1;
+    def.log = take_log;
+    def.log_user = s;
+    return check(s, virga_context_create(&def, &s->context), "taking the device into use", error, error_size);
+}
+
+/* rotation about X, then Y, then Z of the world, scaled and moved; row-major 3 x 4. */
+static void place_mesh(const scene_mesh *mesh, float out[12])
+{
+    double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int axis = 0; axis < 3; axis++) {
+        const double angle = mesh->rotation_deg[axis] * M_PI / 180, c = cos(angle), sn = sin(angle);
+        const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        for (int column = 0; column < 3; column++) {
+            const double x = m[a][column], y = m[b][column];
+            m[a][column] = c * x - sn * y;
+            m[b][column] = sn * x + c * y;
+        }
+    }
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            out[row * 4 + column] = (float)(m[row][column] * mesh->scale);
+        out[row * 4 + 3] = (float)mesh->position_m[row];
+    }
+}
+
+static bool load_meshes(shot *s, char *error, size_t error_size)
+{
+    s->meshes = calloc(s->scene->mesh_count ? s->scene->mesh_count : 1, sizeof *s->meshes);
+    s->occluders = calloc(SHOT_MAX_OCCLUDERS, sizeof *s->occluders);
+    if (!s->meshes || !s->occluders)
+        return host_fail(error, error_size, "no memory for meshes");
+    for (uint32_t i = 0; i < s->scene->mesh_count; i++) {
+        float transform[12];
+        place_mesh(&s->scene->meshes[i], transform);
+        if (!host_mesh_load(&s->device, s->scene->meshes[i].file, transform, &s->meshes[i], error, error_size))
+            return false;
+        s->meshes_loaded++;
+        const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
+        const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
+        s->occluder_count += more < room ? more : room;
+        if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
+            return false;
+    }
+    return true;
+}
+
+static bool load_environment(shot *s, char *error, size_t error_size)
+{
+    const scene_environment *from = &s->scene->environment;
+    host_environment_def def = host_default_environment();
+    def.rotation_deg = (float)from->rotation_deg;
+    def.intensity = (float)from->intensity;
+    for (int c = 0; c < 3; c++) {
+        def.zenith[c] = (float)from->zenith[c];
+        def.horizon[c] = (float)from->horizon[c];
+        def.ground[c] = (float)from->ground[c];
+    }
+    float *pixels = NULL;
+    if (from->file) {
+        uint64_t repaired = 0;
+        if (!exr_read_rgb(from->file, &def.width, &def.height, &pixels, &repaired, error, error_size))
+            return false;
+        if (repaired)
+            host_warn(&s->device, "%s: %llu values were not finite or below zero and count as 0", from->file,
+                      (unsigned long long)repaired);
+        def.pixels = pixels;
+    }
+    const bool made = host_environment_create(&s->device, &def, &s->environment, error, error_size);
+    free(pixels);
+    return made && (!s->renderer ||
+                    host_renderer_set_environment(s->renderer, &s->environment, error, error_size));
+}
+
+static void load_camera(shot *s)
+{
+    const scene_camera *from = &s->scene->camera;
+    for (uint32_t i = 0; i < from->key_count; i++) {
+        host_camera_key *key = &s->camera_keys[i];
+        key->time_s = from->keys[i].time_s;
+        memcpy(key->position_m, from->keys[i].position_m, sizeof key->position_m);
+        memcpy(key->look_at_m, from->keys[i].look_at_m, sizeof key->look_at_m);
+        key->roll_deg = from->keys[i].roll_deg;
+        key->cut = from->keys[i].cut;
+    }
+    s->path = (host_camera_path){.keys = s->camera_keys,
+                                 .count = from->key_count,
+                                 .fov_deg = from->fov_deg,
+                                 .near_m = from->near_m,
+                                 .far_m = from->far_m};
+}
+
+/* ---- rain */
+
+static void fill_lights(shot *s)
+{
+    s->settings.light_count = s->scene->light_count;
+    for (uint32_t i = 0; i < s->scene->light_count; i++) {
+        const scene_light *from = &s->scene->lights[i];
+        virga_light *to = &s->settings.lights[i];
+        memset(to, 0, sizeof *to);
+        for (int c = 0; c < 3; c++) {
+            to->position_m[c] = from->position_m[c];
+            to->intensity[c] = (float)(from->color[c] * from->intensity_w_sr);
+            to->direction[c] = from->type == SCENE_LIGHT_SPOT ? (float)from->direction[c] : 0;
+        }
+        to->range_m = (float)from->range_m;
+        to->cos_inner = (float)cos(from->inner_deg * M_PI / 180);
+        to->cos_outer = (float)cos(from->outer_deg * M_PI / 180);
+    }
+}
+
+static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error, size_t error_size)
+{
+    const scene_rain *from = &s->scene->rain;
+    s->settings.sizes.kind = (virga_sizes_kind)from->sizes;
+    if (from->sizes != SCENE_SIZES_TABLE)
+        return true;
+    if (from->table_count > 256)
+        return host_fail(error, error_size, "rain.table: expected at most 256 entries, got %u", from->table_count);
+    for (uint32_t i = 0; i < from->table_count; i++) {
+        diameters[i] = from->table[i].diameter_mm * 1e-3;
+        numbers[i] = from->table[i].number;
+    }
+    s->settings.sizes.table_diameter_m = diameters;
+    s->settings.sizes.table_number = numbers;
+    s->settings.sizes.table_count = from->table_count;
+    return true;
+}
+
+/* Settings of a time: what the scene file animates is rate and wind. */
+static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
+{
+    const scene_rain *from = &s->scene->rain;
+    double rate, wind[3], diameters[256], numbers[256];
+    scene_file_weather(s->scene, time_s, &rate, wind);
+    s->settings.rate_mm_h = (float)rate;
+    for (int axis = 0; axis < 3; axis++)
+        s->settings.wind_m_s[axis] = (float)wind[axis];
+    s->settings.air_density = (float)from->air_density;
+    s->settings.transition_s = (float)from->transition_s;
+    s->settings.gust_m_s = (float)from->gust_m_s;
+    s->settings.gust_time_s = (float)from->gust_time_s;
+    s->settings.streak_gain = (float)from->streak_gain;
+    s->settings.light_gain = (float)from->light_gain;
+    s->settings.min_width_px = (float)from->min_width_px;
+    s->settings.soft_m = (float)from->soft_m;
+    s->settings.near_m = (float)from->near_m;
+    s->settings.oscillation = (float)from->oscillation;
+    s->settings.haze = (float)from->haze;
+    s->settings.bodies_min_mm = (float)from->bodies_min_mm;
+    memcpy(s->settings.environment_sh, s->environment.sh, sizeof s->settings.environment_sh);
+    if (!fill_sizes(s, diameters, numbers, error, error_size))
+        return false;
+    return check(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
+}
+
+static bool open_rain(shot *s, char *error, size_t error_size)
+{
+    const scene_rain *from = &s->scene->rain;
+    virga_scene_def def = virga_default_scene_def();
+    def.rain.seed = from->seed;
+    def.rain.max_drops = from->max_drops;
+    def.rain.range_m = (float)from->range_m;
+    def.rain.occlusion_size = from->occlusion_size;
+    def.rain.occlusion_cascades = from->occlusion_cascades;
+    def.rain.occlusion_slants = from->occlusion_slants;
+    def.rain.max_ticks_per_step = 64;
+    /* Ticks divide a frame, so that each frame lies on one. */
+    const double frame_s = 1 / s->scene->frames.fps;
+    def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
+    if (!check(s, virga_scene_create(s->context, &def, &s->rain_scene), "making the rain", error, error_size))
+        return false;
+    s->rain = virga_scene_rain(s->rain_scene);
+    s->settings = virga_default_rain_settings();
+    fill_lights(s);
+    if (!s->options.draw)
+        return true;
+    virga_target_def target = virga_default_target_def();
+    host_target_describe_layer(&s->target, &target);
+    host_renderer_set_lights(s->renderer, s->settings.lights, s->settings.light_count);
+    return check(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
+                 error_size) &&
+           check(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
+}
+
+static bool open_all(shot *s, char *error, size_t error_size)
+{
+    s->camera_keys = calloc(s->scene->camera.key_count, sizeof *s->camera_keys);
+    if (!s->camera_keys)
+        return host_fail(error, error_size, "no memory for the camera's path");
+    load_camera(s);
+    if (!host_camera_path_check(&s->path, error, error_size) || !open_device(s, error, error_size))
+        return false;
+    if (s->options.draw &&
+        (!host_target_create(&s->device, s->options.width, s->options.height, &s->target, error, error_size) ||
+         !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) ||
+         !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
+        return false;
+    return load_meshes(s, error, error_size) && load_environment(s, error, error_size) &&
+           open_rain(s, error, error_size) && set_rain(s, 0, error, error_size);
+}
+
+bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size)
+{
+    memset(s, 0, sizeof *s);
+    s->scene = scene;
+    s->options = *options;
+    s->options.samples = options->samples ? options->samples : 1;
+    s->frame_index = scene->frames.first - 1;
+    if (open_all(s, error, error_size))
+        return true;
+    shot_close(s);
+    return false;
+}
+
+void shot_close(shot *s)
+{
+    char ignored[256];
+    if (s->device.device)
+        host_wait(&s->device, ignored, sizeof ignored);
+    virga_target_destroy(&s->layer);
+    virga_scene_destroy(&s->rain_scene);
+    virga_context_destroy(&s->context);
+    host_renderer_destroy(&s->renderer);
+    host_accumulator_destroy(&s->frame);
+    if (s->device.device) {
+        for (uint32_t i = 0; i < s->meshes_loaded; i++)
+            host_mesh_destroy(&s->device, &s->meshes[i]);
+        host_environment_destroy(&s->device, &s->environment);
+        if (s->target.width)
+            host_target_destroy(&s->device, &s->target);
+        if (s->drops.buffer)
+            host_buffer_destroy(&s->device, &s->drops);
+        host_device_destroy(&s->device);
+    }
+    if (s->instance.instance)
+        host_instance_destroy(&s->instance);
+    free(s->meshes);
+    free(s->occluders);
+    free(s->camera_keys);
+    memset(s, 0, sizeof *s);
+}
+
+/* ---- frames */
+
+double shot_time(const shot *s, uint32_t frame)
+{
+    return (double)(frame - s->scene->frames.first) / s->scene->frames.fps;
+}
+
+static bool begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size)
+{
+    return host_begin_frame(&s->device, cmd, error, error_size) &&
+           check(s, virga_frame_begin(s->context, s->device.frame, s->device.completed), "beginning a frame", error,
+                 error_size);
+}
+
+/* Time passes to the frame: occlusion around its camera, and the ticks of one frame. */
+static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
+{
+    host_camera camera;
+    const double time_s = shot_time(s, frame);
+    host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, &camera);
+    const bool first = s->frame_index + 1 == s->scene->frames.first;
+    virga_scene_frame info = {.dt_s = first ? 0 : 1 / s->scene->frames.fps,
+                              .occluders = s->occluders,
+                              .occluder_count = s->occluder_count};
+    memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
+    if (!set_rain(s, time_s, error, error_size) ||
+        !check(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size))
+        return false;
+    s->frame_index++;
+    return true;
+}
+
+bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
+{
+    while (s->frame_index < frame || s->frame_index + 1 == s->scene->frames.first) {
+        VkCommandBuffer cmd;
+        if (!begin(s, &cmd, error, error_size) || !record_step(s, cmd, s->frame_index + 1, error, error_size) ||
+            !host_submit(&s->device, error, error_size))
+            return false;
+        if (s->frame_index >= frame)
+            break;
+    }
+    return true;
+}
+
+/* One sub-frame: its share of the shutter time, seen with its jitter. The shutter closes at the frame's time. */
+static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
+{
+    const double shutter_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps;
+    const double part_s = shutter_s / s->options.samples;
+    const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
+    const double shot_start = host_camera_shot_start(&s->path, time_s);
+    const uint32_t width = s->options.width, height = s->options.height;
+    float jitter[2];
+    host_camera now, open, frame_ago;
+    host_camera_jitter(sample, s->options.samples, jitter);
+    host_camera_at(&s->path, fmax(close_s, shot_start), width, height, jitter, &now);
+    host_camera_at(&s->path, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
+    host_camera_at(&s->path, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
+
+    VkCommandBuffer cmd;
+    virga_view view = virga_default_view();
+    view.depth = host_target_depth(&s->target);
+    host_camera_view(&now, &open, part_s, &view);
+    const double rain_s = virga_rain_time(s->rain) - (time_s - close_s);
+    if (!begin(s, &cmd, error, error_size))
+        return false;
+    const virga_result prepared = virga_rain_prepare(s->rain, cmd, &view, rain_s);
+    host_renderer_plate(s->renderer, cmd, &s->target, &now, &frame_ago);
+    host_target_begin_layer(&s->target, cmd);
+    const virga_result drawn = prepared < 0 ? prepared : virga_scene_draw(s->rain_scene, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
+    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size) ||
+        !check(s, drawn, "drawing the rain", error, error_size))
+        return false;
+    host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
+    return true;
+}
+
+bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)
+{
+    if (!shot_step(s, frame, error, error_size))
+        return false;
+    const double time_s = shot_time(s, frame);
+    host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, camera);
+    host_accumulator_reset(&s->frame);
+    for (uint32_t sample = 0; sample < s->options.samples; sample++)
+        if (!draw_sample(s, sample, time_s, error, error_size))
+            return false;
+    host_accumulator_finish(&s->frame);
+    return true;
+}

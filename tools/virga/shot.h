@@ -1,0 +1,61 @@
+/* shot.h - a scene file brought to life on a device: what the commands step and draw, frame by frame. */
+#ifndef VIRGA_TOOL_SHOT_H
+#define VIRGA_TOOL_SHOT_H
+
+#include "host.h"
+#include "scene_file.h"
+
+#include <virga/shared/drop.h>
+#include <virga/virga.h>
+
+#define SHOT_MAX_OCCLUDERS 4096
+
+typedef struct shot_options {
+    const char *device;   /* NULL: the best */
+    uint32_t width, height;
+    uint32_t samples;     /* sub-frames averaged, at least 1 */
+    bool draw;            /* false: simulation only */
+} shot_options;
+
+typedef struct shot {
+    const scene_file *scene;
+    shot_options options;
+    host_instance instance;
+    host_device_info info;
+    host_device device;
+    host_target target;
+    host_renderer *renderer;
+    host_environment environment;
+    host_mesh *meshes;
+    uint32_t meshes_loaded;
+    virga_occluder *occluders;
+    uint32_t occluder_count;
+    host_camera_key *camera_keys;
+    host_camera_path path;
+    host_accumulator frame; /* the newest drawn frame */
+
+    virga_context *context;
+    virga_scene *rain_scene;
+    virga_rain *rain;
+    virga_target *layer;
+    virga_rain_settings settings;
+    host_buffer drops, slots_read; /* read-back of the drops, made on first use */
+    uint32_t frame_index;   /* scene frame that the simulation stands at; first - 1 before any */
+    double camera_time_s;   /* of the frame that the simulation stands at */
+    char warning[512];      /* newest line that the library logged as warning or error */
+} shot;
+
+/* Loads everything. On failure nothing is left open and `error` has one line. */
+bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);
+void shot_close(shot *s);
+
+/* Time of a scene frame: the first is 0. The shutter closes then. */
+double shot_time(const shot *s, uint32_t frame);
+
+/* Steps the simulation to a frame, which must not lie behind; draws nothing. */
+bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
+
+/* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */
+bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size);
+
+#endif
