@@ -275,6 +275,27 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     return VIRGA_OK;
 }
 
+virga_result virga_frame_completed(virga_context *context, uint64_t completed_index)
+{
+    if (!context)
+        return VIRGA_ERROR_INVALID;
+    if (completed_index < context->completed_index || completed_index > context->frame_index) {
+        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                      "frame %llu said to be complete, between %llu and %llu expected",
+                      (unsigned long long)completed_index, (unsigned long long)context->completed_index,
+                      (unsigned long long)context->frame_index);
+        return VIRGA_ERROR_INVALID;
+    }
+    context->completed_index = completed_index;
+    for (uint32_t i = 0; i < context->frames_in_flight; i++)
+        if (context->timers[i].count && context->timers[i].frame_index <= completed_index) {
+            virga_timers_collect(context, &context->timers[i]);
+            context->timers[i].count = 0;
+            context->timers[i].reset = false;
+        }
+    return VIRGA_OK;
+}
+
 void virga_memory_get(const virga_context *context, virga_memory_stats *stats)
 {
     if (!stats)

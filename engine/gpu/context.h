@@ -202,6 +202,9 @@ typedef struct virga_pass_scope {
 } virga_pass_scope;
 
 virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
+
+/* The same inside a host's rendering, where no barrier may stand. */
+virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
 void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope);
 
 /* All writes before, in these stages, are seen by all reads and writes after, in those. */

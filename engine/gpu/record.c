@@ -60,7 +60,7 @@ static uint32_t pass_index(virga_context *context, const char *name)
     return context->pass_count++;
 }
 
-virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
 {
     label_begin(context, cmd, name);
     virga_timer_slot *slot = &context->timers[context->ring_slot];
@@ -73,6 +73,19 @@ virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, c
     context->vk.CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, slot->pool, slot->count);
     slot->count += 2;
     return (virga_pass_scope){slot->count - 1};
+}
+
+/* A timestamp between two barriers: without them software Vulkan takes it before the work in front is done, and it
+ * costs little where passes wait for each other anyway. */
+virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+{
+    const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    if (context->timings)
+        virga_barrier(context, cmd, all, 0, all, 0);
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
+    if (context->timings)
+        virga_barrier(context, cmd, all, 0, all, 0);
+    return scope;
 }
 
 void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope)

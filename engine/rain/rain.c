@@ -4,6 +4,7 @@
 #include "shaders/rain_impact_find_comp.spv.h"
 #include "shaders/rain_impact_scan_comp.spv.h"
 #include "shaders/rain_impact_write_comp.spv.h"
+#include "shaders/rain_points_comp.spv.h"
 #include "shaders/rain_prepare_find_comp.spv.h"
 #include "shaders/rain_prepare_scan_comp.spv.h"
 #include "shaders/rain_prepare_write_comp.spv.h"
@@ -126,7 +127,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
     const VkDeviceSize maps = (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades *
                               def.occlusion_slants;
-    return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + (def.wind_texture ? 40 : 0)) +
+    return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
            slots / VIRGA_RAIN_GROUP * PICK_BYTES + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * rain_tick_bytes() +
@@ -158,6 +159,7 @@ static virga_result create_state_buffers(virga_rain *rain)
         {&rain->index_buffer, (VkDeviceSize)rain->def.max_streaks * 6 * sizeof(uint32_t),
          storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "rain.indices"},
         {&rain->sway_buffer, rain->def.wind_texture ? rain->slots * sizeof(virga_sway_gpu) : 0, storage, "rain.sways"},
+        {&rain->point_buffer, rain->def.points ? rain->slots * sizeof(virga_point_gpu) : 0, storage, "rain.points"},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
         if (wanted[i].size)
@@ -249,6 +251,7 @@ static virga_result create_passes(virga_rain *rain)
         {&rain->prepare_find, VIRGA_SPIRV(rain_prepare_find_comp), "rain.prepare_find"},
         {&rain->prepare_scan, VIRGA_SPIRV(rain_prepare_scan_comp), "rain.prepare_scan"},
         {&rain->prepare_write, VIRGA_SPIRV(rain_prepare_write_comp), "rain.prepare_write"},
+        {&rain->points, VIRGA_SPIRV(rain_points_comp), "rain.points"},
     };
     for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
         TRY(virga_compute_pipeline_create(rain->context, passes[i].shader, rain->layout, passes[i].name,
@@ -333,13 +336,13 @@ void virga_rain_destroy(virga_rain **rain)
     rain_targets_destroy(dying);
     virga_pipeline **pipelines[] = {&dying->step,         &dying->sway,         &dying->impact_find,
                                     &dying->impact_scan,  &dying->impact_write, &dying->prepare_find,
-                                    &dying->prepare_scan, &dying->prepare_write};
+                                    &dying->prepare_scan, &dying->prepare_write, &dying->points};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
     virga_buffer **buffers[] = {&dying->slot_buffer,   &dying->slot_upload,  &dying->drop_buffer, &dying->impact_buffer,
                                 &dying->pick_buffer,   &dying->streak_buffer, &dying->prepared_buffer,
                                 &dying->sway_buffer,   &dying->index_buffer, &dying->index_upload, &dying->tick_ring,
-                                &dying->view_ring,     &dying->readback_ring};
+                                &dying->view_ring,     &dying->readback_ring, &dying->point_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->blank);
@@ -537,10 +540,11 @@ void virga_rain_drops(const virga_rain *rain, virga_rain_buffer *drops, uint32_t
         memcpy(origin_m, rain->origin, sizeof rain->origin);
 }
 
-void virga_rain_stats_get(const virga_rain *rain, virga_rain_stats *stats)
+void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats)
 {
     if (!rain || !stats)
         return;
+    rain_take_statistics(rain);
     *stats = rain->stats;
     stats->slots = rain->slots;
     stats->bodies_radius_m = (float)rain_classes_bodies_radius(rain->classes);

@@ -23,6 +23,7 @@ static const binding bindings[RAIN_BINDINGS] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ALL_STAGES},                      /* 10 occlusion surface */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},     /* 11 wind */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},    /* 12 scene depth */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 13 points */
 };
 
 static virga_result create_layouts(virga_rain *rain)
@@ -53,7 +54,7 @@ static virga_result create_sets(virga_rain *rain)
     virga_context *context = rain->context;
     const uint32_t sets = context->frames_in_flight * RAIN_SETS;
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, 2 * sets},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 7 * sets},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * sets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * sets}};
     const VkDescriptorPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                                   .maxSets = sets,
@@ -121,10 +122,11 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 {
     virga_context *context = rain->context;
     const VkDescriptorSet set = rain->sets[context->ring_slot][index];
-    const virga_buffer *const buffers[9] = {rain->tick_ring,     rain->view_ring,   rain->slot_buffer,
+    const virga_buffer *const buffers[10] = {rain->tick_ring,     rain->view_ring,   rain->slot_buffer,
                                             rain->drop_buffer,   rain->impact_buffer, rain->pick_buffer,
                                             rain->prepared_buffer, rain->streak_buffer,
-                                            rain->sway_buffer ? rain->sway_buffer : rain->prepared_buffer};
+                                            rain->sway_buffer ? rain->sway_buffer : rain->prepared_buffer,
+                                            rain->point_buffer ? rain->point_buffer : rain->prepared_buffer};
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const bool wind = rain->settings.wind_texture != NULL;
     const VkDescriptorImageInfo images[4] = {
@@ -135,7 +137,8 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
          wind ? rain->wind_image.before.layout : read_only},
         {rain->nearest, scene_depth ? scene_depth->view : rain->blank->layer_views[0],
          scene_depth ? scene_depth->before.layout : read_only}};
-    VkDescriptorBufferInfo buffer_infos[9];
+    VkDescriptorBufferInfo buffer_infos[10];
+    uint32_t next_buffer = 0, next_image = 0;
     VkWriteDescriptorSet writes[RAIN_BINDINGS];
     for (uint32_t i = 0; i < RAIN_BINDINGS; i++) {
         writes[i] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -143,12 +146,12 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
                                            .dstBinding = i,
                                            .descriptorCount = 1,
                                            .descriptorType = bindings[i].type};
-        if (i < 9) {
-            const VkDeviceSize range = i == 0 ? rain_tick_bytes() : i == 1 ? rain_view_bytes() : VK_WHOLE_SIZE;
-            buffer_infos[i] = (VkDescriptorBufferInfo){buffers[i]->buffer, 0, range};
-            writes[i].pBufferInfo = &buffer_infos[i];
+        if (bindings[i].type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) {
+            writes[i].pImageInfo = &images[next_image++];
         } else {
-            writes[i].pImageInfo = &images[i - 9];
+            const VkDeviceSize range = i == 0 ? rain_tick_bytes() : i == 1 ? rain_view_bytes() : VK_WHOLE_SIZE;
+            buffer_infos[next_buffer] = (VkDescriptorBufferInfo){buffers[next_buffer]->buffer, 0, range};
+            writes[i].pBufferInfo = &buffer_infos[next_buffer++];
         }
     }
     context->vk.UpdateDescriptorSets(context->device, RAIN_BINDINGS, writes, 0, NULL);

@@ -348,12 +348,12 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);
     if (rain->prepared_haze) {
-        const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.haze");
+        const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.haze");
         context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, found->haze->pipeline);
         context->vk.CmdDraw(cmd, 3, 1, 0, 0);
         virga_pass_end(context, cmd, scope);
     }
-    const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.streaks");
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, found->streaks->pipeline);
     context->vk.CmdBindIndexBuffer(cmd, rain->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     context->vk.CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, 0, 1, sizeof(virga_prepared_gpu));

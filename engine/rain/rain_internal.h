@@ -81,7 +81,7 @@ typedef struct rain_target {
     virga_pipeline *streaks, *haze;
 } rain_target;
 
-enum { RAIN_BINDINGS = 13, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
+enum { RAIN_BINDINGS = 14, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
 /* What the statistics ring reads back for one frame. */
 typedef struct rain_readback {
@@ -115,7 +115,8 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *streak_buffer,
-        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload;
+        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload,
+        *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
     virga_image_2d *map_depth, *map_surface;
     virga_image_2d *blank;         /* depth, for the scene depth that a view has not */
@@ -139,7 +140,8 @@ struct virga_rain {
     VkDescriptorSet sets[VIRGA_MAX_FRAMES_IN_FLIGHT][RAIN_SETS];
     uint64_t step_set_frame;
     VkSampler nearest, linear;
-    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan, *prepare_write;
+    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan, *prepare_write,
+        *points;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
 
     uint64_t ring_frame;           /* frame that the ring cursors below belong to */
@@ -170,6 +172,7 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
 
 /* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
+void rain_take_statistics(virga_rain *rain);
 
 /* ---- rain_occlusion.c */
 virga_result rain_occlusion_create(virga_rain *rain);

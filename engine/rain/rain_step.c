@@ -22,15 +22,11 @@ uint32_t rain_tick_bytes(void)
 
 /* ---- a frame's start */
 
-static void take_statistics(virga_rain *rain)
+static void take_slot(virga_rain *rain, uint32_t slot)
 {
-    rain_frame_stats *frame = &rain->frame_stats[rain->context->ring_slot];
-    if (!frame->frame_index || frame->frame_index > rain->context->completed_index)
-        return;
-    virga_buffer_invalidate(rain->context, rain->readback_ring);
+    rain_frame_stats *frame = &rain->frame_stats[slot];
     rain_readback read;
-    memcpy(&read, (const char *)rain->readback_ring->memory.block.mapped +
-                      rain->context->ring_slot * sizeof read, sizeof read);
+    memcpy(&read, (const char *)rain->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
     virga_rain_stats *stats = &rain->stats;
     stats->frame_index = frame->frame_index;
     stats->slots = rain->slots;
@@ -52,6 +48,25 @@ static void take_statistics(virga_rain *rain)
                       "%u impacts of a step found no room; max_impacts is %u", stats->impacts_dropped,
                       rain->def.max_impacts);
     memset(frame, 0, sizeof *frame);
+}
+
+/* Takes in what completed frames have left in the ring, oldest first. */
+void rain_take_statistics(virga_rain *rain)
+{
+    const virga_context *context = rain->context;
+    virga_buffer_invalidate(rain->context, rain->readback_ring);
+    for (;;) {
+        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
+        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
+            const uint64_t index = rain->frame_stats[i].frame_index;
+            if (index && index <= context->completed_index &&
+                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || index < rain->frame_stats[oldest].frame_index))
+                oldest = i;
+        }
+        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
+            return;
+        take_slot(rain, oldest);
+    }
 }
 
 /* Images that nothing has been drawn into yet get the layout that descriptors promise. */
@@ -101,7 +116,7 @@ void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd)
     rain->ring_frame = context->frame_index;
     rain->ring_ticks = 0;
     rain->ring_views = 0;
-    take_statistics(rain);
+    rain_take_statistics(rain);
 }
 
 /* ---- a tick */
@@ -321,6 +336,36 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     frame->ticks = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
+    return VIRGA_OK;
+}
+
+virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points, uint32_t *count,
+                               double origin_m[3])
+{
+    if (!rain)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = rain->context;
+    if (!cmd || !points || !count || !origin_m)
+        return virga_wrong_argument(&context->log, "virga_rain_points: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!rain->point_buffer || !rain->stepped || rain->ring_frame != context->frame_index)
+        return VIRGA_NOT_READY;
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->sets[context->ring_slot][RAIN_STEP_SET]);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.points");
+    dispatch(rain, cmd, rain->points, rain->groups);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    virga_pass_end(context, cmd, scope);
+    *points = (virga_rain_buffer){rain->point_buffer->buffer, 0, rain->point_buffer->size};
+    *count = rain->slots;
+    memcpy(origin_m, rain->origin, sizeof rain->origin);
     return VIRGA_OK;
 }
 

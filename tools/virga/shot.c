@@ -219,6 +219,7 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     def.rain.occlusion_cascades = from->occlusion_cascades;
     def.rain.occlusion_slants = from->occlusion_slants;
     def.rain.max_ticks_per_step = 64;
+    def.rain.points = s->options.points;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
@@ -283,8 +284,8 @@ void shot_close(shot *s)
         host_environment_destroy(&s->device, &s->environment);
         if (s->target.width)
             host_target_destroy(&s->device, &s->target);
-        if (s->drops.buffer)
-            host_buffer_destroy(&s->device, &s->drops);
+        if (s->points_read.buffer)
+            host_buffer_destroy(&s->device, &s->points_read);
         host_device_destroy(&s->device);
     }
     if (s->instance.instance)
@@ -309,6 +310,59 @@ static bool begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size)
                  error_size);
 }
 
+/* Copies the drops of the step just recorded to where the host reads them. */
+static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    virga_rain_buffer points;
+    if (!check(s, virga_rain_points(s->rain, cmd, &points, &s->point_count, s->points_origin), "reading drops", error,
+               error_size))
+        return false;
+    if (!s->points_read.buffer &&
+        !host_buffer_create(&s->device, points.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
+                            "points read", &s->points_read, error, error_size))
+        return false;
+    const VkBufferCopy copy = {points.offset, 0, points.size};
+    const VkMemoryBarrier before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                    .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkMemoryBarrier after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0,
+                         NULL);
+    vkCmdCopyBuffer(cmd, points.buffer, s->points_read.buffer, 1, &copy);
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0, NULL);
+    return true;
+}
+
+bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, size_t error_size)
+{
+    *points = NULL;
+    *count = 0;
+    if (!s->points_read.buffer || !host_wait(&s->device, error, error_size))
+        return host_fail(error, error_size, "no drops were read back");
+    host_buffer_invalidate(&s->device, &s->points_read);
+    shot_point *kept = malloc((size_t)s->point_count * sizeof *kept + 1);
+    if (!kept)
+        return host_fail(error, error_size, "no memory for %u drops", s->point_count);
+    const virga_point_gpu *from = s->points_read.mapped;
+    for (uint32_t i = 0; i < s->point_count; i++) {
+        if (from[i].weight <= 0)
+            continue;
+        shot_point *to = &kept[(*count)++];
+        for (int axis = 0; axis < 3; axis++) {
+            to->position[axis] = (float)((double)from[i].position[axis] + s->points_origin[axis]);
+            to->velocity[axis] = from[i].velocity[axis];
+        }
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->id = from[i].id;
+        to->age_s = from[i].age_s;
+        to->weight = from[i].weight;
+    }
+    *points = kept;
+    return true;
+}
+
 /* Time passes to the frame: occlusion around its camera, and the ticks of one frame. */
 static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
 {
@@ -324,7 +378,7 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
         !check(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size))
         return false;
     s->frame_index++;
-    return true;
+    return !s->options.points || record_points(s, cmd, error, error_size);
 }
 
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)

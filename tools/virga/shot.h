@@ -15,6 +15,7 @@ typedef struct shot_options {
     uint32_t width, height;
     uint32_t samples;     /* sub-frames averaged, at least 1 */
     bool draw;            /* false: simulation only */
+    bool points;          /* the drops of each stepped frame are read back */
 } shot_options;
 
 typedef struct shot {
@@ -39,11 +40,20 @@ typedef struct shot {
     virga_rain *rain;
     virga_target *layer;
     virga_rain_settings settings;
-    host_buffer drops, slots_read; /* read-back of the drops, made on first use */
+    host_buffer points_read; /* of the drops, made on first use */
+    uint32_t point_count;
+    double points_origin[3];
     uint32_t frame_index;   /* scene frame that the simulation stands at; first - 1 before any */
     double camera_time_s;   /* of the frame that the simulation stands at */
     char warning[512];      /* newest line that the library logged as warning or error */
 } shot;
+
+/* One drop of the point cache. */
+typedef struct shot_point {
+    float position[3], velocity[3], radius_m;
+    uint32_t id;
+    float age_s, weight;
+} shot_point;
 
 /* Loads everything. On failure nothing is left open and `error` has one line. */
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);
@@ -57,5 +67,9 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
 
 /* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size);
+
+/* The drops of the frame that the simulation stands at, under the open sky, in the world: an array to free(). Needs
+ * options.points. */
+bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, size_t error_size);
 
 #endif

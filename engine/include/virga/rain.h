@@ -14,6 +14,7 @@
 
 #include <virga/drops.h>
 #include <virga/shared/impact.h>
+#include <virga/shared/point.h>
 #include <virga/shared/rain_limits.h>
 #include <virga/vulkan.h>
 
@@ -43,6 +44,7 @@ typedef struct virga_rain_def {
                                 * Memory: 8 bytes x size^2 x cascades x slants. Default 2 */
     uint32_t occluder_strides[4]; /* the vertex strides (bytes) that occluders will have: a pipeline each, as Vulkan 1.2
                             * fixes strides there. 0: unused. Default 12, 32, 0, 0 */
+    bool points;           /* room for virga_rain_points: 48 bytes a slot. Default false */
     bool wind_texture;     /* room to integrate drops in a host's 3D wind. Default false */
 } virga_rain_def;
 
@@ -205,7 +207,13 @@ VIRGA_API void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *imp
  * relative to `origin_m`. */
 VIRGA_API void virga_rain_drops(const virga_rain *rain, virga_rain_buffer *drops, uint32_t *count, double origin_m[3]);
 
-/* Newest statistics, late by the frames in flight. */
+/* Writes every slot's drop in full (virga/shared/point.h: velocity, size, weight, whether it is under cover), relative
+ * to `origin_m`, and leaves the buffer ready to be read by transfers, compute and vertex shaders. Outside rendering,
+ * after a step, in the frame of that step. VIRGA_NOT_READY without def.points or before the first step. */
+VIRGA_API virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points,
+                                         uint32_t *count, double origin_m[3]);
+
+/* Newest statistics of completed frames: late by the frames in flight, see virga_frame_completed. */
 typedef struct virga_rain_stats {
     uint64_t frame_index;    /* frame they were recorded in; 0: none yet */
     double time_s;           /* simulated */
@@ -220,7 +228,7 @@ typedef struct virga_rain_stats {
     float wind_m_s[3];       /* wind of the newest tick, gust included */
 } virga_rain_stats;
 
-VIRGA_API void virga_rain_stats_get(const virga_rain *rain, virga_rain_stats *stats);
+VIRGA_API void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats);
 
 #ifdef __cplusplus
 }

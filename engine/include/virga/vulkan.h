@@ -120,6 +120,11 @@ VIRGA_API void virga_context_destroy(virga_context **context);
  * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. */
 VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index);
 
+/* Says between frames that a frame has completed, for hosts that wait for their device (an offline renderer): timings and
+ * statistics of that frame are then there at once. Frees nothing. `completed_index` must not fall, nor pass the newest
+ * frame begun (VIRGA_ERROR_INVALID). */
+VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t completed_index);
+
 /* The pipeline cache: call with data NULL for the size, then with a buffer of *size bytes. */
 VIRGA_API virga_result virga_pipeline_cache_get(virga_context *context, size_t *size, void *data);
 

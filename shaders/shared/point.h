@@ -1,0 +1,28 @@
+/* point.h - a drop with all that is known about it: what point caches and hosts' own renderers read. */
+#ifndef VIRGA_SHARED_POINT_H
+#define VIRGA_SHARED_POINT_H
+
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_point_gpu virga_point_gpu;
+#endif
+
+/* One drop, 48 bytes. */
+struct virga_point_gpu {
+    float position[3]; /* m, relative to the origin of the step */
+    float diameter_m;
+    float velocity[3]; /* m/s */
+    float weight;      /* drops that it stands for; 0: none here, the slot is not in use or under cover */
+    uint id;
+    float age_s;       /* how long it has been falling through its box at its present speed */
+    uint pad[2];
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_point_gpu, 48);
+#undef uint
+#endif
+
+#endif

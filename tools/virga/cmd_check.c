@@ -1,0 +1,87 @@
+/* cmd_check.c - `virga check`: whether a scene file can be rendered, before a farm finds out. */
+#include "commands.h"
+#include "options.h"
+
+#include "exr.h"
+#include "scene_file.h"
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const option_row rows[] = {
+    {"--set", 0, "KEY=VALUE", "override a key before the check, e.g. rain.rate_mm_h=50; may be given often", true},
+};
+
+void check_help(void)
+{
+    printf("virga check SCENE.yaml [--set KEY=VALUE]...\n\n"
+           "Reads a scene file as `virga render` would: every key, type, range and unit, and every mesh and picture that\n"
+           "it names. Prints what is in it, or one line with file, line and key of the first thing that is wrong.\n\n");
+    options_print(rows, sizeof rows / sizeof rows[0]);
+}
+
+static bool check_mesh(const char *path)
+{
+    const struct aiScene *model = aiImportFile(path, 0);
+    if (!model)
+        return options_complain("check", "%s: %s", path, aiGetErrorString());
+    unsigned triangles = 0;
+    for (unsigned i = 0; i < model->mNumMeshes; i++)
+        triangles += model->mMeshes[i]->mNumFaces;
+    printf("  mesh         %s: %u meshes, %u faces\n", path, model->mNumMeshes, triangles);
+    aiReleaseImport(model);
+    return triangles > 0 || options_complain("check", "%s: has no faces", path);
+}
+
+static bool check_environment(const char *path)
+{
+    uint32_t width, height;
+    float *pixels;
+    char error[1024];
+    if (!path)
+        return true;
+    if (!exr_read_rgb(path, &width, &height, &pixels, NULL, error, sizeof error))
+        return options_complain("check", "%s", error);
+    printf("  environment  %s: %u x %u\n", path, width, height);
+    free(pixels);
+    return true;
+}
+
+static bool check_files(const scene_file *scene)
+{
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        if (!check_mesh(scene->meshes[i].file))
+            return false;
+    return check_environment(scene->environment.file);
+}
+
+int check_run(int argc, char **argv)
+{
+    options parsed;
+    scene_file *scene;
+    char error[1024];
+    if (!options_parse(&parsed, "check", rows, sizeof rows / sizeof rows[0], argc, argv))
+        return EXIT_USAGE;
+    if (parsed.argument_count != 1) {
+        options_complain("check", "expected one scene file; see virga help check");
+        return EXIT_USAGE;
+    }
+    if (!scene_file_load(parsed.arguments[0], parsed.repeated, parsed.repeated_count, &scene, error, sizeof error)) {
+        fprintf(stderr, "%s\n", error);
+        return EXIT_USAGE;
+    }
+    printf("%s\n", parsed.arguments[0]);
+    printf("  frames       %u to %u at %g a second, %u x %u\n", scene->frames.first, scene->frames.last,
+           scene->frames.fps, scene->frames.size[0], scene->frames.size[1]);
+    printf("  rain         %g mm/h, %u drops, seed %u\n", scene->rain.rate_mm_h, scene->rain.max_drops,
+           scene->rain.seed);
+    printf("  lights       %u\n", scene->light_count);
+    const bool good = check_files(scene);
+    scene_file_free(scene);
+    if (good)
+        printf("good\n");
+    return good ? EXIT_OK : EXIT_USAGE;
+}

@@ -1,0 +1,254 @@
+/* cmd_render.c - `virga render`: a scene's frames to disk, each whole or absent. */
+#include "commands.h"
+#include "frame_files.h"
+#include "options.h"
+#include "progress.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const option_row rows[] = {
+    {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
+    {"--frames", 0, "A-B", "frames to draw; the simulation is stepped up to A without drawing. Default: the scene's", false},
+    {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
+    {"--samples", 0, "N", "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
+                          "Default 1; 16 for film", false},
+    {"--layers", 0, "A,B", "of beauty, depth, rain, velocity, normal, id. Default: all", false},
+    {"--points", 0, NULL, "also write rain.%04d.ply, a point cache of the drops", false},
+    {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, water, milliseconds", false},
+    {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
+    {"--resume", 0, NULL, "keep frames that are there already and go on behind them", false},
+    {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
+    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
+};
+
+#define ROW_COUNT (sizeof rows / sizeof rows[0])
+
+void render_help(void)
+{
+    printf("virga render SCENE.yaml -o DIR [options]\n\n"
+           "Renders a scene to DIR/frame.%%04d.exr: the beauty (R G B A: rain over the plate), the rain alone as a\n"
+           "premultiplied layer (rain.RGBA), depth in metres (Z), velocity in pixels a frame, normals and object ids.\n"
+           "The same scene, seed and frame give the same file, however many frames are rendered before it.\n\n");
+    options_print(rows, ROW_COUNT);
+    printf("\nExamples:\n"
+           "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
+           "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
+           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n\n"
+           "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk full,\n"
+           "device lost; finished frames are kept), 2 wrong command line or scene, 130 interrupted.\n");
+}
+
+typedef struct render_job {
+    options parsed;
+    scene_file *scene;
+    shot shot;
+    shot_options how;
+    const char *directory;
+    uint32_t frames[2], layers;
+    bool points, stats, preview, resume;
+    jsonl stats_file;
+    bool stats_open;
+    uint32_t written;
+    char error[1024];
+} render_job;
+
+static bool read_options(render_job *job, int argc, char **argv)
+{
+    if (!options_parse(&job->parsed, "render", rows, ROW_COUNT, argc, argv))
+        return false;
+    if (job->parsed.argument_count != 1)
+        return options_complain("render", "expected one scene file, got %zu; see virga help render",
+                                job->parsed.argument_count);
+    job->directory = options_value(&job->parsed, "--output");
+    if (!job->directory)
+        return options_complain("render", "expected -o DIR, the folder for the files");
+    job->points = options_value(&job->parsed, "--points");
+    job->stats = options_value(&job->parsed, "--stats");
+    job->preview = options_value(&job->parsed, "--preview");
+    job->resume = options_value(&job->parsed, "--resume");
+    return frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
+}
+
+/* Loads the scene with what the command line overrides. --seed is one more override, so it is in the hash. */
+static bool load_scene(render_job *job)
+{
+    const char *overrides[258];
+    char seed[64];
+    uint32_t seed_value = 0;
+    size_t count = job->parsed.repeated_count;
+    memcpy(overrides, job->parsed.repeated, count * sizeof overrides[0]);
+    if (options_value(&job->parsed, "--seed")) {
+        if (!options_uint(&job->parsed, "--seed", 0, UINT32_MAX, &seed_value))
+            return false;
+        snprintf(seed, sizeof seed, "rain.seed=%u", seed_value);
+        overrides[count++] = seed;
+    }
+    if (!scene_file_load(job->parsed.arguments[0], overrides, count, &job->scene, job->error, sizeof job->error)) {
+        fprintf(stderr, "%s\n", job->error);
+        return false;
+    }
+    return true;
+}
+
+static bool read_ranges(render_job *job)
+{
+    const scene_frames *frames = &job->scene->frames;
+    uint32_t size[2] = {frames->size[0], frames->size[1]};
+    job->frames[0] = frames->first;
+    job->frames[1] = frames->last;
+    job->how.samples = 1;
+    if (!options_pair(&job->parsed, "--frames", '-', true, frames->first, 999999, job->frames) ||
+        !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size) ||
+        !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples))
+        return false;
+    if (job->frames[1] < job->frames[0])
+        return options_complain("render", "--frames: expected A-B with A before B, got %u-%u", job->frames[0],
+                                job->frames[1]);
+    job->how.width = size[0];
+    job->how.height = size[1];
+    job->how.draw = true;
+    job->how.points = job->points;
+    job->how.device = options_value(&job->parsed, "--device");
+    return true;
+}
+
+static bool fail(render_job *job)
+{
+    return options_complain("render", "%s", job->error);
+}
+
+static bool make_directory(render_job *job)
+{
+    struct stat about;
+    if (mkdir(job->directory, 0777) && errno != EEXIST)
+        return options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
+    if (stat(job->directory, &about) || !S_ISDIR(about.st_mode))
+        return options_complain("render", "%s is not a folder", job->directory);
+    if (access(job->directory, W_OK))
+        return options_complain("render", "cannot write into %s: %s", job->directory, strerror(errno));
+    return true;
+}
+
+static bool open_stats(render_job *job)
+{
+    char path[4096];
+    if (!job->stats)
+        return true;
+    snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
+    job->stats_open = jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error,
+                                 sizeof job->error);
+    return job->stats_open || fail(job);
+}
+
+/* A frame's EXR is written last, so it being there means that the frame is whole. */
+static bool is_there(const render_job *job, uint32_t frame)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/frame.%04u.exr", job->directory, frame);
+    return access(path, F_OK) == 0;
+}
+
+static bool write_frame(render_job *job, uint32_t frame)
+{
+    host_camera camera;
+    shot *s = &job->shot;
+    char *error = job->error;
+    const size_t size = sizeof job->error;
+    if (!shot_draw(s, frame, &camera, error, size))
+        return false;
+    virga_frame_completed(s->context, s->device.completed);
+    if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
+        (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
+        (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
+        !frame_write_exr(s, &camera, job->directory, frame, job->layers, job->scene->rain.seed, error, size))
+        return false;
+    job->written++;
+    return true;
+}
+
+static int render_frames(render_job *job)
+{
+    progress bar;
+    progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
+    for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
+        const bool skip = job->resume && is_there(job, frame);
+        if (!skip && !write_frame(job, frame)) {
+            progress_end(&bar);
+            fail(job);
+            options_complain("render", "%u finished frames are kept in %s", job->written, job->directory);
+            return EXIT_FAILED;
+        }
+        progress_step(&bar, skip ? "(there already)" : NULL);
+        if (interrupt_asked()) {
+            progress_end(&bar);
+            options_complain("render", "interrupted: %u frames are in %s; --resume goes on behind frame %u",
+                             job->written, job->directory, frame);
+            return EXIT_INTERRUPTED;
+        }
+    }
+    progress_end(&bar);
+    return EXIT_OK;
+}
+
+/* The previews as a film, where ffmpeg is installed. A film that can not be made is said, but is no failure. */
+static void make_film(const render_job *job)
+{
+    char pattern[4096], film[4096], fps[32], first[32];
+    snprintf(pattern, sizeof pattern, "%s/preview.%%04d.png", job->directory);
+    snprintf(film, sizeof film, "%s/preview.mp4", job->directory);
+    snprintf(fps, sizeof fps, "%g", job->scene->frames.fps);
+    snprintf(first, sizeof first, "%u", job->frames[0]);
+    const pid_t child = fork();
+    if (child == 0) {
+        execlp("ffmpeg", "ffmpeg", "-loglevel", "error", "-y", "-nostdin", "-framerate", fps, "-start_number", first,
+               "-i", pattern, "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "16", film,
+               (char *)NULL);
+        _exit(127);
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) < 0)
+        return;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        fprintf(stderr, "no ffmpeg: previews stay single pictures\n");
+    else if (status)
+        fprintf(stderr, "ffmpeg could not make %s\n", film);
+}
+
+static int render_scene(render_job *job)
+{
+    if (!make_directory(job) || !open_stats(job))
+        return EXIT_FAILED;
+    if (!shot_open(&job->shot, job->scene, &job->how, job->error, sizeof job->error)) {
+        fail(job);
+        return EXIT_FAILED;
+    }
+    fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0], job->frames[1],
+            job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
+    const int code = render_frames(job);
+    shot_close(&job->shot);
+    if (code == EXIT_OK && job->preview && job->frames[1] > job->frames[0])
+        make_film(job);
+    return code;
+}
+
+int render_run(int argc, char **argv)
+{
+    render_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return EXIT_FAILED;
+    int code = EXIT_USAGE;
+    if (read_options(job, argc, argv) && load_scene(job) && read_ranges(job))
+        code = render_scene(job);
+    if (job->stats_open)
+        jsonl_close(&job->stats_file);
+    scene_file_free(job->scene);
+    free(job);
+    return code;
+}

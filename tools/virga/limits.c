@@ -1,0 +1,282 @@
+/* limits.c - copy, bare kernel, dispatch and fill on the device of the bench. */
+#include "limits.h"
+
+#include "progress.h"
+
+#include "bare_comp.spv.h"
+#include "fill_frag.spv.h"
+#include "fill_vert.spv.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define EMPTY_DISPATCHES 200
+
+struct limits {
+    uint32_t groups;
+    host_buffer from, to;
+    VkDescriptorSetLayout set_layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkPipelineLayout layout, fill_layout;
+    VkPipeline bare, fill;
+};
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+double bench_median(double *values, size_t count)
+{
+    qsort(values, count, sizeof values[0], by_value);
+    return count ? values[count / 2] : 0;
+}
+
+static bool module(host_device *device, const uint32_t *code, size_t size, VkShaderModule *made, char *error,
+                   size_t error_size)
+{
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
+    HOST_TRY(vkCreateShaderModule(device->device, &info, NULL, made));
+    return true;
+}
+
+static bool create_set(host_device *device, limits *l, char *error, size_t error_size)
+{
+    VkDescriptorSetLayoutBinding bindings[2];
+    for (uint32_t i = 0; i < 2; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                                                     VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    const VkDescriptorSetLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                    .bindingCount = 2,
+                                                    .pBindings = bindings};
+    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &layout, NULL, &l->set_layout));
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = 1,
+                                             .poolSizeCount = 1,
+                                             .pPoolSizes = &size};
+    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &l->pool));
+    const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                  .descriptorPool = l->pool,
+                                                  .descriptorSetCount = 1,
+                                                  .pSetLayouts = &l->set_layout};
+    HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &l->set));
+    const VkDescriptorBufferInfo infos[2] = {{l->from.buffer, 0, VK_WHOLE_SIZE}, {l->to.buffer, 0, VK_WHOLE_SIZE}};
+    VkWriteDescriptorSet writes[2];
+    for (uint32_t i = 0; i < 2; i++)
+        writes[i] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                           .dstSet = l->set,
+                                           .dstBinding = i,
+                                           .descriptorCount = 1,
+                                           .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                           .pBufferInfo = &infos[i]};
+    vkUpdateDescriptorSets(device->device, 2, writes, 0, NULL);
+    return true;
+}
+
+static bool create_bare(host_device *device, limits *l, char *error, size_t error_size)
+{
+    VkShaderModule shader;
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 1,
+                                               .pSetLayouts = &l->set_layout};
+    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->layout));
+    if (!module(device, bare_comp_spv, sizeof bare_comp_spv, &shader, error, error_size))
+        return false;
+    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                        .module = shader,
+                                                        .pName = "main"},
+                                              .layout = l->layout};
+    const VkResult made = vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &l->bare);
+    vkDestroyShaderModule(device->device, shader, NULL);
+    HOST_TRY(made);
+    return true;
+}
+
+static VkResult make_fill(host_device *device, limits *l, const host_target *target, const VkShaderModule shaders[2])
+{
+    VkPipelineShaderStageCreateInfo stages[2];
+    for (int i = 0; i < 2; i++)
+        stages[i] = (VkPipelineShaderStageCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
+            .module = shaders[i],
+            .pName = "main"};
+    const VkViewport viewport = {0, 0, (float)target->width, (float)target->height, 0, 1};
+    const VkRect2D scissor = {{0, 0}, {target->width, target->height}};
+    const VkPipelineVertexInputStateCreateInfo input = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkPipelineInputAssemblyStateCreateInfo assembly = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo views = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+                                                     .viewportCount = 1,
+                                                     .pViewports = &viewport,
+                                                     .scissorCount = 1,
+                                                     .pScissors = &scissor};
+    const VkPipelineRasterizationStateCreateInfo raster = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo samples = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = 1};
+    const VkPipelineColorBlendAttachmentState attachment = {.colorWriteMask = 15};
+    const VkPipelineColorBlendStateCreateInfo blend = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment};
+    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                               .stageCount = 2,
+                                               .pStages = stages,
+                                               .pVertexInputState = &input,
+                                               .pInputAssemblyState = &assembly,
+                                               .pViewportState = &views,
+                                               .pRasterizationState = &raster,
+                                               .pMultisampleState = &samples,
+                                               .pColorBlendState = &blend,
+                                               .layout = l->fill_layout,
+                                               .renderPass = target->layer_pass};
+    return vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &l->fill);
+}
+
+static bool create_fill(host_device *device, limits *l, const host_target *target, char *error, size_t error_size)
+{
+    VkShaderModule shaders[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->fill_layout));
+    const bool made = module(device, fill_vert_spv, sizeof fill_vert_spv, &shaders[0], error, error_size) &&
+                      module(device, fill_frag_spv, sizeof fill_frag_spv, &shaders[1], error, error_size);
+    const VkResult result = made ? make_fill(device, l, target, shaders) : VK_SUCCESS;
+    for (int i = 0; i < 2; i++)
+        vkDestroyShaderModule(device->device, shaders[i], NULL);
+    HOST_TRY(result);
+    return made;
+}
+
+bool limits_create(host_device *device, const host_target *target, uint32_t drops, limits **made, char *error,
+                   size_t error_size)
+{
+    limits *l = calloc(1, sizeof *l);
+    *made = l;
+    if (!l)
+        return host_fail(error, error_size, "no memory for the bench");
+    l->groups = (drops + 255) / 256;
+    const VkDeviceSize size = (VkDeviceSize)l->groups * 4096;
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (host_buffer_create(device, size, usage, HOST_BUFFER_DEVICE, "bench from", &l->from, error, error_size) &&
+        host_buffer_create(device, size, usage, HOST_BUFFER_DEVICE, "bench to", &l->to, error, error_size) &&
+        create_set(device, l, error, error_size) && create_bare(device, l, error, error_size) &&
+        create_fill(device, l, target, error, error_size))
+        return true;
+    limits_destroy(device, made);
+    return false;
+}
+
+void limits_destroy(host_device *device, limits **made)
+{
+    limits *l = *made;
+    if (!l)
+        return;
+    vkDestroyPipeline(device->device, l->bare, NULL);
+    vkDestroyPipeline(device->device, l->fill, NULL);
+    vkDestroyPipelineLayout(device->device, l->layout, NULL);
+    vkDestroyPipelineLayout(device->device, l->fill_layout, NULL);
+    vkDestroyDescriptorPool(device->device, l->pool, NULL);
+    vkDestroyDescriptorSetLayout(device->device, l->set_layout, NULL);
+    if (l->from.buffer)
+        host_buffer_destroy(device, &l->from);
+    if (l->to.buffer)
+        host_buffer_destroy(device, &l->to);
+    free(l);
+    *made = NULL;
+}
+
+/* ---- measuring: wall time of a submission by its fence, less that of an empty one */
+
+typedef void (*record_fn)(VkCommandBuffer cmd, limits *l, const host_target *target);
+
+static double submit_ms(host_device *device, limits *l, const host_target *target, record_fn record)
+{
+    VkCommandBuffer cmd;
+    char error[256];
+    if (!host_begin_frame(device, &cmd, error, sizeof error))
+        return -1;
+    if (record)
+        record(cmd, l, target);
+    const double start = progress_now();
+    if (!host_submit(device, error, sizeof error) || !host_wait(device, error, sizeof error))
+        return -1;
+    return (progress_now() - start) * 1e3;
+}
+
+static double measure(host_device *device, limits *l, const host_target *target, record_fn record)
+{
+    double times[BENCH_RUNS];
+    for (int i = 0; i < BENCH_RUNS; i++) {
+        const double empty = submit_ms(device, l, target, NULL);
+        times[i] = submit_ms(device, l, target, record) - empty;
+    }
+    return bench_median(times, BENCH_RUNS);
+}
+
+static void record_copy(VkCommandBuffer cmd, limits *l, const host_target *target)
+{
+    (void)target;
+    const VkBufferCopy copy = {0, 0, l->from.size};
+    vkCmdCopyBuffer(cmd, l->from.buffer, l->to.buffer, 1, &copy);
+}
+
+static void record_bare(VkCommandBuffer cmd, limits *l, const host_target *target)
+{
+    (void)target;
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bare);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->layout, 0, 1, &l->set, 0, NULL);
+    vkCmdDispatch(cmd, l->groups, 1, 1);
+}
+
+static void record_dispatches(VkCommandBuffer cmd, limits *l, const host_target *target)
+{
+    (void)target;
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bare);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->layout, 0, 1, &l->set, 0, NULL);
+    for (int i = 0; i < EMPTY_DISPATCHES; i++) {
+        vkCmdDispatch(cmd, 1, 1, 1);
+        vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1,
+                             &barrier, 0, NULL, 0, NULL);
+    }
+}
+
+static void record_fill(VkCommandBuffer cmd, limits *l, const host_target *target)
+{
+    host_target_begin_layer(target, cmd);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, l->fill);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    host_target_end_layer(target, cmd);
+}
+
+double limits_copy_ms(host_device *device, limits *l)
+{
+    return measure(device, l, NULL, record_copy);
+}
+
+double limits_bare_ms(host_device *device, limits *l)
+{
+    return measure(device, l, NULL, record_bare);
+}
+
+double limits_dispatch_ms(host_device *device, limits *l)
+{
+    return measure(device, l, NULL, record_dispatches) / EMPTY_DISPATCHES;
+}
+
+double limits_fill_ms(host_device *device, limits *l, const host_target *target)
+{
+    return measure(device, l, target, record_fill);
+}

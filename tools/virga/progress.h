@@ -1,0 +1,28 @@
+/* progress.h - how far a long work is: a bar with the time left on a terminal, plain lines elsewhere; and Ctrl-C. */
+#ifndef VIRGA_TOOL_PROGRESS_H
+#define VIRGA_TOOL_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct progress {
+    const char *what; /* "frame" */
+    uint32_t total, done;
+    double began_s, said_s;
+    bool terminal;
+} progress;
+
+void progress_begin(progress *p, const char *what, uint32_t total);
+
+/* One more is done; `note` (may be NULL) stands behind the bar. */
+void progress_step(progress *p, const char *note);
+void progress_end(progress *p);
+
+/* Seconds on a clock that only goes forward. */
+double progress_now(void);
+
+/* Ctrl-C and SIGTERM: the first asks to stop after the work in hand, the second ends the program at once. */
+void interrupt_install(void);
+bool interrupt_asked(void);
+
+#endif
