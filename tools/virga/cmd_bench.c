@@ -1,6 +1,6 @@
 /* cmd_bench.c - `virga bench`: what each pass of rain costs, beside what the machine itself can do in the same run. */
 #include "commands.h"
-#include "limits.h"
+#include "machine_limits.h"
 #include "options.h"
 #include "progress.h"
 

@@ -1,4 +1,4 @@
-/* limits.h - what the machine itself can do, for the bench to measure passes against. */
+/* machine_limits.h - what the machine itself can do, for the bench to measure passes against. */
 #ifndef VIRGA_TOOL_LIMITS_H
 #define VIRGA_TOOL_LIMITS_H
 

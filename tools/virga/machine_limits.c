@@ -1,5 +1,5 @@
-/* limits.c - copy, bare kernel, dispatch and fill on the device of the bench. */
-#include "limits.h"
+/* machine_limits.c - copy, bare kernel, dispatch and fill on the device of the bench. */
+#include "machine_limits.h"
 
 #include "progress.h"
 

@@ -1,0 +1,10 @@
+/* scene_check.h - holds a document against the schema before libcyaml sees it. Internal to scene files. */
+#ifndef VIRGA_IO_SCENE_CHECK_H
+#define VIRGA_IO_SCENE_CHECK_H
+
+#include "scene_document.h"
+
+/* Checks keys, types and ranges and fills in every default, so that libcyaml finds a document it cannot refuse. */
+bool scene_check(scene_document *document);
+
+#endif

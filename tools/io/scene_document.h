@@ -1,0 +1,52 @@
+/* scene_document.h - a YAML document as a tree whose nodes know where they come from. Internal to scene files. */
+#ifndef VIRGA_IO_SCENE_DOCUMENT_H
+#define VIRGA_IO_SCENE_DOCUMENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <yaml.h>
+
+typedef struct scene_document {
+    yaml_document_t yaml;
+    const char *path;             /* of the file, as given */
+    const char *const *overrides; /* as given */
+    char *error;
+    size_t error_size;
+} scene_document;
+
+/* Writes one line "file:line: text", or "--set key=value: text" for what an override brought, and returns false.
+ * `node` 0: the whole file. What does not print is replaced. */
+bool scene_document_fail(const scene_document *document, int node, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Parses a file's text: one document of a mapping, without aliases and doubled keys. After success call
+ * scene_document_free. The pointers are kept. */
+bool scene_document_parse(scene_document *document, const char *path, const char *text, size_t size, char *error,
+                          size_t error_size);
+void scene_document_free(scene_document *document);
+
+/* Puts values at their keys; creates what is missing on the way. */
+bool scene_document_override(scene_document *document, const char *const *overrides, size_t count);
+
+/* Adds a value, given as YAML, under a key that the mapping lacks; the errors about it point at the mapping. */
+bool scene_document_add(scene_document *document, int mapping, const char *key, const char *value);
+
+/* The same with a copy of the value at a path. */
+bool scene_document_add_copy(scene_document *document, int mapping, const char *key, const char *from);
+
+/* Node at a path such as "rain.keys.0.time_s", or 0. */
+int scene_document_find(scene_document *document, const char *path);
+
+/* Value of a mapping's key, or 0; `key_node` (may be NULL) gets the key's own node. */
+int scene_document_member(scene_document *document, int mapping, const char *key, int *key_node);
+
+/* Text of a scalar node; NULL for others. */
+const char *scene_document_text(scene_document *document, int node);
+
+/* Whether a node is an empty value: nothing, ~ or null, without quotes. */
+bool scene_document_is_null(scene_document *document, int node);
+
+/* The tree as YAML text (to be freed), every scalar in quotes; NULL without memory. */
+char *scene_document_print(scene_document *document, size_t *size);
+
+#endif

@@ -1,0 +1,131 @@
+/* scene_file.h - scene files: YAML by schema, checked to the last key.
+ *
+ * A file names meshes, an environment, lights, a camera's path, the frames to render and the rain. All lengths in
+ * metres, angles in degrees, Y up. Every key but `virga` and `camera.keys` has a default; see scene_schema.c for the
+ * ranges and defaults. What is wrong is told in one line with file, line and key:
+ *
+ *     street.yaml:12: rain.rate_mm_h: expected a number from 0 to 200, got 'lots'
+ */
+#ifndef VIRGA_IO_SCENE_FILE_H
+#define VIRGA_IO_SCENE_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define SCENE_FILE_VERSION    1  /* the value of the key `virga` */
+#define SCENE_FILE_MAX_LIGHTS 16 /* as many as rain takes */
+
+typedef struct scene_mesh {
+    char *file;             /* as it can be opened: joined with the scene file's folder */
+    double position_m[3];
+    double rotation_deg[3]; /* about the world's X, then Y, then Z axis */
+    double scale;
+} scene_mesh;
+
+typedef struct scene_environment {
+    char *file;          /* a panorama, as it can be opened; NULL: a sky is made from the colours */
+    double intensity;
+    double rotation_deg; /* around +Y, counter-clockwise seen from above */
+    double zenith[3], horizon[3], ground[3];
+} scene_environment;
+
+typedef enum scene_light_type { SCENE_LIGHT_POINT, SCENE_LIGHT_SPOT } scene_light_type;
+
+typedef struct scene_light {
+    uint32_t type; /* scene_light_type */
+    double position_m[3];
+    double color[3];
+    double intensity_w_sr;       /* times color */
+    double range_m;              /* 0: no end */
+    double direction[3];         /* (spot) not all zero */
+    double inner_deg, outer_deg; /* (spot) angles from the axis: full light inside the first, none outside the second */
+} scene_light;
+
+typedef struct scene_camera_key {
+    double time_s;
+    double position_m[3];
+    double look_at_m[3];
+    double roll_deg;
+    bool cut; /* a new shot begins here */
+} scene_camera_key;
+
+typedef struct scene_camera {
+    double fov_deg; /* of the picture's height */
+    double near_m, far_m;
+    scene_camera_key *keys; /* at least 1, by rising time */
+    uint32_t key_count;
+} scene_camera;
+
+typedef struct scene_frames {
+    double fps;
+    uint32_t first, last; /* frame `first` is at time 0 */
+    double shutter_deg;
+    uint32_t size[2];
+} scene_frames;
+
+typedef struct scene_preview {
+    double exposure_ev;
+} scene_preview;
+
+typedef enum scene_sizes { SCENE_SIZES_MARSHALL_PALMER, SCENE_SIZES_BEST, SCENE_SIZES_TABLE } scene_sizes;
+
+typedef struct scene_size_entry {
+    double diameter_mm;
+    double number; /* relative density */
+} scene_size_entry;
+
+typedef struct scene_rain_key {
+    double time_s;
+    double rate_mm_h;
+    double wind_m_s[3];
+} scene_rain_key;
+
+typedef struct scene_rain {
+    double rate_mm_h;
+    uint32_t sizes;          /* scene_sizes */
+    scene_size_entry *table; /* by rising diameter; at least 2 if sizes is SCENE_SIZES_TABLE */
+    uint32_t table_count;
+    double air_density;
+    double wind_m_s[3];
+    double gust_m_s, gust_time_s;
+    double transition_s;
+    uint32_t max_drops;
+    double range_m;
+    uint32_t seed;
+    double streak_gain, light_gain, min_width_px, soft_m, near_m, oscillation, haze, bodies_min_mm;
+    uint32_t occlusion_size, occlusion_cascades, occlusion_slants;
+    scene_rain_key *keys; /* by rising time; linear between them, constant outside; none: rate and wind as above */
+    uint32_t key_count;
+} scene_rain;
+
+typedef struct scene_file {
+    uint32_t version;
+    scene_mesh *meshes;
+    uint32_t mesh_count;
+    scene_environment environment;
+    scene_light *lights;
+    uint32_t light_count;
+    scene_camera camera;
+    scene_frames frames;
+    scene_preview preview;
+    scene_rain rain;
+    uint64_t hash; /* of the file's bytes and the overrides */
+} scene_file;
+
+/* Loads and checks a scene. `overrides` are texts like "rain.rate_mm_h=50", "frames.size=[640, 360]" or
+ * "lights.0.range_m=20", applied in order before the check; the index after a list's last adds an entry.
+ * On failure *scene is NULL and `error` has one line. */
+bool scene_file_load(const char *path, const char *const *overrides, size_t override_count, scene_file **scene,
+                     char *error, size_t error_size);
+
+/* Accepts NULL. */
+void scene_file_free(scene_file *scene);
+
+/* 64-bit FNV-1a of the file's bytes and the overrides: the same for the same scene anywhere. */
+uint64_t scene_file_hash(const scene_file *scene);
+
+/* Rate and wind at a time, from the rain's keys or without them. */
+void scene_file_weather(const scene_file *scene, double time_s, double *rate_mm_h, double wind_m_s[3]);
+
+#endif
