@@ -32,7 +32,7 @@ static bool fail_at(const scene_document *document, const char *place, const cha
 {
     if (!document->error || !document->error_size)
         return false;
-    int used = snprintf(document->error, document->error_size, "%s: ", place);
+    int used = snprintf(document->error, document->error_size, "%s%s", place, *place ? ": " : "");
     if (used >= 0 && (size_t)used < document->error_size)
         vsnprintf(document->error + used, document->error_size - (size_t)used, format, arguments);
     make_printable(document->error);
@@ -41,9 +41,11 @@ static bool fail_at(const scene_document *document, const char *place, const cha
 
 bool scene_document_fail(const scene_document *document, int node, const char *format, ...)
 {
-    char place[4200];
+    char place[4200] = "";
     const yaml_node_t *at = get(document, node);
-    if (at && OVERRIDE_MARK - at->start_mark.index < MAX_OVERRIDES)
+    if (!document->path)
+        ; /* the value of an override, whose name comes before it */
+    else if (at && OVERRIDE_MARK - at->start_mark.index < MAX_OVERRIDES)
         snprintf(place, sizeof place, "--set %.120s", document->overrides[OVERRIDE_MARK - at->start_mark.index]);
     else if (at)
         snprintf(place, sizeof place, "%s:%zu", document->path, at->start_mark.line + 1);
@@ -75,25 +77,37 @@ static bool fail_in_override(const scene_document *document, size_t number, cons
 static size_t line_of_offset(const char *text, size_t size, size_t offset)
 {
     size_t line = 1;
-    for (size_t i = 0; i < size && i < offset; i++)
+    for (size_t i = 0; i + 1 < size && i < offset; i++)
         line += text[i] == '\n';
     return line;
 }
 
-/* libyaml's own words, with the line where it gave up. */
+static bool fail_on_line(const scene_document *document, size_t line, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static bool fail_on_line(const scene_document *document, size_t line, const char *format, ...)
+{
+    char place[4200] = "";
+    if (document->path)
+        snprintf(place, sizeof place, "%s:%zu", document->path, line);
+    va_list arguments;
+    va_start(arguments, format);
+    fail_at(document, place, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* libyaml's own words, with the line where it gave up: what it found at the end counts as the last line. */
 static bool parse_problem(const scene_document *document, const yaml_parser_t *parser, const char *text, size_t size)
 {
-    const char *problem = parser->problem ? parser->problem : "no more memory";
-    size_t line = parser->problem_mark.line + 1;
-    if (parser->error == YAML_READER_ERROR)
-        line = line_of_offset(text, size, parser->problem_offset);
     bool context = parser->context && parser->error != YAML_READER_ERROR;
-    char place[4200];
-    snprintf(place, sizeof place, "%s:%zu: not valid YAML: %s%s%s", document->path, line, problem, context ? ", " : "",
-             context ? parser->context : "");
-    if (document->error && document->error_size)
-        snprintf(document->error, document->error_size, "%s", place);
-    return false;
+    size_t line = line_of_offset(text, size, parser->problem_offset);
+    if (parser->error != YAML_READER_ERROR) {
+        size_t last = line_of_offset(text, size, size);
+        line = parser->problem_mark.line < last ? parser->problem_mark.line + 1 : last;
+    }
+    return fail_on_line(document, line, "not valid YAML: %s%s%s", parser->problem ? parser->problem : "no more memory",
+                        context ? ", " : "", context ? parser->context : "");
 }
 
 /* Every node may stand in one place only, which also rules out cycles and files that unfold to more than memory. */
@@ -138,11 +152,8 @@ static bool load_only_document(scene_document *document, yaml_parser_t *parser, 
         ok = parse_problem(document, parser, text, size);
     } else {
         const yaml_node_t *root = yaml_document_get_root_node(&second);
-        if (root) {
-            char where[24];
-            snprintf(where, sizeof where, "line %zu", root->start_mark.line + 1);
-            ok = scene_document_fail(document, 0, "holds a second document (%s), expected one", where);
-        }
+        if (root)
+            ok = fail_on_line(document, root->start_mark.line + 1, "a second document begins, expected one");
         yaml_document_delete(&second);
     }
     if (!ok)
@@ -300,7 +311,7 @@ static int copy_tree(scene_document *document, yaml_document_t *from, int node, 
 /* Parses a value and copies it in. `problem` gets what is wrong with it. */
 static int add_value(scene_document *document, const char *text, const yaml_mark_t *mark, char *problem, size_t room)
 {
-    scene_document value = {.path = "value", .error = problem, .error_size = room};
+    scene_document value = {.error = problem, .error_size = room};
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) {
         snprintf(problem, room, "no more memory");
