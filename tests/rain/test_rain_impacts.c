@@ -34,9 +34,9 @@ static void gather(const rain_fixture *f, landed *sum)
 static void run(rain_fixture *f, double rate, double seconds, landed *sum)
 {
     virga_rain_def def = virga_default_rain_def();
-    def.max_drops = 65536;
-    def.range_m = 16;
-    def.occlusion_size = 512;
+    def.max_drops = 24576;
+    def.range_m = 6;
+    def.occlusion_size = 256;
     def.tick_s = 1.0 / 30;
     def.seed = (uint32_t)rate;
     rain_fixture_open(f);
