@@ -124,10 +124,28 @@ static bool fail(render_job *job)
     return options_complain("render", "%s", job->error);
 }
 
+/* Makes a folder and those above it. */
+static bool make_parents(const char *path)
+{
+    char part[4096];
+    if (strlen(path) >= sizeof part) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    strcpy(part, path);
+    for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        if (mkdir(part, 0777) && errno != EEXIST)
+            return false;
+        *slash = '/';
+    }
+    return !mkdir(part, 0777) || errno == EEXIST;
+}
+
 static bool make_directory(render_job *job)
 {
     struct stat about;
-    if (mkdir(job->directory, 0777) && errno != EEXIST)
+    if (!make_parents(job->directory))
         return options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
     if (stat(job->directory, &about) || !S_ISDIR(about.st_mode))
         return options_complain("render", "%s is not a folder", job->directory);
@@ -186,7 +204,7 @@ static int render_frames(render_job *job)
             return EXIT_FAILED;
         }
         progress_step(&bar, skip ? "(there already)" : NULL);
-        if (interrupt_asked()) {
+        if (interrupt_asked() && frame < job->frames[1]) {
             progress_end(&bar);
             options_complain("render", "interrupted: %u frames are in %s; --resume goes on behind frame %u",
                              job->written, job->directory, frame);
@@ -200,16 +218,17 @@ static int render_frames(render_job *job)
 /* The previews as a film, where ffmpeg is installed. A film that can not be made is said, but is no failure. */
 static void make_film(const render_job *job)
 {
-    char pattern[4096], film[4096], fps[32], first[32];
-    snprintf(pattern, sizeof pattern, "%s/preview.%%04d.png", job->directory);
-    snprintf(film, sizeof film, "%s/preview.mp4", job->directory);
+    char fps[32], first[32];
     snprintf(fps, sizeof fps, "%g", job->scene->frames.fps);
     snprintf(first, sizeof first, "%u", job->frames[0]);
     const pid_t child = fork();
     if (child == 0) {
+        /* From inside the folder, as ffmpeg would take a '%' in its name for a number. */
+        if (chdir(job->directory))
+            _exit(126);
         execlp("ffmpeg", "ffmpeg", "-loglevel", "error", "-y", "-nostdin", "-framerate", fps, "-start_number", first,
-               "-i", pattern, "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "16", film,
-               (char *)NULL);
+               "-i", "preview.%04d.png", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "16",
+               "preview.mp4", (char *)NULL);
         _exit(127);
     }
     int status = 0;
@@ -218,7 +237,7 @@ static void make_film(const render_job *job)
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         fprintf(stderr, "no ffmpeg: previews stay single pictures\n");
     else if (status)
-        fprintf(stderr, "ffmpeg could not make %s\n", film);
+        fprintf(stderr, "ffmpeg could not make %s/preview.mp4\n", job->directory);
 }
 
 static int render_scene(render_job *job)

@@ -82,6 +82,8 @@ void interrupt_install(void)
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* A file that grows past its limit is an error of the write, as a full disk is, and no reason to die. */
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupt_asked(void)

@@ -192,7 +192,8 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     for (int axis = 0; axis < 3; axis++)
         s->settings.wind_m_s[axis] = (float)wind[axis];
     s->settings.air_density = (float)from->air_density;
-    s->settings.transition_s = (float)from->transition_s;
+    /* Keys say what the rate is at every time; easing towards them would lag behind. */
+    s->settings.transition_s = from->key_count ? 0 : (float)from->transition_s;
     s->settings.gust_m_s = (float)from->gust_m_s;
     s->settings.gust_time_s = (float)from->gust_time_s;
     s->settings.streak_gain = (float)from->streak_gain;
