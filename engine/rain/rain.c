@@ -179,7 +179,8 @@ static virga_result create_host_buffers(virga_rain *rain)
     TRY(virga_buffer_create(context, rain->index_buffer->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
                             "rain.index_upload", &rain->index_upload));
     TRY(virga_buffer_create(context, (VkDeviceSize)frames * rain->def.max_ticks_per_step * rain_tick_bytes(),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "rain.ticks", &rain->tick_ring));
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                            VIRGA_HEAP_UPLOAD, "rain.ticks", &rain->tick_ring));
     TRY(virga_buffer_create(context, (VkDeviceSize)frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(),
                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "rain.views", &rain->view_ring));
     TRY(virga_buffer_create(context, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,

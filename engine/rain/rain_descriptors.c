@@ -24,6 +24,7 @@ static const binding bindings[RAIN_BINDINGS] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},     /* 11 wind */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},    /* 12 scene depth */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 13 points */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},     /* 14 travels: the tick's first part */
 };
 
 static virga_result create_layouts(virga_rain *rain)
@@ -53,12 +54,13 @@ static virga_result create_sets(virga_rain *rain)
     virga_result result = VIRGA_OK;
     virga_context *context = rain->context;
     const uint32_t sets = context->frames_in_flight * RAIN_SETS;
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, 2 * sets},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, 2 * sets},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * sets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * sets}};
     const VkDescriptorPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                                   .maxSets = sets,
-                                                  .poolSizeCount = 3,
+                                                  .poolSizeCount = 4,
                                                   .pPoolSizes = sizes};
     VK_TRY(context, CreateDescriptorPool(context->device, &pool_info, NULL, &rain->pool));
     context->objects++;
@@ -122,11 +124,12 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 {
     virga_context *context = rain->context;
     const VkDescriptorSet set = rain->sets[context->ring_slot][index];
-    const virga_buffer *const buffers[10] = {rain->tick_ring,     rain->view_ring,   rain->slot_buffer,
+    const virga_buffer *const buffers[11] = {rain->tick_ring,     rain->view_ring,   rain->slot_buffer,
                                             rain->drop_buffer,   rain->impact_buffer, rain->pick_buffer,
                                             rain->prepared_buffer, rain->streak_buffer,
                                             rain->sway_buffer ? rain->sway_buffer : rain->prepared_buffer,
-                                            rain->point_buffer ? rain->point_buffer : rain->prepared_buffer};
+                                            rain->point_buffer ? rain->point_buffer : rain->prepared_buffer,
+                                            rain->tick_ring};
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const bool wind = rain->settings.wind_texture != NULL;
     const VkDescriptorImageInfo images[4] = {
@@ -137,7 +140,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
          wind ? rain->wind_image.before.layout : read_only},
         {rain->nearest, scene_depth ? scene_depth->view : rain->blank->layer_views[0],
          scene_depth ? scene_depth->before.layout : read_only}};
-    VkDescriptorBufferInfo buffer_infos[10];
+    VkDescriptorBufferInfo buffer_infos[11];
     uint32_t next_buffer = 0, next_image = 0;
     VkWriteDescriptorSet writes[RAIN_BINDINGS];
     for (uint32_t i = 0; i < RAIN_BINDINGS; i++) {
@@ -149,7 +152,10 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
         if (bindings[i].type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) {
             writes[i].pImageInfo = &images[next_image++];
         } else {
-            const VkDeviceSize range = i == 0 ? rain_tick_bytes() : i == 1 ? rain_view_bytes() : VK_WHOLE_SIZE;
+            const VkDeviceSize range = i == 0    ? rain_tick_bytes()
+                                       : i == 1  ? rain_view_bytes()
+                                       : i == 14 ? VIRGA_RAIN_CLASSES * sizeof(virga_travel_gpu)
+                                                 : VK_WHOLE_SIZE;
             buffer_infos[next_buffer] = (VkDescriptorBufferInfo){buffers[next_buffer]->buffer, 0, range};
             writes[i].pBufferInfo = &buffer_infos[next_buffer++];
         }
@@ -160,6 +166,6 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 
 void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
-    const uint32_t offsets[2] = {rain->tick_offset, rain->view_offset};
-    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->layout, 0, 1, &set, 2, offsets);
+    const uint32_t offsets[3] = {rain->tick_offset, rain->view_offset, rain->tick_offset}; /* by binding */
+    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->layout, 0, 1, &set, 3, offsets);
 }

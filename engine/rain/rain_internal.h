@@ -81,7 +81,7 @@ typedef struct rain_target {
     virga_pipeline *streaks, *haze;
 } rain_target;
 
-enum { RAIN_BINDINGS = 14, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
+enum { RAIN_BINDINGS = 15, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
 /* What the statistics ring reads back for one frame. */
 typedef struct rain_readback {

@@ -9,6 +9,7 @@
 
 /* A tick's block in its ring, as shaders/rain/field.glsl declares it. */
 typedef struct tick_block {
+    virga_travel_gpu travels[VIRGA_RAIN_CLASSES];
     virga_tick_gpu tick;
     virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
     virga_class_gpu classes[VIRGA_RAIN_CLASSES];
@@ -129,11 +130,17 @@ static void split64(int64_t value, uint32_t *low, uint32_t *high)
 
 static void fill_classes(const virga_rain *rain, tick_block *block)
 {
+    const double unit = 4294967296.0 / rain->classes->side_m;
+    int64_t camera[3];
+    for (int axis = 0; axis < 3; axis++)
+        camera[axis] = llround(rain->origin[axis] * unit);
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
         const rain_class *c = &rain->classes->classes[k];
         virga_class_gpu *out = &block->classes[k];
+        virga_travel_gpu *travel = &block->travels[k];
+        memset(travel, 0, sizeof *travel);
         for (int axis = 0; axis < 3; axis++) {
-            split64(c->travel[axis], &out->travel_low[axis], &out->travel_high[axis]);
+            split64(c->travel[axis] - camera[axis], &travel->low[axis], &travel->high[axis]);
             out->velocity[axis] = (float)c->velocity[axis];
         }
         out->diameter_m = (float)c->diameter_m;
@@ -160,11 +167,8 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, tick_block 
 {
     virga_tick_gpu *tick = &block->tick;
     memset(tick, 0, sizeof *tick);
-    const double unit = 4294967296.0 / rain->classes->side_m;
-    for (int axis = 0; axis < 3; axis++) {
-        split64(llround(rain->origin[axis] * unit), &tick->camera_low[axis], &tick->camera_high[axis]);
+    for (int axis = 0; axis < 3; axis++)
         tick->origin[axis] = (float)rain->origin[axis];
-    }
     tick->side_m = (float)rain->classes->side_m;
     tick->levels = rain->levels;
     tick->groups_per_level = rain->groups_per_level;

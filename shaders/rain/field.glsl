@@ -7,6 +7,7 @@
 
 layout(scalar, set = 0, binding = 0) readonly buffer Tick
 {
+    virga_travel_gpu travels_as_stored[VIRGA_RAIN_CLASSES]; // read as uniforms, see step.comp
     virga_tick_gpu tick;
     virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
     virga_class_gpu classes[VIRGA_RAIN_CLASSES];

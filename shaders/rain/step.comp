@@ -14,6 +14,9 @@ layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 3) buffer Drops { virga_drop_gpu drops[]; };
 layout(scalar, set = 0, binding = 8) buffer Sways { virga_sway_gpu sways[]; };
 
+// virga_travel_gpu of each class, as pairs: small tables are read several times faster from a uniform buffer.
+layout(std140, set = 0, binding = 14) uniform Travels { uvec4 travels[2 * VIRGA_RAIN_CLASSES]; };
+
 // 64-bit values as (low, high).
 uvec2 add64(uvec2 a, uvec2 b)
 {
@@ -33,13 +36,11 @@ uint scatter(uint h, uint word)
     return h ^ (h >> 16);
 }
 
-// From the middle of the box, along one axis: the lattice coordinate less the camera's; .y tells the cell.
-uvec2 from_camera(uint place, uint travel_low, uint travel_high, uint axis, uint shift)
+// Along one axis, from the lower side of the box: the lattice coordinate less the camera's; .y tells the cell.
+uvec2 from_camera(uint place, uint low, uint high, uint shift)
 {
-    const uvec2 moved = shift64(uvec2(travel_low, travel_high), shift);
-    const uvec2 camera = shift64(uvec2(tick.camera_low[axis], tick.camera_high[axis]), shift);
-    const uvec2 minus_camera = add64(~camera, uvec2(1u, 0u));
-    return add64(add64(add64(moved, minus_camera), uvec2(place, 0u)), uvec2(0x80000000u, 0u));
+    const uvec2 moved = shift64(uvec2(low, high), shift);
+    return add64(uvec2(moved.x, moved.y), add64(uvec2(place, 0u), uvec2(0x80000000u, 0u)));
 }
 
 void main()
@@ -49,10 +50,11 @@ void main()
     const uint shift = tick.levels - 1u - level;
     const virga_slot_gpu slot = slots[slot_index];
     const uint size_class = slot.class_rank & 0xffffu;
+    const uvec4 low = travels[2u * size_class], high = travels[2u * size_class + 1u];
 
-    uvec2 x = from_camera(slot.place[0], classes[size_class].travel_low[0], classes[size_class].travel_high[0], 0, shift);
-    uvec2 y = from_camera(slot.place[1], classes[size_class].travel_low[1], classes[size_class].travel_high[1], 1, shift);
-    uvec2 z = from_camera(slot.place[2], classes[size_class].travel_low[2], classes[size_class].travel_high[2], 2, shift);
+    uvec2 x = from_camera(slot.place[0], low.x, high.x, shift);
+    uvec2 y = from_camera(slot.place[1], low.y, high.y, shift);
+    uvec2 z = from_camera(slot.place[2], low.z, high.z, shift);
     if (tick.sway != 0u) {
         const virga_sway_gpu sway = sways[slot_index];
         x = add64(x, uvec2(sway.offset_low[0], sway.offset_high[0]));

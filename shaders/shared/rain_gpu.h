@@ -10,6 +10,7 @@
 typedef struct virga_slot_gpu virga_slot_gpu;
 typedef struct virga_class_gpu virga_class_gpu;
 typedef struct virga_weight_gpu virga_weight_gpu;
+typedef struct virga_travel_gpu virga_travel_gpu;
 typedef struct virga_tick_gpu virga_tick_gpu;
 typedef struct virga_map_gpu virga_map_gpu;
 typedef struct virga_light_gpu virga_light_gpu;
@@ -26,10 +27,15 @@ struct virga_slot_gpu {
     uint class_rank; /* low 16 bits: class; high 16: where among the slots of its class, for thinning [0; 65535] */
 };
 
-/* A size class at a tick. Lengths that wrap are 64-bit fixed point in units of the widest box's side x 2^-32. */
+/* How far a class's lattice has moved since the start of time, less the camera's place: 64-bit fixed point in units of
+ * the widest box's side x 2^-32. All classes together fit the smallest uniform buffer that Vulkan allows. */
+struct virga_travel_gpu {
+    uint low[4];         /* x, y, z; the fourth is not used */
+    uint high[4];
+};
+
+/* A size class at a tick. */
 struct virga_class_gpu {
-    uint travel_low[3];  /* how far the class's lattice has moved since the start of time */
-    uint travel_high[3];
     float velocity[3];   /* m/s */
     float diameter_m;
     float terminal_m_s;  /* in still air */
@@ -44,8 +50,6 @@ struct virga_weight_gpu {
 
 /* All that a tick's passes need besides maps, classes and weights. */
 struct virga_tick_gpu {
-    uint camera_low[3];  /* origin in the same fixed point */
-    uint camera_high[3];
     float side_m;        /* of the widest box */
     uint levels;
     uint groups_per_level; /* workgroups to a box */
@@ -174,10 +178,11 @@ struct virga_map_push {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_slot_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_class_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_travel_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_class_gpu, 24);
 VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
-VIRGA_ASSERT_SIZE(virga_tick_gpu, 152);
-VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 88);
+VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
+VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 692);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
