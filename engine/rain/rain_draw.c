@@ -94,7 +94,8 @@ static void fill_lights(const virga_rain *rain, const double camera[3], virga_vi
     }
 }
 
-#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
+#define MOST_COVERAGE 0.25       /* as in shaders/rain/prepare_write.comp */
+#define LEAST_COVERAGE (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
 
 /* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
 static double streak_coverage(const virga_view_gpu *view, const rain_class *c, double drops, double distance_m)
@@ -107,7 +108,7 @@ static double streak_coverage(const virga_view_gpu *view, const rain_class *c, d
 }
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too
- * small to be drawn, and of slots that stand for so many drops that their streak would be a bar. It becomes haze, so
+ * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak would be a bar. It becomes haze, so
  * that rain is as thick at any budget. */
 static double hazy_share(const virga_rain *rain, const virga_view_gpu *view, uint32_t level)
 {
@@ -121,7 +122,9 @@ static double hazy_share(const virga_rain *rain, const virga_view_gpu *view, uin
         const double would = streak_coverage(view, c, drops, distance);
         const bool small = c->diameter_m < (double)view->bodies_min_m || !classes->slot_count[level][k];
         all += cover;
-        hazy += cover * (small ? 1 : would > MOST_COVERAGE && drops > 1 ? 1 - MOST_COVERAGE / would : 0);
+        hazy += cover * (small || would < 1.5 * LEAST_COVERAGE            ? 1
+                         : would > MOST_COVERAGE && drops > 1 ? 1 - MOST_COVERAGE / would
+                                                              : 0);
     }
     return all > 0 ? hazy / all : 0;
 }

@@ -9,8 +9,6 @@
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
 
-#define LEAST_COVERAGE (1.0 / 4096.0) // pixels' worth along a streak's length below which it is not drawn
-
 bool may_be_seen(uint slot_index, uint level)
 {
     const uint class_rank = slots[slot_index].class_rank;
@@ -20,8 +18,8 @@ bool may_be_seen(uint slot_index, uint level)
     const float weight = drop_weight(at_tick, level, size_class, class_rank >> 16);
     if (weight <= 0.0 || diameter < view.bodies_min_m)
         return false;
-    const vec3 moved = to_vec(classes[size_class].velocity) * view.time_close_s;
-    const vec3 p = at_tick + moved + to_vec(view.origin_offset);
+    const vec3 velocity = to_vec(classes[size_class].velocity);
+    const vec3 p = at_tick + velocity * view.time_close_s + to_vec(view.origin_offset);
     // A cone around the view, widened by the way that the drop moves while the shutter is open.
     const float depth = dot(p, to_vec(view.ahead));
     const float slack = 0.5 + 10.0 * (view.time_close_s - view.time_open_s);
@@ -29,7 +27,8 @@ bool may_be_seen(uint slot_index, uint level)
     if (depth < -slack || off_axis > depth * view.tangent + slack)
         return false;
     const float width_px = diameter / (max(depth, 0.1) * view.pixel_angle);
-    return weight * width_px * view.streak_gain > LEAST_COVERAGE;
+    const float way = length(velocity) * (view.time_close_s - view.time_open_s);
+    return weight * streak_coverage(width_px, diameter, way) > LEAST_COVERAGE;
 }
 
 void main()

@@ -100,10 +100,9 @@ virga_streak_gpu empty_streak()
 void set_coverage(inout virga_streak_gpu streak, float width_px, float body_px, float way_px, float weight)
 {
     const float drawn = max(width_px, view.min_width_px);
-    const float narrow = width_px < view.min_width_px ? width_px / drawn : 1.0;
-    const float one = min(view.streak_gain * body_px / (way_px + body_px), 1.0) * narrow;
+    const float one = streak_coverage(width_px, body_px, way_px), all = one * weight;
     streak.width_px = drawn;
-    streak.alpha = min(one * weight, max(one, MOST_COVERAGE));
+    streak.alpha = min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
     streak.body_px = body_px;
 }
 

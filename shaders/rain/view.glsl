@@ -1,6 +1,17 @@
 // view.glsl - a view's parameters, and what a drop shows of the light around it.
 layout(scalar, set = 0, binding = 1) readonly buffer View { virga_view_gpu view; };
 
+// A streak that covers less than this is haze, see rain_draw.c; it fades in up to twice as much.
+#define LEAST_COVERAGE (1.0 / 400.0)
+
+// Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it, and of the
+// sampling's width where the drop is narrower.
+float streak_coverage(float width_px, float body, float way)
+{
+    const float narrow = min(width_px / view.min_width_px, 1.0);
+    return min(view.streak_gain * body / (way + body), 1.0) * narrow;
+}
+
 vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
 
 // The environment seen along d through a lobe with Legendre moments 1, g.x, g.y: each band is scaled by its moment

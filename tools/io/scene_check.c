@@ -13,7 +13,7 @@
 #include "scene_schema.h"
 #include "suggest.h"
 
-#define MAX_PATH 256
+#define MAX_PATH   256
 #define MAX_FIELDS 64
 
 /* Where the walk is. */
@@ -99,9 +99,9 @@ static bool expected_number(const walk *at, int node, const scene_rule *rule, bo
 static const struct {
     const char *ending, *words;
 } units[] = {
-    {"_mm_h", "mm/h"}, {"_mm_s", "mm/s"}, {"_km_h", "km/h"}, {"_m_s", "m/s"}, {"_w_sr", "W/sr"},   {"_deg", "degrees"},
-    {"_rad", "rad"},   {"_kmh", "km/h"},  {"_mph", "mph"},   {"_mm", "mm"},   {"_cm", "cm"},       {"_km", "km"},
-    {"_ms", "ms"},     {"_px", "pixels"}, {"_ev", "stops"},  {"_hz", "Hz"},   {"_m", "m"},         {"_s", "s"},
+    {"_mm_h", "mm/h"}, {"_mm_s", "mm/s"}, {"_km_h", "km/h"}, {"_m_s", "m/s"}, {"_w_sr", "W/sr"}, {"_deg", "degrees"},
+    {"_rad", "rad"},   {"_kmh", "km/h"},  {"_mph", "mph"},   {"_mm", "mm"},   {"_cm", "cm"},     {"_km", "km"},
+    {"_ms", "ms"},     {"_px", "pixels"}, {"_ev", "stops"},  {"_hz", "Hz"},   {"_m", "m"},       {"_s", "s"},
     {"_w", "W"},       {"_h", "h"},       {"_cd", "cd"},     {"_lm", "lm"},
 };
 

@@ -13,12 +13,12 @@
 /* A node that an override brought has this in place of its offset into the file, less the override's number. */
 #define OVERRIDE_MARK SIZE_MAX
 #define MAX_OVERRIDES 65536
+#define MAX_DEPTH     100 /* brackets in brackets; scenes need 4 */
 
 static yaml_node_t *get(const scene_document *document, int node)
 {
     return node ? yaml_document_get_node((yaml_document_t *)&document->yaml, node) : NULL;
 }
-
 
 /* Bytes that would break the line or the terminal become '?'; UTF-8 stays. */
 static void make_printable(char *text)
@@ -130,8 +130,8 @@ static bool refuse_aliases(const scene_document *document)
     for (size_t i = 0; ok && i < count; i++) {
         const yaml_node_t *node = &document->yaml.nodes.start[i];
         if (node->type == YAML_SEQUENCE_NODE)
-            for (yaml_node_item_t *item = node->data.sequence.items.start;
-                 ok && item < node->data.sequence.items.top; item++)
+            for (yaml_node_item_t *item = node->data.sequence.items.start; ok && item < node->data.sequence.items.top;
+                 item++)
                 ok = count_reference(document, *item, seen);
         if (node->type == YAML_MAPPING_NODE)
             for (yaml_node_pair_t *pair = node->data.mapping.pairs.start; ok && pair < node->data.mapping.pairs.top;
@@ -142,8 +142,28 @@ static bool refuse_aliases(const scene_document *document)
     return ok;
 }
 
+/* Offset of the bracket that opens too many levels, or `size`. libyaml has a limit of its own, but comes to it only
+ * after a time that grows with the square of the levels. Brackets in quotes count too, as nobody writes so many. */
+static size_t find_deep_nesting(const char *text, size_t size)
+{
+    size_t depth = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (text[i] == '[' || text[i] == '{')
+            depth++;
+        else if ((text[i] == ']' || text[i] == '}') && depth > 0)
+            depth--;
+        if (depth > MAX_DEPTH)
+            return i;
+    }
+    return size;
+}
+
 static bool load_only_document(scene_document *document, yaml_parser_t *parser, const char *text, size_t size)
 {
+    size_t deep = find_deep_nesting(text, size);
+    if (deep < size)
+        return fail_on_line(document, line_of_offset(text, size, deep), "brackets are nested more than %d deep",
+                            MAX_DEPTH);
     if (!yaml_parser_load(parser, &document->yaml))
         return parse_problem(document, parser, text, size);
     yaml_document_t second;
@@ -377,9 +397,9 @@ bool scene_document_add_copy(scene_document *document, int mapping, const char *
 
 /* What a step of an override's path leads to: an existing node, or a place to put one. */
 typedef struct place {
-    int parent;     /* mapping or list */
-    int node;       /* what is there now, or 0 */
-    char step[64];  /* key or index */
+    int parent;    /* mapping or list */
+    int node;      /* what is there now, or 0 */
+    char step[64]; /* key or index */
 } place;
 
 static bool look_up(scene_document *document, size_t number, place *at, size_t length_before)

@@ -5,17 +5,18 @@
 
 #include "scene_file.h"
 
-#define ANY_M 1e6          /* positions: beyond it floats on the device would step by centimetres */
-#define LARGE 1e9
+#define ANY_M      1e6 /* positions: beyond it floats on the device would step by centimetres */
+#define LARGE      1e9
 #define UINT32_TOP 4294967295.0
 
 /* ---- structure ------------------------------------------------------------------------------------------------ */
 
-#define D CYAML_FLAG_DEFAULT
+#define D                   CYAML_FLAG_DEFAULT
 #define NUMBER(owner, name) CYAML_FIELD_FLOAT(#name, D, owner, name)
-#define WHOLE(owner, name) CYAML_FIELD_UINT(#name, D, owner, name)
+#define WHOLE(owner, name)  CYAML_FIELD_UINT(#name, D, owner, name)
 #define VECTOR(owner, name) CYAML_FIELD_SEQUENCE_FIXED(#name, D, owner, name, &number, 3)
-#define CHOICE(owner, name, words) CYAML_FIELD_ENUM(#name, CYAML_FLAG_STRICT, owner, name, words, CYAML_ARRAY_LEN(words))
+#define CHOICE(owner, name, words) \
+    CYAML_FIELD_ENUM(#name, CYAML_FLAG_STRICT, owner, name, words, CYAML_ARRAY_LEN(words))
 #define GROUP(owner, name, fields) CYAML_FIELD_MAPPING(#name, D, owner, name, fields)
 #define LIST(key, owner, name, count, entry, least, most) \
     CYAML_FIELD_SEQUENCE_COUNT(key, CYAML_FLAG_POINTER, owner, name, count, entry, least, most)
@@ -44,15 +45,9 @@ static const cyaml_schema_field_t environment_fields[] = {
 
 static const cyaml_strval_t light_types[] = {{"point", SCENE_LIGHT_POINT}, {"spot", SCENE_LIGHT_SPOT}};
 static const cyaml_schema_field_t light_fields[] = {
-    CHOICE(scene_light, type, light_types),
-    VECTOR(scene_light, position_m),
-    VECTOR(scene_light, color),
-    NUMBER(scene_light, intensity_w_sr),
-    NUMBER(scene_light, range_m),
-    VECTOR(scene_light, direction),
-    NUMBER(scene_light, inner_deg),
-    NUMBER(scene_light, outer_deg),
-    CYAML_FIELD_END,
+    CHOICE(scene_light, type, light_types), VECTOR(scene_light, position_m), VECTOR(scene_light, color),
+    NUMBER(scene_light, intensity_w_sr),    NUMBER(scene_light, range_m),    VECTOR(scene_light, direction),
+    NUMBER(scene_light, inner_deg),         NUMBER(scene_light, outer_deg),  CYAML_FIELD_END,
 };
 static const cyaml_schema_value_t light = {CYAML_VALUE_MAPPING(D, scene_light, light_fields)};
 
