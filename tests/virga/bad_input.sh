@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# Broken scene files, meshes, pictures and command lines, one by one, with the address and undefined-behaviour
+# sanitizers: each gives one clear line and an exit code of 1 or 2, and leaves nothing torn behind.
+# Usage: bad_input.sh SOURCE_ROOT BUILD_ROOT
+set -u
+source=$1 build=$2/sanitized
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if [ ! -f "$build/build.ninja" ]; then
+    meson setup "$build" "$source" -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled \
+        >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
+fi
+ninja -C "$build" tools/virga/virga >"$work/build.log" 2>&1 || { tail -20 "$work/build.log"; exit 1; }
+virga=$build/tools/virga/virga
+# The drivers and the model loader keep memory of their own until the end; leaks of ours are counted by the tests of
+# the library, in which everything is destroyed and counted.
+export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1 UBSAN_OPTIONS=halt_on_error=1:abort_on_error=1
+unset VIRGA_VALIDATE
+
+cp "$source/assets/environments/dusk.exr" "$work/sky.exr"
+cat >"$work/box.obj" <<'OBJ'
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+f 1 2 3
+f 1 3 4
+OBJ
+cat >"$work/good.yaml" <<'YAML'
+virga: 1
+meshes: [{file: box.obj}]
+environment: {file: sky.exr}
+camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
+frames: {fps: 24, first: 1, last: 2, size: [32, 32]}
+rain: {rate_mm_h: 10, max_drops: 1024, occlusion_size: 64}
+YAML
+
+count=0 failures=0
+complain() {
+    echo "FAILED: $1"
+    sed 's/^/    /' "$work/err"
+    failures=$((failures + 1))
+}
+
+# bad NAME ARGUMENT...: must fail cleanly.
+bad() {
+    local name=$1 code lines
+    shift
+    count=$((count + 1))
+    rm -rf "$work/out"
+    timeout 60 "$virga" "$@" >"$work/stdout" 2>"$work/err"
+    code=$?
+    grep -v -e '^warning: ' -e ', 1 sample$' "$work/err" >"$work/lines"
+    lines=$(wc -l <"$work/lines")
+    [ "$code" = 1 ] || [ "$code" = 2 ] || { complain "$name: exit code $code"; return; }
+    [ "$lines" -ge 1 ] && [ "$lines" -le 2 ] || { complain "$name: $lines lines"; return; }
+    [ -z "$(find "$work/out" -type f 2>/dev/null)" ] || complain "$name: left $(find "$work/out" -type f)"
+}
+
+# scene NAME SED-SCRIPT: the good scene, spoiled.
+scene() {
+    sed "$2" "$work/good.yaml" >"$work/bad.yaml"
+    bad "$1" render "$work/bad.yaml" -o "$work/out"
+}
+
+scene 'unknown key' 's/rate_mm_h/rate_mm_s/'
+scene 'wrong type' 's/rate_mm_h: 10/rate_mm_h: lots/'
+scene 'out of range' 's/rate_mm_h: 10/rate_mm_h: 1000/'
+scene 'negative' 's/fps: 24/fps: -24/'
+scene 'not a number' 's/rate_mm_h: 10/rate_mm_h: .nan/'
+scene 'infinite' 's/position_m: \[0,/position_m: [.inf,/'
+scene 'vector too short' 's/\[0, 1, 3\]/[0, 1]/'
+scene 'vector too long' 's/\[0, 1, 3\]/[0, 1, 3, 4]/'
+scene 'no camera' '/^camera/d'
+scene 'no keys' 's/keys: \[.*\]/keys: []/'
+scene 'wrong version' 's/virga: 1/virga: 7/'
+scene 'no version' '/^virga/d'
+scene 'missing mesh' 's/box.obj/none.obj/'
+scene 'missing sky' 's/sky.exr/none.exr/'
+scene 'broken yaml' 's/meshes: \[/meshes: [[/'
+scene 'tab in yaml' 's/^frames: /\tframes: /'
+scene 'doubled key' 's/^virga: 1/virga: 1\nvirga: 1/'
+scene 'frames backwards' 's/first: 1, last: 2/first: 9, last: 2/'
+scene 'size of zero' 's/\[32, 32\]/[0, 32]/'
+scene 'fov of 180' 's/camera: {/camera: {fov_deg: 180, /'
+scene 'looks at itself' 's/look_at_m: \[0, 1, 0\]/look_at_m: [0, 1, 3]/'
+: >"$work/empty.yaml"
+bad 'empty scene' render "$work/empty.yaml" -o "$work/out"
+head -c 4000 /dev/urandom >"$work/noise.yaml"
+bad 'noise for a scene' render "$work/noise.yaml" -o "$work/out"
+bad 'no scene' render "$work/none.yaml" -o "$work/out"
+bad 'folder for a scene' render "$work" -o "$work/out"
+
+mesh() {
+    sed "s/box.obj/$2/" "$work/good.yaml" >"$work/bad.yaml"
+    bad "$1" render "$work/bad.yaml" -o "$work/out"
+}
+: >"$work/empty.obj"
+mesh 'empty mesh' empty.obj
+head -c 3000 /dev/urandom >"$work/noise.glb"
+mesh 'noise for a mesh' noise.glb
+head -c 900 "$source/assets/scenes/street.glb" >"$work/cut.glb"
+mesh 'mesh cut short' cut.glb
+printf 'v 0 0 0\nv 1 0 0\nv 2 1 0\n' >"$work/points.obj"
+mesh 'mesh without faces' points.obj
+echo 'hello' >"$work/text.xyz"
+mesh 'unknown kind of mesh' text.xyz
+
+sky() {
+    sed "s/sky.exr/$2/" "$work/good.yaml" >"$work/bad.yaml"
+    bad "$1" render "$work/bad.yaml" -o "$work/out"
+}
+: >"$work/empty.exr"
+sky 'empty picture' empty.exr
+head -c 20000 "$work/sky.exr" >"$work/cut.exr"
+sky 'picture cut short' cut.exr
+head -c 3000 /dev/urandom >"$work/noise.exr"
+sky 'noise for a picture' noise.exr
+echo 'hello' >"$work/text.exr"
+sky 'text for a picture' text.exr
+
+good="$work/good.yaml"
+bad 'no command' rendre
+bad 'unknown option' render "$good" -o "$work/out" --sise 32x32
+bad 'option without value' render "$good" -o
+bad 'no output' render "$good"
+bad 'wrong size' render "$good" -o "$work/out" --size 32
+bad 'wrong frames' render "$good" -o "$work/out" --frames 5-2
+bad 'frames of text' render "$good" -o "$work/out" --frames one
+bad 'no samples' render "$good" -o "$work/out" --samples 0
+bad 'unknown layer' render "$good" -o "$work/out" --layers beuty
+bad 'unknown device' render "$good" -o "$work/out" --device 99
+bad 'wrong set' render "$good" -o "$work/out" --set rain.rate=5
+bad 'set without value' render "$good" -o "$work/out" --set rain.rate_mm_h
+bad 'file for a folder' render "$good" -o "$good"
+bad 'nothing to measure' bench snow
+
+# And the good one still works, so that none of the above failed for another reason.
+"$virga" render "$good" -o "$work/fine" >"$work/stdout" 2>"$work/err" || complain 'the good scene'
+[ -f "$work/fine/frame.0002.exr" ] || complain 'the good scene wrote no frame'
+echo "$count broken inputs, $failures failures"
+[ "$failures" = 0 ]
