@@ -12,9 +12,9 @@
 static const char *vulkan_result_name(VkResult result)
 {
     switch (result) {
-#define NAME(value)                                                                                                    \
-    case value: {                                                                                                      \
-        return #value;                                                                                                 \
+#define NAME(value)    \
+    case value: {      \
+        return #value; \
     }
         NAME(VK_SUCCESS)
         NAME(VK_NOT_READY)
@@ -42,7 +42,8 @@ virga_result virga_vulkan_failed(virga_context *context, VkResult result, const 
 {
     if (result == VK_ERROR_DEVICE_LOST) {
         if (!context->lost)
-            virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s", call);
+            virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s",
+                          call);
         context->lost = true;
         return VIRGA_ERROR_DEVICE_LOST;
     }
@@ -182,7 +183,8 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->frames_in_flight = def->frames_in_flight;
     context->debug_names = def->debug_names;
     TRY(virga_functions_load_instance(&context->vk, &context->log, def->get_instance_proc_addr, def->instance));
-    result = virga_check_device(def->get_instance_proc_addr, def->instance, def->physical_device, reason, sizeof reason);
+    result =
+        virga_check_device(def->get_instance_proc_addr, def->instance, def->physical_device, reason, sizeof reason);
     if (result) {
         virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "the device %s", reason);
         return result;

@@ -12,9 +12,9 @@
 
 #include <virga/vulkan.h>
 
-#define VIRGA_MAX_PASSES 32           /* names that timings tell apart */
-#define VIRGA_MAX_QUERIES 512         /* timestamps a frame; passes beyond go untimed */
-#define VIRGA_RING_ALIGNMENT 256      /* the largest offset alignment that Vulkan allows a device to ask for */
+#define VIRGA_MAX_PASSES     32  /* names that timings tell apart */
+#define VIRGA_MAX_QUERIES    512 /* timestamps a frame; passes beyond go untimed */
+#define VIRGA_RING_ALIGNMENT 256 /* the largest offset alignment that Vulkan allows a device to ask for */
 
 /* A piece of device memory. */
 typedef struct virga_memory {
@@ -42,7 +42,7 @@ typedef struct virga_buffer {
 typedef struct virga_image_2d {
     virga_resource resource; /* first */
     VkImage image;
-    VkImageView view;        /* all layers, as a 2D array */
+    VkImageView view; /* all layers, as a 2D array */
     VkImageView *layer_views;
     uint32_t layers;
     VkExtent2D extent;
@@ -59,9 +59,9 @@ typedef struct virga_pipeline {
 typedef struct virga_timer_slot {
     VkQueryPool pool;
     uint64_t frame_index;
-    uint32_t count;                        /* queries written */
-    uint8_t names[VIRGA_MAX_QUERIES / 2];  /* of the pass that the pair belongs to */
-    bool reset;                            /* the pool was reset in this frame */
+    uint32_t count;                       /* queries written */
+    uint8_t names[VIRGA_MAX_QUERIES / 2]; /* of the pass that the pair belongs to */
+    bool reset;                           /* the pool was reset in this frame */
 } virga_timer_slot;
 
 struct virga_context {
@@ -102,21 +102,21 @@ struct virga_context {
 virga_result virga_vulkan_failed(virga_context *context, VkResult result, const char *call);
 
 /* One Vulkan call in a function that has `virga_result result` and a label `error`. */
-#define VK_TRY(context, call)                                                                                          \
-    do {                                                                                                               \
-        const VkResult vk_result_ = (context)->vk.call;                                                                \
-        if (vk_result_ != VK_SUCCESS) {                                                                                \
-            result = virga_vulkan_failed(context, vk_result_, "vk" #call);                                             \
-            goto error;                                                                                                \
-        }                                                                                                              \
+#define VK_TRY(context, call)                                              \
+    do {                                                                   \
+        const VkResult vk_result_ = (context)->vk.call;                    \
+        if (vk_result_ != VK_SUCCESS) {                                    \
+            result = virga_vulkan_failed(context, vk_result_, "vk" #call); \
+            goto error;                                                    \
+        }                                                                  \
     } while (0)
 
 /* One call of ours in such a function. */
-#define TRY(call)                                                                                                      \
-    do {                                                                                                               \
-        result = (call);                                                                                               \
-        if (result < 0)                                                                                                \
-            goto error;                                                                                                \
+#define TRY(call)        \
+    do {                 \
+        result = (call); \
+        if (result < 0)  \
+            goto error;  \
     } while (0)
 
 /* An out of host memory result, with its line in the log. */
@@ -152,11 +152,11 @@ void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
 
 /* Lets go of a resource (buffer, image, pipeline) and sets the pointer to NULL; accepts NULL. */
 void virga_retire(virga_context *context, virga_resource *resource);
-#define VIRGA_RETIRE(context, pointer)                                                                                 \
-    do {                                                                                                               \
-        if (pointer)                                                                                                   \
-            virga_retire(context, &(pointer)->resource);                                                               \
-        (pointer) = NULL;                                                                                              \
+#define VIRGA_RETIRE(context, pointer)                   \
+    do {                                                 \
+        if (pointer)                                     \
+            virga_retire(context, &(pointer)->resource); \
+        (pointer) = NULL;                                \
     } while (0)
 
 /* Destroys what completed frames have let go of; all of it where `all`. */
@@ -182,11 +182,12 @@ typedef struct virga_graphics_def {
     VkPipelineLayout layout;
     VkRenderPass render_pass;
     uint32_t subpass;
-    const void *next;               /* chain for dynamic rendering */
-    uint32_t vertex_stride;         /* 0: no vertex input; else one vec3 at location 0 */
-    uint32_t color_count;           /* those beyond the first are not written */
+    const void *next;       /* chain for dynamic rendering */
+    uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
+    uint32_t color_count;   /* those beyond the first are not written */
     bool blend_premultiplied;
     bool depth_test, depth_write, reversed_depth;
+    uint32_t constant; /* specialisation constant 0 of the fragment shader, where it has one */
     VkSampleCountFlagBits samples;
     const char *name;
 } virga_graphics_def;

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define FEATURE_12(member, why)                                                                                        \
-    {                                                                                                                  \
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, offsetof(VkPhysicalDeviceVulkan12Features, member),     \
-            #member, why                                                                                               \
+#define FEATURE_12(member, why)                                                                                    \
+    {                                                                                                              \
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, offsetof(VkPhysicalDeviceVulkan12Features, member), \
+            #member, why                                                                                           \
     }
 
 static const virga_feature required[] = {

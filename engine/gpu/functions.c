@@ -52,9 +52,9 @@ virga_result virga_functions_load_instance(virga_functions *functions, const vir
                                            PFN_vkGetInstanceProcAddr get, VkInstance instance)
 {
     const instance_lookup lookup = {get, instance};
-#define VIRGA_LOAD(name)                                                                                               \
-    functions->name = (PFN_vk##name)find(from_instance, &lookup, #name);                                               \
-    if (!functions->name)                                                                                              \
+#define VIRGA_LOAD(name)                                                 \
+    functions->name = (PFN_vk##name)find(from_instance, &lookup, #name); \
+    if (!functions->name)                                                \
         return missing(log, #name);
     VIRGA_INSTANCE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
@@ -64,9 +64,9 @@ virga_result virga_functions_load_instance(virga_functions *functions, const vir
 virga_result virga_functions_load_device(virga_functions *functions, const virga_log *log, VkDevice device)
 {
     const device_lookup lookup = {functions->GetDeviceProcAddr, device};
-#define VIRGA_LOAD(name)                                                                                               \
-    functions->name = (PFN_vk##name)find(from_device, &lookup, #name);                                                 \
-    if (!functions->name)                                                                                              \
+#define VIRGA_LOAD(name)                                               \
+    functions->name = (PFN_vk##name)find(from_device, &lookup, #name); \
+    if (!functions->name)                                              \
         return missing(log, #name);
     VIRGA_DEVICE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define PAGE_BYTES ((VkDeviceSize)32 << 20) /* larger requests get a page of their own size */
-#define MAX_RANGES 256                      /* free ranges a page remembers; beyond, a released range is lost to it
+#define MAX_RANGES \
+    256 /* free ranges a page remembers; beyond, a released range is lost to it
                                              * until the page is empty */
 
 typedef struct free_range {
@@ -26,8 +27,7 @@ typedef struct virga_memory_page {
 
 static bool type_fits(const virga_context *context, uint32_t index, uint32_t bits, VkMemoryPropertyFlags wanted)
 {
-    return (bits & (1u << index)) &&
-           (context->memory_properties.memoryTypes[index].propertyFlags & wanted) == wanted;
+    return (bits & (1u << index)) && (context->memory_properties.memoryTypes[index].propertyFlags & wanted) == wanted;
 }
 
 /* The first type with all that is wanted and preferred, else with all that is wanted; UINT32_MAX if none. */

@@ -16,9 +16,8 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
 static virga_result module_create(virga_context *context, virga_spirv shader, VkShaderModule *module)
 {
     virga_result result = VIRGA_OK;
-    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                           .codeSize = shader.size,
-                                           .pCode = shader.code};
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = shader.size, .pCode = shader.code};
     VK_TRY(context, CreateShaderModule(context->device, &info, NULL, module));
 error:
     return result;
@@ -48,8 +47,8 @@ virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv s
                                                         .module = module,
                                                         .pName = "main"},
                                               .layout = layout};
-    VK_TRY(context, CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL,
-                                           &pipeline->pipeline));
+    VK_TRY(context,
+           CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, &pipeline->pipeline));
     context->objects++;
     virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, name);
     *created = pipeline;
@@ -82,21 +81,21 @@ typedef struct graphics_state {
 static void describe_blend(const virga_graphics_def *def, graphics_state *state)
 {
     memset(state->attachments, 0, sizeof state->attachments);
-    state->attachments[0] = (VkPipelineColorBlendAttachmentState){
-        .blendEnable = def->blend_premultiplied,
-        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-        .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-        .colorBlendOp = VK_BLEND_OP_ADD,
-        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-        .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-        .alphaBlendOp = VK_BLEND_OP_ADD,
-        .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                          VK_COLOR_COMPONENT_A_BIT};
+    state->attachments[0] =
+        (VkPipelineColorBlendAttachmentState){.blendEnable = def->blend_premultiplied,
+                                              .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                              .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                              .colorBlendOp = VK_BLEND_OP_ADD,
+                                              .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                              .alphaBlendOp = VK_BLEND_OP_ADD,
+                                              .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
     /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
-    state->blend = (VkPipelineColorBlendStateCreateInfo){.sType =
-                                                             VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                         .attachmentCount = def->color_count,
-                                                         .pAttachments = state->attachments};
+    state->blend =
+        (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+                                              .attachmentCount = def->color_count,
+                                              .pAttachments = state->attachments};
 }
 
 static void describe_input(const virga_graphics_def *def, graphics_state *state)
@@ -104,26 +103,26 @@ static void describe_input(const virga_graphics_def *def, graphics_state *state)
     state->binding = (VkVertexInputBindingDescription){0, def->vertex_stride, VK_VERTEX_INPUT_RATE_VERTEX};
     state->attribute = (VkVertexInputAttributeDescription){0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     const uint32_t used = def->vertex_stride ? 1 : 0;
-    state->input = (VkPipelineVertexInputStateCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = used,
-        .pVertexBindingDescriptions = &state->binding,
-        .vertexAttributeDescriptionCount = used,
-        .pVertexAttributeDescriptions = &state->attribute};
-    state->assembly = (VkPipelineInputAssemblyStateCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    state->input =
+        (VkPipelineVertexInputStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+                                               .vertexBindingDescriptionCount = used,
+                                               .pVertexBindingDescriptions = &state->binding,
+                                               .vertexAttributeDescriptionCount = used,
+                                               .pVertexAttributeDescriptions = &state->attribute};
+    state->assembly =
+        (VkPipelineInputAssemblyStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+                                                 .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
 }
 
 static void describe_raster(const virga_graphics_def *def, graphics_state *state)
 {
     state->viewport = (VkPipelineViewportStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    state->raster = (VkPipelineRasterizationStateCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .polygonMode = VK_POLYGON_MODE_FILL,
-        .cullMode = VK_CULL_MODE_NONE,
-        .lineWidth = 1};
+    state->raster =
+        (VkPipelineRasterizationStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+                                                 .polygonMode = VK_POLYGON_MODE_FILL,
+                                                 .cullMode = VK_CULL_MODE_NONE,
+                                                 .lineWidth = 1};
     state->multisample = (VkPipelineMultisampleStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = def->samples ? def->samples : VK_SAMPLE_COUNT_1_BIT};
@@ -173,16 +172,19 @@ virga_result virga_graphics_pipeline_create(virga_context *context, const virga_
     TRY(module_create(context, def->vertex, &modules[0]));
     TRY(module_create(context, def->fragment, &modules[1]));
     VkPipelineShaderStageCreateInfo stages[2];
+    const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
+    const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};
     for (int i = 0; i < 2; i++)
-        stages[i] = (VkPipelineShaderStageCreateInfo){
-            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
-            .module = modules[i],
-            .pName = "main"};
+        stages[i] =
+            (VkPipelineShaderStageCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                              .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
+                                              .module = modules[i],
+                                              .pName = "main",
+                                              .pSpecializationInfo = i ? &constants : NULL};
     graphics_state state;
     const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);
-    VK_TRY(context, CreateGraphicsPipelines(context->device, context->pipeline_cache, 1, &info, NULL,
-                                            &pipeline->pipeline));
+    VK_TRY(context,
+           CreateGraphicsPipelines(context->device, context->pipeline_cache, 1, &info, NULL, &pipeline->pipeline));
     context->objects++;
     virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, def->name);
     *created = pipeline;

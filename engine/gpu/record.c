@@ -111,8 +111,8 @@ void virga_timers_reset(virga_context *context, VkCommandBuffer cmd)
 void virga_timers_collect(virga_context *context, virga_timer_slot *slot)
 {
     uint64_t ticks[VIRGA_MAX_QUERIES];
-    if (!slot->count || context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks, ticks,
-                                                        sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+    if (!slot->count || context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks,
+                                                        ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
         return;
     for (uint32_t i = 0; i < slot->count / 2; i++) {
         virga_pass_time *time = &context->pass_times[slot->names[i]];

@@ -30,9 +30,10 @@ static void buffer_destroy(virga_context *context, virga_resource *resource)
 static void heap_flags(virga_heap_kind heap, VkMemoryPropertyFlags *wanted, VkMemoryPropertyFlags *preferred)
 {
     *wanted = heap == VIRGA_HEAP_DEVICE ? 0 : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
-    *preferred = heap == VIRGA_HEAP_DEVICE   ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
-                 : heap == VIRGA_HEAP_UPLOAD ? VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
-                                             : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    *preferred = heap == VIRGA_HEAP_DEVICE ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+                 : heap == VIRGA_HEAP_UPLOAD
+                     ? VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                     : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
 virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
@@ -167,8 +168,8 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
     context->objects++;
     context->vk.GetImageMemoryRequirements(context->device, image->image, &need);
     TRY(virga_memory_allocate(context, &need, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true, name, &image->memory));
-    VK_TRY(context, BindImageMemory(context->device, image->image, image->memory.block.memory,
-                                    image->memory.block.offset));
+    VK_TRY(context,
+           BindImageMemory(context->device, image->image, image->memory.block.memory, image->memory.block.offset));
     TRY(view_create(context, image, aspect, 0, layers, &image->view));
     for (uint32_t i = 0; i < layers; i++)
         TRY(view_create(context, image, aspect, i, 1, &image->layer_views[i]));

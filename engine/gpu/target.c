@@ -14,8 +14,8 @@ virga_target_def virga_default_target_def(void)
 
 static virga_result check_def(const virga_log *log, const virga_target_def *def)
 {
-    const virga_result result = virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie,
-                                                     TARGET_COOKIE);
+    const virga_result result =
+        virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie, TARGET_COOKIE);
     if (result)
         return result;
     if (def->color_count < 1 || def->color_count > 8)

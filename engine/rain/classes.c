@@ -12,10 +12,10 @@
 
 #include <virga/shared/random.h>
 
-#define RANK_SOFTNESS 0.05   /* as in shaders/rain/field.glsl */
+#define RANK_SOFTNESS   0.05  /* as in shaders/rain/field.glsl */
 #define DEALT_RATE_MM_H 150.0 /* the rain that slots are dealt for: heavier needs weights above 1 */
 #define LIGHT_RATE_MM_H 5.0   /* and, in the outer boxes, half of them for this one */
-#define EVEN_SHARE 0.15       /* of slots that go evenly over all sizes, so that no distribution finds none */
+#define EVEN_SHARE      0.15  /* of slots that go evenly over all sizes, so that no distribution finds none */
 
 static const virga_sizes marshall_palmer = {VIRGA_SIZES_MARSHALL_PALMER, NULL, NULL, 0};
 
@@ -64,8 +64,8 @@ static void deal_level(rain_classes *classes, uint32_t level)
     uint32_t dealt = 0;
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
         sum += demand[k];
-        uint32_t upto = k + 1 == VIRGA_RAIN_CLASSES ? classes->slots_per_level
-                                                    : (uint32_t)(sum * classes->slots_per_level + 0.5);
+        uint32_t upto =
+            k + 1 == VIRGA_RAIN_CLASSES ? classes->slots_per_level : (uint32_t)(sum * classes->slots_per_level + 0.5);
         upto = upto > classes->slots_per_level ? classes->slots_per_level : upto;
         classes->slot_count[level][k] = upto > dealt ? upto - dealt : 0;
         dealt += classes->slot_count[level][k];

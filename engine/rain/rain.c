@@ -4,6 +4,7 @@
 #include "shaders/rain_impact_find_comp.spv.h"
 #include "shaders/rain_impact_scan_comp.spv.h"
 #include "shaders/rain_impact_write_comp.spv.h"
+#include "shaders/rain_list_comp.spv.h"
 #include "shaders/rain_points_comp.spv.h"
 #include "shaders/rain_prepare_find_comp.spv.h"
 #include "shaders/rain_prepare_scan_comp.spv.h"
@@ -14,11 +15,11 @@
 #include <math.h>
 #include <string.h>
 
-#define DEF_COOKIE VIRGA_COOKIE(3)
-#define SETTINGS_COOKIE VIRGA_COOKIE(5)
+#define DEF_COOKIE        VIRGA_COOKIE(3)
+#define SETTINGS_COOKIE   VIRGA_COOKIE(5)
 #define REAL_DROPS_PER_M3 3200.0 /* of a cloudburst, from 0.2 mm up: decides how wide the innermost box may be */
-#define RANGE_SHARE 0.75         /* of the widest box's half side is at full density, see FADE_FROM in field.glsl */
-#define PICK_BYTES 40u           /* PICK_STRIDE of shaders/rain/scan_buffers.glsl in bytes */
+#define RANGE_SHARE       0.75   /* of the widest box's half side is at full density, see FADE_FROM in field.glsl */
+#define PICK_BYTES        (VIRGA_RAIN_GROUP / 32 * 16u) /* of a group, see shaders/rain/scan_buffers.glsl */
 
 /* ---- defaults */
 
@@ -88,7 +89,8 @@ static virga_result check_def(const virga_log *log, const virga_rain_def *given,
             virga_clamp_setting_u32(log, "rain_def.occlusion_size", def->occlusion_size, 64, 8192, NULL);
     def->occlusion_cascades =
         virga_clamp_setting_u32(log, "rain_def.occlusion_cascades", def->occlusion_cascades, 1, 4, NULL);
-    def->occlusion_slants = virga_clamp_setting_u32(log, "rain_def.occlusion_slants", def->occlusion_slants, 1, 4, NULL);
+    def->occlusion_slants =
+        virga_clamp_setting_u32(log, "rain_def.occlusion_slants", def->occlusion_slants, 1, 4, NULL);
     for (int i = 0; i < 4; i++)
         if (def->occluder_strides[i] && (def->occluder_strides[i] < 12 || def->occluder_strides[i] % 4))
             return virga_wrong_argument(log, "rain_def.occluder_strides: expected multiples of 4 from 12, got %u",
@@ -125,13 +127,14 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
     double side;
     plan_boxes(&def, &levels, &groups_per_level, &side);
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
-    const VkDeviceSize maps = (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades *
-                              def.occlusion_slants;
-    return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
+    const VkDeviceSize maps =
+        (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades * def.occlusion_slants;
+    return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
+                    (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
            slots / VIRGA_RAIN_GROUP * PICK_BYTES + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
-           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * rain_tick_bytes() +
-                                                       VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
+           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
+               (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
 
 /* ---- creating */
@@ -140,8 +143,8 @@ static virga_result create_state_buffers(virga_rain *rain)
 {
     virga_result result = VIRGA_OK;
     virga_context *context = rain->context;
-    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags storage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const struct {
         virga_buffer **buffer;
         VkDeviceSize size;
@@ -153,6 +156,8 @@ static virga_result create_state_buffers(virga_rain *rain)
         {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu),
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.impacts"},
         {&rain->pick_buffer, rain->groups * PICK_BYTES, storage, "rain.picks"},
+        {&rain->list_buffer, sizeof(virga_list_gpu) + rain->slots * sizeof(uint32_t),
+         storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.list"},
         {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu), storage, "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
          "rain.prepared"},
@@ -179,10 +184,10 @@ static virga_result create_host_buffers(virga_rain *rain)
     TRY(virga_buffer_create(context, rain->index_buffer->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
                             "rain.index_upload", &rain->index_upload));
     TRY(virga_buffer_create(context, (VkDeviceSize)frames * rain->def.max_ticks_per_step * rain_tick_bytes(),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                            VIRGA_HEAP_UPLOAD, "rain.ticks", &rain->tick_ring));
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD,
+                            "rain.ticks", &rain->tick_ring));
     TRY(virga_buffer_create(context, (VkDeviceSize)frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "rain.views", &rain->view_ring));
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "rain.views", &rain->view_ring));
     TRY(virga_buffer_create(context, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                             VIRGA_HEAP_READBACK, "rain.readback", &rain->readback_ring));
     memset(rain->readback_ring->memory.block.mapped, 0, frames * sizeof(rain_readback));
@@ -247,6 +252,7 @@ static virga_result create_passes(virga_rain *rain)
         {&rain->step, VIRGA_SPIRV(rain_step_comp), "rain.step"},
         {&rain->sway, VIRGA_SPIRV(rain_sway_comp), "rain.sway"},
         {&rain->impact_find, VIRGA_SPIRV(rain_impact_find_comp), "rain.impact_find"},
+        {&rain->list, VIRGA_SPIRV(rain_list_comp), "rain.list"},
         {&rain->impact_scan, VIRGA_SPIRV(rain_impact_scan_comp), "rain.impact_scan"},
         {&rain->impact_write, VIRGA_SPIRV(rain_impact_write_comp), "rain.impact_write"},
         {&rain->prepare_find, VIRGA_SPIRV(rain_prepare_find_comp), "rain.prepare_find"},
@@ -272,8 +278,8 @@ static virga_result create_field(virga_rain *rain)
         return virga_out_of_host_memory(rain->context, "the size classes of rain");
     rain_classes_init(rain->classes, rain->levels, rain->groups_per_level * VIRGA_RAIN_GROUP, side_m);
     const virga_rain_settings *settings = &rain->settings;
-    rain_classes_set_rain(rain->classes, &settings->sizes, (double)settings->rate_mm_h,
-                          (double)settings->air_density, 0);
+    rain_classes_set_rain(rain->classes, &settings->sizes, (double)settings->rate_mm_h, (double)settings->air_density,
+                          0);
     rain_wind_at(&rain->wind, settings, rain->def.seed, rain->wind_now);
     rain_classes_settle(rain->classes, rain->wind_now);
     return VIRGA_OK;
@@ -335,15 +341,16 @@ void virga_rain_destroy(virga_rain **rain)
     virga_rain *dying = *rain;
     virga_context *context = dying->context;
     rain_targets_destroy(dying);
-    virga_pipeline **pipelines[] = {&dying->step,         &dying->sway,         &dying->impact_find,
-                                    &dying->impact_scan,  &dying->impact_write, &dying->prepare_find,
-                                    &dying->prepare_scan, &dying->prepare_write, &dying->points};
+    virga_pipeline **pipelines[] = {
+        &dying->step,         &dying->sway,         &dying->impact_find,  &dying->list,          &dying->impact_scan,
+        &dying->impact_write, &dying->prepare_find, &dying->prepare_scan, &dying->prepare_write, &dying->points};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->slot_buffer,   &dying->slot_upload,  &dying->drop_buffer, &dying->impact_buffer,
-                                &dying->pick_buffer,   &dying->streak_buffer, &dying->prepared_buffer,
-                                &dying->sway_buffer,   &dying->index_buffer, &dying->index_upload, &dying->tick_ring,
-                                &dying->view_ring,     &dying->readback_ring, &dying->point_buffer};
+    virga_buffer **buffers[] = {&dying->slot_buffer,   &dying->slot_upload,     &dying->drop_buffer,
+                                &dying->impact_buffer, &dying->pick_buffer,     &dying->list_buffer,
+                                &dying->streak_buffer, &dying->prepared_buffer, &dying->sway_buffer,
+                                &dying->index_buffer,  &dying->index_upload,    &dying->tick_ring,
+                                &dying->view_ring,     &dying->readback_ring,   &dying->point_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->blank);
@@ -374,13 +381,20 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
         const char *name;
         const float *values;
         uint32_t count;
-    } floats[] = {{"rain.rate_mm_h", &s->rate_mm_h, 1},     {"rain.air_density", &s->air_density, 1},
-                  {"rain.transition_s", &s->transition_s, 1}, {"rain.wind_m_s", s->wind_m_s, 3},
-                  {"rain.gust_m_s", &s->gust_m_s, 1},       {"rain.gust_time_s", &s->gust_time_s, 1},
-                  {"rain.environment_sh", &s->environment_sh[0][0], 27}, {"rain.streak_gain", &s->streak_gain, 1},
-                  {"rain.light_gain", &s->light_gain, 1},   {"rain.min_width_px", &s->min_width_px, 1},
-                  {"rain.soft_m", &s->soft_m, 1},           {"rain.near_m", &s->near_m, 1},
-                  {"rain.oscillation", &s->oscillation, 1}, {"rain.haze", &s->haze, 1},
+    } floats[] = {{"rain.rate_mm_h", &s->rate_mm_h, 1},
+                  {"rain.air_density", &s->air_density, 1},
+                  {"rain.transition_s", &s->transition_s, 1},
+                  {"rain.wind_m_s", s->wind_m_s, 3},
+                  {"rain.gust_m_s", &s->gust_m_s, 1},
+                  {"rain.gust_time_s", &s->gust_time_s, 1},
+                  {"rain.environment_sh", &s->environment_sh[0][0], 27},
+                  {"rain.streak_gain", &s->streak_gain, 1},
+                  {"rain.light_gain", &s->light_gain, 1},
+                  {"rain.min_width_px", &s->min_width_px, 1},
+                  {"rain.soft_m", &s->soft_m, 1},
+                  {"rain.near_m", &s->near_m, 1},
+                  {"rain.oscillation", &s->oscillation, 1},
+                  {"rain.haze", &s->haze, 1},
                   {"rain.bodies_min_mm", &s->bodies_min_mm, 1}};
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
         if (virga_settings_finite(log, floats[i].name, floats[i].values, floats[i].count))
@@ -424,7 +438,8 @@ static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
         *ranges[i].value =
             virga_clamp_setting_float(log, ranges[i].name, *ranges[i].value, ranges[i].lo, ranges[i].hi, &changed);
-    s->light_count = virga_clamp_setting_u32(log, "rain.light_count", s->light_count, 0, VIRGA_RAIN_MAX_LIGHTS, &changed);
+    s->light_count =
+        virga_clamp_setting_u32(log, "rain.light_count", s->light_count, 0, VIRGA_RAIN_MAX_LIGHTS, &changed);
     s->default_material = virga_clamp_setting_u32(log, "rain.default_material", s->default_material, 0, 255, &changed);
     return changed;
 }
@@ -433,8 +448,7 @@ static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
 static virga_result copy_table(virga_rain *rain, const virga_sizes *sizes, double **diameters, double **numbers)
 {
     *diameters = *numbers = NULL;
-    const virga_result result =
-        virga_sizes_densities(sizes, 1, VIRGA_AIR_DENSITY, 0, NULL, NULL);
+    const virga_result result = virga_sizes_densities(sizes, 1, VIRGA_AIR_DENSITY, 0, NULL, NULL);
     if (result)
         return virga_wrong_argument(&rain->context->log, "rain.sizes: expected Marshall-Palmer, Best, or a table of 2 "
                                                          "to 256 rising diameters with numbers >= 0");
@@ -497,8 +511,8 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
     const virga_log *log = &rain->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_rain_set: NULL settings");
-    virga_result result = virga_settings_check(log, "rain_settings", settings->size, sizeof *settings,
-                                               settings->cookie, SETTINGS_COOKIE);
+    virga_result result =
+        virga_settings_check(log, "rain_settings", settings->size, sizeof *settings, settings->cookie, SETTINGS_COOKIE);
     if (!result)
         result = check_finite(log, settings);
     if (result)

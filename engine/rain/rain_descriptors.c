@@ -10,21 +10,23 @@ typedef struct binding {
 #define ALL_STAGES (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
 
 static const binding bindings[RAIN_BINDINGS] = {
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, ALL_STAGES},                      /* 0 tick */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, ALL_STAGES},                      /* 1 view */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, ALL_STAGES},                              /* 2 slots */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 3 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 4 impacts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 5 picks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 6 prepared */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, ALL_STAGES},          /* 0 tick, maps, classes */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, ALL_STAGES},          /* 1 view */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, ALL_STAGES},                  /* 2 slots */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}, /* 3 drops */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}, /* 4 impacts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}, /* 5 picks */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}, /* 6 prepared */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT}, /* 7 streaks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 8 sways */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ALL_STAGES},                      /* 9 occlusion depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ALL_STAGES},                      /* 10 occlusion surface */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},     /* 11 wind */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},    /* 12 scene depth */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},             /* 13 points */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},     /* 14 travels: the tick's first part */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},                              /* 8 sways */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ALL_STAGES},                   /* 9 occlusion depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ALL_STAGES},                   /* 10 occlusion surface */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},  /* 11 wind */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 12 scene depth */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 13 points */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 14 travels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 15 weights */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 16 list of picked slots */
 };
 
 static virga_result create_layouts(virga_rain *rain)
@@ -40,9 +42,8 @@ static virga_result create_layouts(virga_rain *rain)
                                                       .pBindings = described};
     VK_TRY(context, CreateDescriptorSetLayout(context->device, &set_info, NULL, &rain->set_layout));
     context->objects++;
-    const VkPipelineLayoutCreateInfo layout_info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                                    .setLayoutCount = 1,
-                                                    .pSetLayouts = &rain->set_layout};
+    const VkPipelineLayoutCreateInfo layout_info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &rain->set_layout};
     VK_TRY(context, CreatePipelineLayout(context->device, &layout_info, NULL, &rain->layout));
     context->objects++;
 error:
@@ -54,9 +55,9 @@ static virga_result create_sets(virga_rain *rain)
     virga_result result = VIRGA_OK;
     virga_context *context = rain->context;
     const uint32_t sets = context->frames_in_flight * RAIN_SETS;
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, 2 * sets},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * sets},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 3 * sets},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 9 * sets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * sets}};
     const VkDescriptorPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                                   .maxSets = sets,
@@ -106,11 +107,11 @@ virga_result rain_descriptors_create(virga_rain *rain)
 void rain_descriptors_destroy(virga_rain *rain)
 {
     virga_context *context = rain->context;
-#define DESTROY(kind, handle)                                                                                          \
-    if (handle) {                                                                                                      \
-        context->vk.Destroy##kind(context->device, handle, NULL);                                                      \
-        context->objects--;                                                                                            \
-        handle = VK_NULL_HANDLE;                                                                                       \
+#define DESTROY(kind, handle)                                     \
+    if (handle) {                                                 \
+        context->vk.Destroy##kind(context->device, handle, NULL); \
+        context->objects--;                                       \
+        handle = VK_NULL_HANDLE;                                  \
     }
     DESTROY(Sampler, rain->nearest)
     DESTROY(Sampler, rain->linear)
@@ -124,12 +125,19 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 {
     virga_context *context = rain->context;
     const VkDescriptorSet set = rain->sets[context->ring_slot][index];
-    const virga_buffer *const buffers[11] = {rain->tick_ring,     rain->view_ring,   rain->slot_buffer,
-                                            rain->drop_buffer,   rain->impact_buffer, rain->pick_buffer,
-                                            rain->prepared_buffer, rain->streak_buffer,
-                                            rain->sway_buffer ? rain->sway_buffer : rain->prepared_buffer,
-                                            rain->point_buffer ? rain->point_buffer : rain->prepared_buffer,
-                                            rain->tick_ring};
+    const virga_buffer *const buffers[13] = {rain->tick_ring,
+                                             rain->view_ring,
+                                             rain->slot_buffer,
+                                             rain->drop_buffer,
+                                             rain->impact_buffer,
+                                             rain->pick_buffer,
+                                             rain->prepared_buffer,
+                                             rain->streak_buffer,
+                                             rain->sway_buffer ? rain->sway_buffer : rain->prepared_buffer,
+                                             rain->point_buffer ? rain->point_buffer : rain->prepared_buffer,
+                                             rain->tick_ring,
+                                             rain->tick_ring,
+                                             rain->list_buffer};
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const bool wind = rain->settings.wind_texture != NULL;
     const VkDescriptorImageInfo images[4] = {
@@ -140,7 +148,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
          wind ? rain->wind_image.before.layout : read_only},
         {rain->nearest, scene_depth ? scene_depth->view : rain->blank->layer_views[0],
          scene_depth ? scene_depth->before.layout : read_only}};
-    VkDescriptorBufferInfo buffer_infos[11];
+    VkDescriptorBufferInfo buffer_infos[13];
     uint32_t next_buffer = 0, next_image = 0;
     VkWriteDescriptorSet writes[RAIN_BINDINGS];
     for (uint32_t i = 0; i < RAIN_BINDINGS; i++) {
@@ -152,9 +160,10 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
         if (bindings[i].type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) {
             writes[i].pImageInfo = &images[next_image++];
         } else {
-            const VkDeviceSize range = i == 0    ? rain_tick_bytes()
-                                       : i == 1  ? rain_view_bytes()
-                                       : i == 14 ? VIRGA_RAIN_CLASSES * sizeof(virga_travel_gpu)
+            const VkDeviceSize range = i == 0    ? sizeof(rain_tick_tables)
+                                       : i == 1  ? sizeof(virga_view_gpu)
+                                       : i == 14 ? sizeof((rain_tick_block *)0)->travels
+                                       : i == 15 ? sizeof((rain_tick_block *)0)->weights
                                                  : VK_WHOLE_SIZE;
             buffer_infos[next_buffer] = (VkDescriptorBufferInfo){buffers[next_buffer]->buffer, 0, range};
             writes[i].pBufferInfo = &buffer_infos[next_buffer++];
@@ -166,6 +175,9 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 
 void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
-    const uint32_t offsets[3] = {rain->tick_offset, rain->view_offset, rain->tick_offset}; /* by binding */
-    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->layout, 0, 1, &set, 3, offsets);
+    const uint32_t tick = rain->tick_offset;
+    const uint32_t offsets[4] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
+                                 tick + (uint32_t)offsetof(rain_tick_block, travels),
+                                 tick + (uint32_t)offsetof(rain_tick_block, weights)}; /* by binding */
+    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->layout, 0, 1, &set, 4, offsets);
 }

@@ -5,14 +5,16 @@
 
 #include "shaders/rain_haze_frag.spv.h"
 #include "shaders/rain_haze_vert.spv.h"
-#include "shaders/rain_streak_frag.spv.h"
-#include "shaders/rain_streak_vert.spv.h"
+#include "shaders/rain_streak_thin_frag.spv.h"
+#include "shaders/rain_streak_thin_vert.spv.h"
+#include "shaders/rain_streak_wide_frag.spv.h"
+#include "shaders/rain_streak_wide_vert.spv.h"
 
 #include <math.h>
 #include <string.h>
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define READ_WRITE  (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 
 uint32_t rain_view_bytes(void)
 {
@@ -94,8 +96,9 @@ static void fill_lights(const virga_rain *rain, const double camera[3], virga_vi
     }
 }
 
-#define MOST_COVERAGE 0.25       /* as in shaders/rain/prepare_write.comp */
-#define LEAST_COVERAGE (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
+#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
+#define LEAST_COVERAGE \
+    (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
 
 /* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
 static double streak_coverage(const virga_view_gpu *view, const rain_class *c, double drops, double distance_m)
@@ -122,17 +125,16 @@ static double hazy_share(const virga_rain *rain, const virga_view_gpu *view, uin
         const double would = streak_coverage(view, c, drops, distance);
         const bool small = c->diameter_m < (double)view->bodies_min_m || !classes->slot_count[level][k];
         all += cover;
-        hazy += cover * (small || would < 1.5 * LEAST_COVERAGE            ? 1
-                         : would > MOST_COVERAGE && drops > 1 ? 1 - MOST_COVERAGE / would
-                                                              : 0);
+        hazy += cover * (small || would < 1.5 * LEAST_COVERAGE ? 1
+                         : would > MOST_COVERAGE && drops > 1  ? 1 - MOST_COVERAGE / would
+                                                               : 0);
     }
     return all > 0 ? hazy / all : 0;
 }
 
 static void fill_haze(const virga_rain *rain, virga_view_gpu *out)
 {
-    const double extinction =
-        virga_rain_extinction((double)rain->settings.rate_mm_h) * (double)rain->settings.haze;
+    const double extinction = virga_rain_extinction((double)rain->settings.rate_mm_h) * (double)rain->settings.haze;
     for (uint32_t level = 0; level < rain->levels; level++)
         out->haze_per_m[level] = (float)(extinction * hazy_share(rain, out, level));
     out->haze_per_m[rain->levels] = (float)extinction;
@@ -194,8 +196,7 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
 static virga_result check_view(const virga_rain *rain, const virga_view *view, double time_s)
 {
     const virga_log *log = &rain->context->log;
-    const virga_result result =
-        virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
+    const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
     if (result)
         return result;
     if (virga_settings_finite_double(log, "view.position_m", view->position_m, 3) ||
@@ -223,13 +224,8 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
-    const virga_pipeline *passes[3] = {rain->prepare_find, rain->prepare_scan, rain->prepare_write};
-    for (int i = 0; i < 3; i++) {
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, passes[i]->pipeline);
-        context->vk.CmdDispatch(cmd, i == 1 ? 1 : rain->groups, 1, 1);
-        if (i < 2)
-            virga_compute_barrier(context, cmd);
-    }
+    rain_record_list(rain, cmd, rain->prepare_find, rain->prepare_scan);
+    rain_dispatch_list(rain, cmd, rain->prepare_write);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -274,6 +270,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     memcpy(rain->prepared_viewport, view->viewport, sizeof rain->prepared_viewport);
     rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
     rain->frame_stats[rain->context->ring_slot].prepared = true;
+    rain->prepared_depth = has_depth;
     rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->settings.rate_mm_h > 0;
     rain->prepared = true;
     return VIRGA_OK;
@@ -289,12 +286,20 @@ static rain_target *find_target(virga_rain *rain, uint64_t serial)
     return NULL;
 }
 
+static void target_clear(virga_rain *rain, rain_target *target)
+{
+    for (int depth = 0; depth < 2; depth++) {
+        VIRGA_RETIRE(rain->context, target->thin[depth]);
+        VIRGA_RETIRE(rain->context, target->wide[depth]);
+    }
+    VIRGA_RETIRE(rain->context, target->haze);
+    target->serial = 0;
+}
+
 void rain_targets_destroy(virga_rain *rain)
 {
     for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++) {
-        VIRGA_RETIRE(rain->context, rain->targets[i].streaks);
-        VIRGA_RETIRE(rain->context, rain->targets[i].haze);
-        rain->targets[i].serial = 0;
+        target_clear(rain, &rain->targets[i]);
     }
 }
 
@@ -313,13 +318,18 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
         return virga_wrong_argument(&rain->context->log, "virga_rain_attach: more than %d targets",
                                     VIRGA_RAIN_MAX_TARGETS);
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.vertex = VIRGA_SPIRV(rain_streak_vert),
-                              .fragment = VIRGA_SPIRV(rain_streak_frag),
-                              .layout = rain->layout,
-                              .blend_premultiplied = true,
-                              .depth_test = true,
-                              .name = "rain.streaks"};
-    TRY(virga_target_pipeline(target, def, &slot->streaks));
+    virga_graphics_def def = {.layout = rain->layout, .blend_premultiplied = true, .depth_test = true};
+    for (uint32_t depth = 0; depth < 2; depth++) {
+        def.constant = depth;
+        def.vertex = VIRGA_SPIRV(rain_streak_thin_vert);
+        def.fragment = VIRGA_SPIRV(rain_streak_thin_frag);
+        def.name = "rain.thin_streaks";
+        TRY(virga_target_pipeline(target, def, &slot->thin[depth]));
+        def.vertex = VIRGA_SPIRV(rain_streak_wide_vert);
+        def.fragment = VIRGA_SPIRV(rain_streak_wide_frag);
+        def.name = "rain.wide_streaks";
+        TRY(virga_target_pipeline(target, def, &slot->wide[depth]));
+    }
     def.vertex = VIRGA_SPIRV(rain_haze_vert);
     def.fragment = VIRGA_SPIRV(rain_haze_frag);
     def.depth_test = false;
@@ -328,8 +338,15 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
     slot->serial = target->serial;
     return VIRGA_OK;
 error:
-    VIRGA_RETIRE(rain->context, slot->streaks);
+    target_clear(rain, slot);
     return result;
+}
+
+static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
+{
+    const virga_functions *vk = &rain->context->vk;
+    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
 }
 
 virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
@@ -357,9 +374,9 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
         virga_pass_end(context, cmd, scope);
     }
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, found->streaks->pipeline);
     context->vk.CmdBindIndexBuffer(cmd, rain->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
-    context->vk.CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, 0, 1, sizeof(virga_prepared_gpu));
+    draw_streaks(rain, cmd, found->thin[rain->prepared_depth], offsetof(virga_prepared_gpu, thin));
+    draw_streaks(rain, cmd, found->wide[rain->prepared_depth], offsetof(virga_prepared_gpu, wide));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

@@ -13,6 +13,8 @@
 
 #include "gpu/context.h"
 
+#include <stddef.h>
+
 #include <virga/rain.h>
 #include <virga/shared/drop.h>
 #include <virga/shared/rain_gpu.h>
@@ -28,10 +30,10 @@ typedef struct rain_class {
 typedef struct rain_classes {
     rain_class classes[VIRGA_RAIN_CLASSES];
     uint32_t slot_count[VIRGA_RAIN_MAX_LEVELS][VIRGA_RAIN_CLASSES];
-    double per_m3[VIRGA_RAIN_CLASSES];     /* drops of the class per m^3, in force */
+    double per_m3[VIRGA_RAIN_CLASSES];      /* drops of the class per m^3, in force */
     double per_m3_from[VIRGA_RAIN_CLASSES]; /* eased from */
     double per_m3_to[VIRGA_RAIN_CLASSES];
-    double eased_s, ease_s;                 /* how far, and how long it takes in all; 0: done */
+    double eased_s, ease_s; /* how far, and how long it takes in all; 0: done */
     virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
     uint32_t levels, slots_per_level;
     double side_m; /* of the widest box */
@@ -77,11 +79,12 @@ typedef struct rain_map {
 } rain_map;
 
 typedef struct rain_target {
-    uint64_t serial; /* of the virga_target; 0: free */
-    virga_pipeline *streaks, *haze;
+    uint64_t serial;                   /* of the virga_target; 0: free */
+    virga_pipeline *thin[2], *wide[2]; /* without and with the scene's depth to read */
+    virga_pipeline *haze;
 } rain_target;
 
-enum { RAIN_BINDINGS = 15, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
+enum { RAIN_BINDINGS = 17, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
 /* What the statistics ring reads back for one frame. */
 typedef struct rain_readback {
@@ -101,36 +104,35 @@ struct virga_rain {
     virga_context *context;
     virga_rain_def def;
     virga_rain_settings settings;
-    virga_image wind_image;        /* copy of what settings.wind_texture points to */
+    virga_image wind_image;                  /* copy of what settings.wind_texture points to */
     double *table_diameter_m, *table_number; /* copies of a host's sizes */
 
     rain_classes *classes;
     rain_wind wind;
     double wind_now[3];
     uint32_t levels, groups_per_level, groups, slots;
-    uint64_t ticks;                /* run since creation */
-    double left_over_s;            /* host time not yet run */
-    double origin[3];              /* of the newest tick */
+    uint64_t ticks;     /* run since creation */
+    double left_over_s; /* host time not yet run */
+    double origin[3];   /* of the newest tick */
     bool stepped, slots_uploaded, sway_cleared, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
-    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *streak_buffer,
-        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload,
-        *point_buffer;
+    virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
+        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
     virga_image_2d *map_depth, *map_surface;
-    virga_image_2d *blank;         /* depth, for the scene depth that a view has not */
+    virga_image_2d *blank; /* depth, for the scene depth that a view has not */
     VkImage blank_wind_image;
     VkImageView blank_wind_view;
     virga_memory blank_wind_memory;
-    bool images_ready;             /* first layouts have been recorded */
+    bool images_ready; /* first layouts have been recorded */
 
     VkRenderPass map_pass;
     VkFramebuffer map_framebuffers[VIRGA_RAIN_MAX_MAPS];
     VkPipelineLayout map_layout;
     virga_pipeline *map_pipelines[4]; /* for def.occluder_strides */
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
-    uint32_t map_count;            /* drawn and in use */
+    uint32_t map_count; /* drawn and in use */
     bool host_maps;
     virga_image host_map_image;
 
@@ -140,21 +142,39 @@ struct virga_rain {
     VkDescriptorSet sets[VIRGA_MAX_FRAMES_IN_FLIGHT][RAIN_SETS];
     uint64_t step_set_frame;
     VkSampler nearest, linear;
-    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan, *prepare_write,
-        *points;
+    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan,
+        *prepare_write, *list, *points;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
 
-    uint64_t ring_frame;           /* frame that the ring cursors below belong to */
+    uint64_t ring_frame; /* frame that the ring cursors below belong to */
     uint32_t ring_ticks, ring_views;
     uint32_t tick_offset, view_offset; /* of the newest tick and view, bytes */
     uint32_t view_slot;
     bool prepared;
-    bool prepared_haze;
+    bool prepared_haze, prepared_depth;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
     virga_rain_stats stats;
 };
+
+/* What a tick's passes read besides travels and weights: small enough for the least uniform buffer that Vulkan allows. */
+typedef struct rain_tick_tables {
+    virga_tick_gpu tick;
+    virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
+    virga_class_gpu classes[VIRGA_RAIN_CLASSES];
+} rain_tick_tables;
+
+/* A tick's block in its ring. Each part is a binding of its own and starts where Vulkan lets it: at 256 bytes. */
+typedef struct rain_tick_block {
+    virga_travel_gpu travels[VIRGA_RAIN_CLASSES];
+    virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
+    rain_tick_tables tables;
+} rain_tick_block;
+
+_Static_assert(sizeof(rain_tick_tables) <= 16384, "a uniform buffer's range");
+_Static_assert(offsetof(rain_tick_block, weights) % 256 == 0, "a storage buffer's offset");
+_Static_assert(offsetof(rain_tick_block, tables) % 256 == 0, "a uniform buffer's offset");
 
 /* Bytes that one tick or view takes in its ring. */
 uint32_t rain_tick_bytes(void);
@@ -173,6 +193,12 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
 /* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
 void rain_take_statistics(virga_rain *rain);
+
+/* Finds slots and lists them in their order: a pass that marks, one that counts, and the list's own. */
+void rain_record_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *find, const virga_pipeline *scan);
+
+/* A pass over the list. */
+void rain_dispatch_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline);
 
 /* ---- rain_occlusion.c */
 virga_result rain_occlusion_create(virga_rain *rain);

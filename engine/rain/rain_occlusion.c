@@ -14,11 +14,11 @@
 #include <string.h>
 
 #define CASCADE_FACTOR 4.0
-#define MAP_MARGIN 1.3       /* of the range that drops have, so that leaning lines stay inside */
-#define MAP_TOP_M 256.0      /* above the camera: what is higher shelters nothing */
-#define MAP_HEIGHT_M 512.0
-#define SLANT_TIME_S 0.5     /* a drop has come along its line for about this long when it passes cover */
-#define MOST_SLANT 8.0       /* horizontal metres a metre of fall: nearly flat, in a storm */
+#define MAP_MARGIN     1.3   /* of the range that drops have, so that leaning lines stay inside */
+#define MAP_TOP_M      256.0 /* above the camera: what is higher shelters nothing */
+#define MAP_HEIGHT_M   512.0
+#define SLANT_TIME_S   0.5 /* a drop has come along its line for about this long when it passes cover */
+#define MOST_SLANT     8.0 /* horizontal metres a metre of fall: nearly flat, in a storm */
 
 /* Diameters that part the slants, and one that stands for each. */
 static const double slant_bounds[VIRGA_RAIN_MAX_SLANTS][VIRGA_RAIN_MAX_SLANTS - 1] = {
@@ -112,23 +112,22 @@ static virga_result create_pass(virga_rain *rain)
     virga_result result = VIRGA_OK;
     virga_context *context = rain->context;
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkAttachmentDescription attachments[2] = {
-        {.format = VK_FORMAT_R32_UINT,
-         .samples = VK_SAMPLE_COUNT_1_BIT,
-         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-         .finalLayout = read_only},
-        {.format = VK_FORMAT_D32_SFLOAT,
-         .samples = VK_SAMPLE_COUNT_1_BIT,
-         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-         .finalLayout = read_only}};
+    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32_UINT,
+                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                     .finalLayout = read_only},
+                                                    {.format = VK_FORMAT_D32_SFLOAT,
+                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                     .finalLayout = read_only}};
     const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
@@ -142,8 +141,8 @@ static virga_result create_pass(virga_rain *rain)
     const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
                                  VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
     const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | draws, draws, VK_ACCESS_SHADER_READ_BIT | writes,
-         writes, 0},
+        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | draws, draws,
+         VK_ACCESS_SHADER_READ_BIT | writes, writes, 0},
         {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes, VK_ACCESS_SHADER_READ_BIT, 0}};
     const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
                                          .attachmentCount = 2,
@@ -379,9 +378,22 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
         centre_from(map, camera_m, centre);
         const float scale = (float)(1 / map->half_m), down = (float)(1 / map->height_m);
         /* Columns are the images of x, y, z and 1: x and z scaled, y sheared into both and turned into depth. */
-        const float matrix[16] = {scale, 0, 0, 0, scale * (float)map->slant[0], scale * (float)map->slant[1], -down, 0,
-                                  0, scale, 0, 0, -scale * (float)centre[0], -scale * (float)centre[1],
-                                  (float)(map->top_m - camera_m[1]) * down, 1};
+        const float matrix[16] = {scale,
+                                  0,
+                                  0,
+                                  0,
+                                  scale * (float)map->slant[0],
+                                  scale * (float)map->slant[1],
+                                  -down,
+                                  0,
+                                  0,
+                                  scale,
+                                  0,
+                                  0,
+                                  -scale * (float)centre[0],
+                                  -scale * (float)centre[1],
+                                  (float)(map->top_m - camera_m[1]) * down,
+                                  1};
         memcpy(views[i].clip_from_world, matrix, sizeof matrix);
         memcpy(views[i].origin_m, camera_m, sizeof views[i].origin_m);
         views[i].layer = i;

@@ -4,21 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define READ_WRITE  (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define MOST_STEP_S 10.0
-
-/* A tick's block in its ring, as shaders/rain/field.glsl declares it. */
-typedef struct tick_block {
-    virga_travel_gpu travels[VIRGA_RAIN_CLASSES];
-    virga_tick_gpu tick;
-    virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
-    virga_class_gpu classes[VIRGA_RAIN_CLASSES];
-    virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
-} tick_block;
 
 uint32_t rain_tick_bytes(void)
 {
-    return (uint32_t)((sizeof(tick_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT);
+    return (uint32_t)((sizeof(rain_tick_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
+                      VIRGA_RING_ALIGNMENT);
 }
 
 /* ---- a frame's start */
@@ -128,7 +120,7 @@ static void split64(int64_t value, uint32_t *low, uint32_t *high)
     *high = (uint32_t)((uint64_t)value >> 32);
 }
 
-static void fill_classes(const virga_rain *rain, tick_block *block)
+static void fill_classes(const virga_rain *rain, rain_tick_block *block)
 {
     const double unit = 4294967296.0 / rain->classes->side_m;
     int64_t camera[3];
@@ -136,7 +128,7 @@ static void fill_classes(const virga_rain *rain, tick_block *block)
         camera[axis] = llround(rain->origin[axis] * unit);
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
         const rain_class *c = &rain->classes->classes[k];
-        virga_class_gpu *out = &block->classes[k];
+        virga_class_gpu *out = &block->tables.classes[k];
         virga_travel_gpu *travel = &block->travels[k];
         memset(travel, 0, sizeof *travel);
         for (int axis = 0; axis < 3; axis++) {
@@ -163,9 +155,9 @@ static void fill_wind(const virga_rain *rain, virga_tick_gpu *tick)
     }
 }
 
-static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, tick_block *block)
+static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, rain_tick_block *block)
 {
-    virga_tick_gpu *tick = &block->tick;
+    virga_tick_gpu *tick = &block->tables.tick;
     memset(tick, 0, sizeof *tick);
     for (int axis = 0; axis < 3; axis++)
         tick->origin[axis] = (float)rain->origin[axis];
@@ -185,7 +177,7 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, tick_block 
     tick->host_depth = rain->host_maps;
     tick->gravity = (float)VIRGA_GRAVITY;
     fill_wind(rain, tick);
-    rain_fill_maps(rain, block->maps);
+    rain_fill_maps(rain, block->tables.maps);
     fill_classes(rain, block);
 }
 
@@ -194,7 +186,8 @@ static void push_tick(virga_rain *rain, uint32_t tick_in_step)
 {
     const uint32_t place = rain->context->ring_slot * rain->def.max_ticks_per_step + rain->ring_ticks++;
     rain->tick_offset = place * rain_tick_bytes();
-    fill_tick(rain, tick_in_step, (tick_block *)((char *)rain->tick_ring->memory.block.mapped + rain->tick_offset));
+    fill_tick(rain, tick_in_step,
+              (rain_tick_block *)((char *)rain->tick_ring->memory.block.mapped + rain->tick_offset));
     virga_buffer_flush(rain->context, rain->tick_ring, rain->tick_offset, rain_tick_bytes());
 }
 
@@ -202,6 +195,27 @@ static void dispatch(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline
 {
     rain->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
     rain->context->vk.CmdDispatch(cmd, groups, 1, 1);
+}
+
+/* Ordered compaction, see shaders/rain/scan_buffers.glsl. Leaves the list ready for a pass over it. */
+void rain_record_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *find, const virga_pipeline *scan)
+{
+    virga_context *context = rain->context;
+    dispatch(rain, cmd, find, rain->groups);
+    virga_compute_barrier(context, cmd);
+    dispatch(rain, cmd, scan, 1);
+    virga_compute_barrier(context, cmd);
+    dispatch(rain, cmd, rain->list, rain->groups);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+void rain_dispatch_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline)
+{
+    const virga_functions *vk = &rain->context->vk;
+    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    vk->CmdDispatchIndirect(cmd, rain->list_buffer->buffer, 0);
 }
 
 static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
@@ -220,12 +234,10 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "rain.impacts");
-    dispatch(rain, cmd, rain->impact_find, rain->groups);
-    virga_compute_barrier(context, cmd);
-    dispatch(rain, cmd, rain->impact_scan, 1);
-    virga_compute_barrier(context, cmd);
-    dispatch(rain, cmd, rain->impact_write, rain->groups);
-    virga_compute_barrier(context, cmd);
+    rain_record_list(rain, cmd, rain->impact_find, rain->impact_scan);
+    rain_dispatch_list(rain, cmd, rain->impact_write);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -296,7 +308,8 @@ static void record_impact_readback(virga_rain *rain, VkCommandBuffer cmd)
     const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback), sizeof(virga_impacts_gpu)};
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdCopyBuffer(cmd, rain->impact_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -321,7 +334,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     /* Passes and copies of the frame before may still read what this one writes. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     const uint32_t ticks = take_ticks(rain, info->dt_s);
     for (uint32_t i = 0; i < ticks; i++) {

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <virga/shared/random.h>
 
-#define WIND_STREAM 0x77696e64u /* of random numbers */
-#define VERTICAL_SHARE 0.4      /* of a gust, against its horizontal components: near the ground it has less room */
+#define WIND_STREAM    0x77696e64u /* of random numbers */
+#define VERTICAL_SHARE 0.4         /* of a gust, against its horizontal components: near the ground it has less room */
 
 /* A normal number for a knot of the noise: the sum of twelve uniform ones less six (Irwin and Hall) is one near
  * enough, and the same bits everywhere. */
@@ -13,8 +13,8 @@ static double knot(uint32_t seed, uint32_t axis, int64_t index)
 {
     double sum = -6;
     for (uint32_t i = 0; i < 12; i++)
-        sum += (double)virga_unit(virga_hash4(seed ^ WIND_STREAM, axis * 12 + i, (uint32_t)(index >> 32),
-                                              (uint32_t)index));
+        sum += (double)virga_unit(
+            virga_hash4(seed ^ WIND_STREAM, axis * 12 + i, (uint32_t)(index >> 32), (uint32_t)index));
     return sum;
 }
 

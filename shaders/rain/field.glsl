@@ -5,12 +5,15 @@
 #include "shared/drop.h"
 #include "shared/impact.h"
 
-layout(scalar, set = 0, binding = 0) readonly buffer Tick
+// Small tables are uniforms: software Vulkan reads them without a loop over lanes.
+layout(scalar, set = 0, binding = 0) uniform Tick
 {
-    virga_travel_gpu travels_as_stored[VIRGA_RAIN_CLASSES]; // read as uniforms, see step.comp
     virga_tick_gpu tick;
     virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
     virga_class_gpu classes[VIRGA_RAIN_CLASSES];
+};
+layout(scalar, set = 0, binding = 15) readonly buffer Weights
+{
     virga_weight_gpu weights[]; // of class k in box l at l * VIRGA_RAIN_CLASSES + k
 };
 layout(scalar, set = 0, binding = 2) readonly buffer Slots { virga_slot_gpu slots[]; };
@@ -19,6 +22,9 @@ layout(set = 0, binding = 10) uniform usampler2DArray occlusion_surface;
 
 #define RANK_SOFTNESS 0.05 // share of ranks that fade where the rate changes; the C side inverts it
 #define FADE_FROM 0.75     // of a box's half side, where it begins to hand over to the next
+
+// The box that a slot lies in.
+uint slot_level(uint slot_index) { return slot_index / (tick.groups_per_level * VIRGA_RAIN_GROUP); }
 
 vec3 to_vec(float a[3]) { return vec3(a[0], a[1], a[2]); }
 
@@ -40,7 +46,7 @@ float drop_weight(vec3 p, uint level, uint size_class, uint rank)
 {
     const virga_weight_gpu weight = weights[level * VIRGA_RAIN_CLASSES + size_class];
     const float presence = clamp((weight.threshold - float(rank) * (1.0 / 65536.0)) / RANK_SOFTNESS, 0.0, 1.0);
-    return presence > 0.0 ? presence * weight.drops * level_share(box_radius(p), level) : 0.0;
+    return presence * weight.drops * level_share(box_radius(p), level);
 }
 
 // Where the line of fall through a place first meets something.
@@ -72,27 +78,33 @@ vec3 unpack_normal(uint surface)
     return normalize(n);
 }
 
+// Texel of a place in a map; outside of [1; texels - 1) there is none.
+vec2 map_texel(virga_map_gpu map, vec3 p)
+{
+    const vec2 sheared = p.xz + vec2(map.slant[0], map.slant[1]) * p.y - vec2(map.centre[0], map.centre[1]);
+    return (sheared * map.inv_half_m * 0.5 + 0.5) * map.texels;
+}
+
+// The finest map that holds the place. Straight-line code: software Vulkan runs every lane through every branch, so
+// one map is chosen by arithmetic and fetched from once.
 Shelter find_shelter(vec3 p, uint slant)
 {
-    Shelter found = Shelter(-1e9, VIRGA_RAIN_MAX_MAPS, ivec3(0));
-    for (uint cascade = 0u; cascade < tick.cascades && tick.maps > 0u; cascade++) {
-        const uint index = cascade * tick.slants + slant;
-        const virga_map_gpu map = maps[index];
-        const vec2 sheared = p.xz + vec2(map.slant[0], map.slant[1]) * p.y - vec2(map.centre[0], map.centre[1]);
-        const vec2 texel = (sheared * map.inv_half_m * 0.5 + 0.5) * map.texels;
-        if (any(lessThan(texel, vec2(1.0))) || any(greaterThanEqual(texel, vec2(map.texels - 1.0))))
-            continue;
-        found.texel = ivec3(texel, index);
-        found.map = index;
-        const float depth = texelFetch(occlusion_depth, found.texel, 0).r;
-        if (depth < 1.0) {
-            found.height = map.top_m - depth * map.height_m;
-            if (tick.host_depth == 0u) {
-                const vec3 normal = unpack_normal(texelFetch(occlusion_surface, found.texel, 0).r);
-                found.height += plane_offset(map, fract(texel) - 0.5, normal);
-            }
-        }
-        break;
+    uint chosen = VIRGA_RAIN_MAX_MAPS;
+    vec2 texel = vec2(0.0);
+    for (uint i = tick.cascades; i > 0u; i--) {
+        const uint index = (i - 1u) * tick.slants + slant;
+        const vec2 at = map_texel(maps[index], p);
+        const bool inside = min(at.x, at.y) >= 1.0 && max(at.x, at.y) < maps[index].texels - 1.0;
+        chosen = inside ? index : chosen;
+        texel = inside ? at : texel;
     }
+    const bool known = chosen < VIRGA_RAIN_MAX_MAPS && tick.maps > 0u;
+    const virga_map_gpu map = maps[known ? chosen : 0u];
+    Shelter found = Shelter(-1e9, known ? chosen : VIRGA_RAIN_MAX_MAPS, ivec3(texel, known ? chosen : 0u));
+    const float depth = texelFetch(occlusion_depth, found.texel, 0).r;
+    const ivec3 surface_texel = tick.host_depth != 0u ? ivec3(0) : found.texel; // a host's depth has no surfaces
+    const vec3 normal = unpack_normal(texelFetch(occlusion_surface, surface_texel, 0).r);
+    const float offset = tick.host_depth != 0u ? 0.0 : plane_offset(map, fract(texel) - 0.5, normal);
+    found.height = known && depth < 1.0 ? map.top_m - depth * map.height_m + offset : found.height;
     return found;
 }

@@ -14,32 +14,34 @@ struct Hit {
     uint size_class, id;
 };
 
-Hit find_hit(uint slot_index, uint level)
+// Without branches: software Vulkan runs every lane through all of them, and reads buffers faster outside.
+Hit find_hit(uint slot_index)
 {
-    Hit hit;
-    hit.weight = 0.0;
     const uint class_rank = slots[slot_index].class_rank;
-    hit.size_class = class_rank & 0xffffu;
+    const uint size_class = class_rank & 0xffffu;
     const virga_drop_gpu drop = drops[slot_index];
     const vec3 now = to_vec(drop.position);
-    const float weight = drop_weight(now, level, hit.size_class, class_rank >> 16);
-    hit.velocity = to_vec(classes[hit.size_class].velocity);
+    vec3 velocity = to_vec(classes[size_class].velocity);
     if (tick.sway != 0u)
-        hit.velocity += to_vec(sways[slot_index].velocity);
-    if (weight <= 0.0 || hit.velocity.y > -0.05)
-        return hit;
-
-    const uint slant = classes[hit.size_class].slant;
-    hit.surface = find_shelter(now, slant);
-    if (now.y > hit.surface.height)
-        return hit;
-    const vec3 before = now - hit.velocity * tick.tick_s;
+        velocity += to_vec(sways[slot_index].velocity);
+    const vec3 before = now - velocity * tick.tick_s;
     const float fallen = before.y - now.y;
-    if (hit.surface.height > before.y + 0.5 * fallen || find_shelter(before, slant).height >= before.y)
-        return hit;
+    const uint slant = classes[size_class].slant;
+
+    Hit hit;
+    hit.surface = find_shelter(now, slant);
+    const bool crossed = now.y <= hit.surface.height && hit.surface.height <= before.y + 0.5 * fallen;
+    const bool falling = velocity.y <= -0.05;
+    // Few drops are that close, so most workgroups skip this; only a loop lets software Vulkan skip it too.
+    bool sheltered_before = false;
+    for (bool look = crossed && falling; look; look = false)
+        sheltered_before = find_shelter(before, slant).height >= before.y;
     hit.share = clamp((before.y - hit.surface.height) / fallen, 0.0, 1.0);
     hit.position = mix(before, now, hit.share);
-    hit.weight = weight;
+    hit.velocity = velocity;
+    hit.size_class = size_class;
     hit.id = drop.id;
+    hit.weight = crossed && falling && !sheltered_before
+                     ? drop_weight(now, slot_level(slot_index), size_class, class_rank >> 16) : 0.0;
     return hit;
 }

@@ -3,13 +3,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
-#include "scan_buffers.glsl"
+#include "find.glsl"
 #include "impact.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
 void main()
 {
-    const Hit hit = find_hit(gl_GlobalInvocationID.x, gl_WorkGroupID.x / tick.groups_per_level);
-    mark_pick(hit.weight > 0.0);
+    const uint slot_index = gl_GlobalInvocationID.x;
+    mark_pick(find_hit(slot_index).weight > 0.0 ? FIRST_KIND : NOT_PICKED);
 }

@@ -17,9 +17,10 @@ void main()
     const bool first_tick = tick.tick_in_step == 0u;
     const uint before = first_tick ? 0u : head.count;
     const uint dropped_before = first_tick ? 0u : head.dropped;
-    const uint found = scan_picks(tick.groups, before);
+    const uint found = scan_picks(0xffffffffu).x;
     if (gl_LocalInvocationIndex != 0u)
         return;
+    list.first = before;
     const uint count = min(before + found, tick.max_impacts);
     if (first_tick) {
         head.water_nl_low = 0u;

@@ -47,10 +47,10 @@ void add_water(uint water)
 
 void main()
 {
-    const uint place = pick_place();
-    if (place == 0xffffffffu)
+    if (gl_GlobalInvocationID.x >= list.count)
         return;
-    const Hit hit = find_hit(gl_GlobalInvocationID.x, gl_WorkGroupID.x / tick.groups_per_level);
+    const Hit hit = find_hit(listed[gl_GlobalInvocationID.x]);
+    const uint place = list.first + gl_GlobalInvocationID.x;
     const float diameter = classes[hit.size_class].diameter_m;
     const uint water = water_of(diameter, hit.weight, hit.id);
     add_water(water);

@@ -11,9 +11,12 @@ layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_
 
 void main()
 {
-    const uint found = scan_picks(tick.groups, 0u);
+    const uvec2 found = scan_picks(view.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;
-    const uint count = min(found, view.max_streaks);
-    prepared = virga_prepared_gpu(6u * count, 1u, 0u, 0, 0u, count, found - count, 0u);
+    // The index buffer holds six indices a streak, so a streak's place tells where its own begin.
+    prepared.wide = virga_draw_gpu(6u * list.second_kind, 1u, 0u, 0, 0u);
+    prepared.thin = virga_draw_gpu(6u * (list.count - list.second_kind), 1u, 6u * list.second_kind, 0, 0u);
+    prepared.streaks = list.count;
+    prepared.dropped = found.x + found.y - list.count;
 }

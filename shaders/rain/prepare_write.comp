@@ -31,12 +31,12 @@ bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)
 {
     if (tick.maps == 0u)
         return true;
+    const float way = tail.y - head.y;
     if (find_shelter(tail, slant).height >= tail.y)
         return false;
     const Shelter below = find_shelter(head, slant);
     if (head.y > below.height)
         return true;
-    const float way = tail.y - head.y;
     if (way <= 1e-6 || below.height > tail.y + 0.5 * way)
         return false;
     head = mix(tail, head, clamp((tail.y - below.height) / way, 0.0, 1.0));
@@ -80,50 +80,52 @@ void cut_at_near_plane(inout vec4 a, vec4 b)
         a = mix(a, b, (NEAR_W - a.w) / (b.w - a.w));
 }
 
+uint halves(float a, float b) { return packHalf2x16(clamp(vec2(a, b), vec2(-65000.0), vec2(65000.0))); }
+
 virga_streak_gpu empty_streak()
 {
     virga_streak_gpu streak;
-    streak.head = float[4](2.0, 2.0, 2.0, 1.0);
+    streak.head = float[2](2.0, 2.0);
     streak.tail = streak.head;
-    streak.width_px = 0.0;
-    streak.alpha = 0.0;
-    streak.wave = 0.0;
-    streak.wave_phase = 0.0;
-    streak.wave_size = 0.0;
-    streak.centre = float[3](0.0, 0.0, 0.0);
-    streak.rim = streak.centre;
-    streak.body_px = 0.0;
+    streak.depth = float[2](0.0, 0.0);
+    streak.distance = float[2](1.0, 1.0);
+    streak.width_alpha = 0u;
+    streak.body_wave = 0u;
+    streak.turns = 0u;
+    streak.pad = 0u;
+    streak.light = uint[3](0u, 0u, 0u);
+    streak.id = 0u;
     return streak;
 }
 
-// Coverage and drawn width from the drop's width, length of its way and weight.
-void set_coverage(inout virga_streak_gpu streak, float width_px, float body_px, float way_px, float weight)
+// Coverage from the drop's width, length of its way and weight.
+float coverage(float width_px, float body_px, float way_px, float weight)
 {
-    const float drawn = max(width_px, view.min_width_px);
     const float one = streak_coverage(width_px, body_px, way_px), all = one * weight;
-    streak.width_px = drawn;
-    streak.alpha = min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
-    streak.body_px = body_px;
+    return min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
 }
 
-void shade(inout virga_streak_gpu streak, vec3 middle, float diameter_mm, uint id)
+void set_light(inout virga_streak_gpu streak, vec3 middle)
 {
     const vec3 d = normalize(middle);
     const vec3 glitter = lamps(middle, d);
     // Near the middle rays are bent by up to 16 degrees, at the rim by 50 and more (Legendre: cosines of those).
     const vec3 centre = environment(d, vec2(0.97, 0.90)) + glitter;
     const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
-    streak.centre = float[3](centre.x, centre.y, centre.z);
-    streak.rim = float[3](rim.x, rim.y, rim.z);
-    // Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996).
-    const float radius = 0.5e-3 * diameter_mm;
-    const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
-    streak.wave = hz * (view.time_close_s - view.time_open_s);
-    streak.wave_phase = 6.2831853 * (virga_unit(virga_hash2(tick.seed, id)) + fract(hz * view.time_open_s));
-    streak.wave_size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * view.oscillation;
+    streak.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
-virga_streak_gpu make_streak(uint slot_index, uint level)
+// Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996).
+void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float kept)
+{
+    const float radius = 0.5e-3 * diameter_mm;
+    const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
+    const float turns = hz * (view.time_close_s - view.time_open_s) * kept;
+    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
+    streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * view.oscillation);
+}
+
+virga_streak_gpu make_streak(uint slot_index)
 {
     virga_streak_gpu streak = empty_streak();
     const uint class_rank = slots[slot_index].class_rank;
@@ -147,25 +149,28 @@ virga_streak_gpu make_streak(uint slot_index, uint level)
     cut_at_near_plane(clip_tail, clip_head);
     if (clip_head.w < NEAR_W || clip_tail.w < NEAR_W)
         return streak;
-    const vec2 way = (clip_head.xy / clip_head.w - clip_tail.xy / clip_tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const vec3 ndc_head = clip_head.xyz / clip_head.w, ndc_tail = clip_tail.xyz / clip_tail.w;
+    const vec2 way = (ndc_head.xy - ndc_tail.xy) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const float depth = 0.5 * (clip_head.w + clip_tail.w);
     const float width_px = diameter / (depth * view.pixel_angle);
-    const float mm = diameter * 1e3;
+    const float mm = diameter * 1e3, body_px = width_px * axis_ratio(mm);
     const float near = view.near_m > 0.0 ? clamp(length(0.5 * (head + tail)) / view.near_m - 1.0, 0.0, 1.0) : 1.0;
-    const float weight = near * drop_weight(at_tick, level, size_class, class_rank >> 16);
+    const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
     // A cut streak is as bright along its length as the whole one: the drop passed it at the same speed.
     const float kept = clamp(distance(head, tail) / max(whole_way, 1e-6), 0.02, 1.0);
-    set_coverage(streak, width_px, width_px * axis_ratio(mm), length(way) / kept, weight);
-    streak.head = float[4](clip_head.x, clip_head.y, clip_head.z, clip_head.w);
-    streak.tail = float[4](clip_tail.x, clip_tail.y, clip_tail.z, clip_tail.w);
-    shade(streak, 0.5 * (head + tail), mm, drop.id);
-    streak.wave *= kept;
+    streak.head = float[2](ndc_head.x, ndc_head.y);
+    streak.tail = float[2](ndc_tail.x, ndc_tail.y);
+    streak.depth = float[2](ndc_head.z, ndc_tail.z);
+    streak.distance = float[2](clip_head.w, clip_tail.w);
+    streak.width_alpha = halves(max(width_px, view.min_width_px), coverage(width_px, body_px, length(way) / kept, weight));
+    streak.id = drop.id;
+    set_light(streak, 0.5 * (head + tail));
+    set_wave(streak, mm, body_px, kept);
     return streak;
 }
 
 void main()
 {
-    const uint place = pick_place();
-    if (place < view.max_streaks)
-        streaks[place] = make_streak(gl_GlobalInvocationID.x, gl_WorkGroupID.x / tick.groups_per_level);
+    if (gl_GlobalInvocationID.x < list.count)
+        streaks[gl_GlobalInvocationID.x] = make_streak(listed[gl_GlobalInvocationID.x]);
 }

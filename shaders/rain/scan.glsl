@@ -1,27 +1,36 @@
-// scan.glsl - one workgroup: counts of groups into places, in order. Each lane takes a run of groups.
+// scan.glsl - one workgroup: counts of words into places, in order. Each lane takes a run of words.
 #include "scan_buffers.glsl"
 
-shared uint lane_sums[VIRGA_RAIN_GROUP];
+shared uvec2 lane_sums[VIRGA_RAIN_GROUP];
 
-// Gives the groups their places from `first` on, and returns (to all lanes) the number of picks.
-uint scan_picks(uint groups, uint first)
+// Places of all picks in the list, which has room for `most` (the second kind first). Returns to all lanes how many
+// there are of each kind.
+uvec2 scan_picks(uint most)
 {
+    const uint words = tick.groups * GROUP_WORDS;
     const uint lane = gl_LocalInvocationIndex;
-    const uint run = (groups + VIRGA_RAIN_GROUP - 1u) / VIRGA_RAIN_GROUP;
-    const uint begin = min(lane * run, groups), end = min(begin + run, groups);
-    uint sum = 0u;
+    const uint run = (words + VIRGA_RAIN_GROUP - 1u) / VIRGA_RAIN_GROUP;
+    const uint begin = min(lane * run, words), end = min(begin + run, words);
+    uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
-        sum += picks[i * PICK_STRIDE + PICK_WORDS];
+        sum += uvec2(bitCount(picks[i].xy));
     lane_sums[lane] = sum;
     barrier();
-    uint place = first, total = 0u;
+    uvec2 before = uvec2(0u), total = uvec2(0u);
     for (uint i = 0u; i < VIRGA_RAIN_GROUP; i++) {
-        place += i < lane ? lane_sums[i] : 0u;
+        before += i < lane ? lane_sums[i] : uvec2(0u);
         total += lane_sums[i];
     }
+    uvec2 place = before + uvec2(min(total.y, most), 0u);
     for (uint i = begin; i < end; i++) {
-        picks[i * PICK_STRIDE + PICK_WORDS + 1] = place;
-        place += picks[i * PICK_STRIDE + PICK_WORDS];
+        const uvec2 bits = picks[i].xy;
+        picks[i].zw = place;
+        place += uvec2(bitCount(bits));
+    }
+    if (lane == 0u) {
+        list.second_kind = min(total.y, most);
+        list.count = min(total.x + total.y, most);
+        list.group_count = uint[3]((list.count + VIRGA_RAIN_GROUP - 1u) / VIRGA_RAIN_GROUP, 1u, 1u);
     }
     return total;
 }

@@ -1,8 +1,10 @@
 // view.glsl - a view's parameters, and what a drop shows of the light around it.
-layout(scalar, set = 0, binding = 1) readonly buffer View { virga_view_gpu view; };
+layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 
 // A streak that covers less than this is haze, see rain_draw.c; it fades in up to twice as much.
 #define LEAST_COVERAGE (1.0 / 400.0)
+
+#define WIDE_PX 3.0 // from here on a streak shows the inside of its drop
 
 // Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it, and of the
 // sampling's width where the drop is narrower.

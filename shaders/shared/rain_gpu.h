@@ -17,7 +17,9 @@ typedef struct virga_light_gpu virga_light_gpu;
 typedef struct virga_view_gpu virga_view_gpu;
 typedef struct virga_streak_gpu virga_streak_gpu;
 typedef struct virga_sway_gpu virga_sway_gpu;
+typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
+typedef struct virga_list_gpu virga_list_gpu;
 typedef struct virga_map_push virga_map_push;
 #endif
 
@@ -128,18 +130,18 @@ struct virga_view_gpu {
     virga_light_gpu lights[VIRGA_RAIN_LIGHTS];
 };
 
-/* A streak ready to be drawn, 80 bytes. */
+/* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
 struct virga_streak_gpu {
-    float head[4];       /* clip position at the shutter's end (or where the drop met something) */
-    float tail[4];       /* clip position at its start */
-    float width_px;      /* drawn width */
-    float alpha;         /* coverage at the middle line */
-    float wave;          /* oscillations along the streak */
-    float wave_phase;    /* of them at the tail (rad) */
-    float centre[3];     /* radiance at the middle line */
-    float wave_size;     /* relative amplitude of radiance */
-    float rim[3];        /* radiance at the edge */
-    float body_px;       /* length of the drop itself along the streak */
+    float head[2];       /* where it is at the shutter's end (or where the drop met something), normalised device x, y */
+    float tail[2];       /* where it was at its start */
+    float depth[2];      /* head, tail: depth in the buffer's terms */
+    float distance[2];   /* head, tail: view depth (m) */
+    uint width_alpha;    /* drawn width (px); coverage at the middle line */
+    uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its light */
+    uint turns;          /* oscillations along the streak; where in a turn it is at the tail */
+    uint pad;
+    uint light[3];       /* radiance at the middle line (rgb), then at the edge (rgb) */
+    uint id;             /* of the drop */
 };
 
 /* What 3D wind has done to a slot's drop beyond the uniform wind, 40 bytes. */
@@ -150,16 +152,30 @@ struct virga_sway_gpu {
     uint pad;
 };
 
-/* Head of the streak buffer: the arguments of its indirect draw, and counts. */
-struct virga_prepared_gpu {
+/* Arguments of an indexed indirect draw, as Vulkan lays them out. */
+struct virga_draw_gpu {
     uint index_count;
     uint instance_count;
     uint first_index;
     int vertex_offset;
     uint first_instance;
+};
+
+/* What a prepare found: draws of wide streaks, which show what is in a drop, and of thin ones; and counts. */
+struct virga_prepared_gpu {
+    virga_draw_gpu wide;
+    virga_draw_gpu thin;
     uint streaks;
     uint dropped;
-    uint pad;
+};
+
+/* Head of the list of picked slots, see shaders/rain/scan_buffers.glsl. */
+struct virga_list_gpu {
+    uint group_count[3]; /* of the dispatch that works through the list */
+    uint count;
+    uint second_kind;    /* how many of them, at the front, are of the second kind */
+    uint first;          /* free for the pass: where in its output the list's entries go */
+    uint pad[2];
 };
 
 /* Push constants of the occlusion draw, 96 bytes. */
@@ -186,9 +202,11 @@ VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 692);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
-VIRGA_ASSERT_SIZE(virga_streak_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
-VIRGA_ASSERT_SIZE(virga_prepared_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);
+VIRGA_ASSERT_SIZE(virga_prepared_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_map_push, 96);
 #undef uint
 #endif

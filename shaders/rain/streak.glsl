@@ -1,0 +1,71 @@
+// streak.glsl - a streak's record taken apart, and its four corners around its way on the screen, half a pixel wider
+// than it is drawn.
+//
+// Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
+// vertices cost software Vulkan half as much again.
+layout(scalar, set = 0, binding = 7) readonly buffer Streaks { virga_streak_gpu streaks[]; };
+
+struct Streak {
+    vec3 centre, rim; // radiance
+    float alpha, half_width, body_px, way_px;
+    float turns, turns_at_tail, wave_size;
+    // of this corner
+    vec4 position;
+    float across, along; // px from the middle line; px from the tail
+    float distance;      // view depth (m)
+};
+
+Streak streak_corner(uint vertex)
+{
+    const virga_streak_gpu record = streaks[vertex >> 2];
+    const vec2 head = vec2(record.head[0], record.head[1]), tail = vec2(record.tail[0], record.tail[1]);
+    const vec2 width_alpha = unpackHalf2x16(record.width_alpha), body_wave = unpackHalf2x16(record.body_wave);
+    const vec2 turns = unpackHalf2x16(record.turns);
+    const vec2 light[3] = vec2[3](unpackHalf2x16(record.light[0]), unpackHalf2x16(record.light[1]),
+                                  unpackHalf2x16(record.light[2]));
+    const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const vec2 way = (head - tail) * half_viewport;
+    const bool at_head = (vertex & 2u) != 0u;
+
+    Streak streak;
+    streak.centre = vec3(light[0], light[1].x);
+    streak.rim = vec3(light[1].y, light[2]);
+    streak.alpha = width_alpha.y;
+    streak.half_width = 0.5 * width_alpha.x;
+    streak.body_px = body_wave.x;
+    streak.way_px = length(way);
+    streak.turns = turns.x;
+    streak.turns_at_tail = turns.y;
+    // Not finer than 4 px a turn.
+    streak.wave_size = body_wave.y * clamp(streak.way_px / max(4.0 * turns.x, 1e-3) - 0.5, 0.0, 1.0);
+
+    const vec2 along = streak.way_px > 1e-3 ? way / streak.way_px : vec2(0.0, 1.0);
+    const float margin = 0.5 * streak.body_px + 0.5;
+    streak.across = ((vertex & 1u) == 0u ? -1.0 : 1.0) * (streak.half_width + 0.5);
+    streak.along = at_head ? streak.way_px + margin : -margin;
+    streak.distance = record.distance[at_head ? 0 : 1];
+    const vec2 side = vec2(-along.y, along.x);
+    const vec2 corner = (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
+    // The same w at all corners, so that everything is interpolated without perspective.
+    streak.position = streak.alpha > 0.0 ? vec4(corner, record.depth[at_head ? 0 : 1], 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    return streak;
+}
+
+// How far the streak has begun at a place along it, from 0 at its end's middle to 1 a ramp further on. The other end
+// is streak_ends() less this.
+float streak_begun(Streak streak)
+{
+    const float ramp = max(streak.body_px, 1.0);
+    return (streak.along + 0.5 * ramp) / ramp;
+}
+
+float streak_ends(Streak streak)
+{
+    const float ramp = max(streak.body_px, 1.0);
+    return (streak.way_px + ramp) / ramp;
+}
+
+float streak_turns(Streak streak)
+{
+    return streak.turns_at_tail + streak.turns * streak.along / max(streak.way_px, 1.0);
+}
