@@ -15,12 +15,14 @@ uvec2 scan_picks(uint most)
     for (uint i = begin; i < end; i++)
         sum += uvec2(bitCount(picks[i].xy));
     lane_sums[lane] = sum;
-    barrier();
-    uvec2 before = uvec2(0u), total = uvec2(0u);
-    for (uint i = 0u; i < VIRGA_RAIN_GROUP; i++) {
-        before += i < lane ? lane_sums[i] : uvec2(0u);
-        total += lane_sums[i];
+    for (uint reach = 1u; reach < VIRGA_RAIN_GROUP; reach *= 2u) { // Hillis and Steele 1986
+        barrier();
+        const uvec2 lower = lane >= reach ? lane_sums[lane - reach] : uvec2(0u);
+        barrier();
+        lane_sums[lane] += lower;
     }
+    barrier();
+    const uvec2 total = lane_sums[VIRGA_RAIN_GROUP - 1], before = lane_sums[lane] - sum;
     uvec2 place = before + uvec2(min(total.y, most), 0u);
     for (uint i = begin; i < end; i++) {
         const uvec2 bits = picks[i].xy;
