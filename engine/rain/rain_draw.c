@@ -70,9 +70,6 @@ static void fill_rays(const virga_view *view, virga_view_gpu *out)
     out->depth_a = p[10];
     out->depth_b = p[14];
     out->pixel_angle = 2 / (fabsf(p[5]) * view->viewport[3]);
-    const double wide = 1 / fabs((double)p[0]) * (1 + fabs((double)p[8])),
-                 high = 1 / fabs((double)p[5]) * (1 + fabs((double)p[9]));
-    out->tangent = (float)(sqrt(wide * wide + high * high) * 1.02);
 }
 
 static void fill_lights(const virga_rain *rain, const double camera[3], virga_view_gpu *out)

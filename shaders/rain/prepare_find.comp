@@ -8,6 +8,14 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
+layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
+
+// Both ends beyond the same side of the picture (in clip coordinates, where the sides are planes), by more than `m`.
+bool outside(vec4 head, vec4 tail, vec2 m)
+{
+    const vec2 high = min(head.xy - head.w, tail.xy - tail.w), low = min(-head.xy - head.w, -tail.xy - tail.w);
+    return max(head.w, tail.w) < NEAR_W || any(greaterThan(high, m)) || any(greaterThan(low, m));
+}
 
 // Without branches: software Vulkan runs every lane through all of them, and reads buffers faster outside.
 uint kind_of_streak(uint slot_index)
@@ -15,17 +23,20 @@ uint kind_of_streak(uint slot_index)
     const uint class_rank = slots[slot_index].class_rank;
     const uint size_class = class_rank & 0xffffu;
     const float diameter = classes[size_class].diameter_m;
-    const vec3 velocity = to_vec(classes[size_class].velocity);
+    vec3 velocity = to_vec(classes[size_class].velocity);
+    if (tick.sway != 0u)
+        velocity += to_vec(sways[slot_index].velocity);
     const vec3 at_tick = to_vec(drops[slot_index].position);
     const float weight = drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
-    const vec3 p = at_tick + velocity * view.time_close_s + to_vec(view.origin_offset);
-    // A cone around the view, widened by the way that the drop moves while the shutter is open.
-    const float depth = dot(p, to_vec(view.ahead));
-    const float slack = 0.5 + 10.0 * (view.time_close_s - view.time_open_s);
-    const float off_axis = length(p - depth * to_vec(view.ahead));
-    const float width_px = diameter / (max(depth, 0.1) * view.pixel_angle);
+    const vec3 p = at_tick + to_vec(view.origin_offset);
+    const vec4 head = to_mat(view.clip_from_rel) * vec4(p + velocity * view.time_close_s, 1.0);
+    const vec4 tail = to_mat(view.open_clip_from_rel) * vec4(p + velocity * view.time_open_s, 1.0);
+    const float nearest = max(min(head.w, tail.w), 0.1);
+    const float width_px = diameter / (nearest * view.pixel_angle);
+    // Half of the drop and a pixel, as seen at the end that is farther away.
+    const vec2 margin = (width_px + 2.0) * max(head.w, tail.w) / vec2(view.viewport[2], view.viewport[3]);
     const float way = length(velocity) * (view.time_close_s - view.time_open_s);
-    const bool seen = depth >= -slack && off_axis <= depth * view.tangent + slack && diameter >= view.bodies_min_m &&
+    const bool seen = !outside(head, tail, margin) && diameter >= view.bodies_min_m &&
                       weight * streak_coverage(width_px, diameter, way) > LEAST_COVERAGE;
     return !seen ? NOT_PICKED : width_px > WIDE_PX ? SECOND_KIND : FIRST_KIND;
 }

@@ -16,15 +16,9 @@ layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drop
 layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
 
-#define NEAR_W 0.01     // m; streaks are cut where they come nearer to the camera's plane
 #define MOST_COVERAGE 0.25 // of a streak that stands for many: what it would cover beyond is haze, see rain_draw.c
 
 vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
-
-mat4 to_mat(float a[16])
-{
-    return mat4(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13], a[14], a[15]);
-}
 
 // Cuts the way from `tail` to `head` where it meets a surface. False: nothing of it is under the sky.
 bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)

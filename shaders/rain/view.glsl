@@ -4,6 +4,7 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 // A streak that covers less than this is haze, see rain_draw.c; it fades in up to twice as much.
 #define LEAST_COVERAGE (1.0 / 400.0)
 
+#define NEAR_W 0.01 // m; streaks are cut where they come nearer to the camera's plane
 #define WIDE_PX 3.0 // from here on a streak shows the inside of its drop
 
 // Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it, and of the
@@ -26,4 +27,9 @@ vec3 environment(vec3 d, vec2 g)
     sum += g.y * 0.315392 * sh_coefficient(6u) * (3.0 * d.z * d.z - 1.0);
     sum += g.y * 0.546274 * sh_coefficient(8u) * (d.x * d.x - d.y * d.y);
     return max(sum, vec3(0.0));
+}
+
+mat4 to_mat(float a[16])
+{
+    return mat4(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13], a[14], a[15]);
 }

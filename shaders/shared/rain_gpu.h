@@ -123,7 +123,7 @@ struct virga_view_gpu {
     uint light_count;
     uint depth_given;
     uint max_streaks;
-    float tangent;                /* of half the wider view angle, with some room */
+    float pad;
     float sh[27];                 /* environment, coefficient-major RGB */
     float phase_moment[3];
     float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
