@@ -150,9 +150,31 @@ error:
     return result;
 }
 
+static virga_result create_samplers(virga_context *context)
+{
+    virga_result result = VIRGA_OK;
+    VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
+    VK_TRY(context, CreateSampler(context->device, &info, NULL, &context->nearest));
+    context->objects++;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    VK_TRY(context, CreateSampler(context->device, &info, NULL, &context->linear));
+    context->objects++;
+error:
+    return result;
+}
+
 static void destroy_objects(virga_context *context)
 {
     virga_graveyard_sweep(context, true);
+    const VkSampler samplers[2] = {context->nearest, context->linear};
+    for (int i = 0; i < 2; i++)
+        if (samplers[i]) {
+            context->vk.DestroySampler(context->device, samplers[i], NULL);
+            context->objects--;
+        }
     for (uint32_t i = 0; i < VIRGA_MAX_FRAMES_IN_FLIGHT; i++)
         if (context->timers[i].pool) {
             context->vk.DestroyQueryPool(context->device, context->timers[i].pool, NULL);
@@ -194,6 +216,7 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
     TRY(create_pipeline_cache(context, def));
     TRY(create_timers(context, def));
+    TRY(create_samplers(context));
 error:
     return result;
 }

@@ -128,9 +128,9 @@ static virga_result view_create(virga_context *context, const virga_image_2d *im
     virga_result result = VIRGA_OK;
     const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = image->image,
-                                        .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                                        .viewType = image->layers ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_3D,
                                         .format = image->format,
-                                        .subresourceRange = {aspect, 0, 1, first, count}};
+                                        .subresourceRange = {aspect, 0, 1, first, count ? count : 1}};
     VK_TRY(context, CreateImageView(context->device, &info, NULL, view));
     context->objects++;
 error:
@@ -149,17 +149,18 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
     image->format = format;
     image->extent = extent;
     image->layers = layers;
-    image->layer_views = virga_alloc_array(&context->heap, layers, sizeof image->layer_views[0]);
-    if (!image->layer_views) {
+    if (layers)
+        image->layer_views = virga_alloc_array(&context->heap, layers, sizeof image->layer_views[0]);
+    if (layers && !image->layer_views) {
         result = virga_out_of_host_memory(context, name);
         goto error;
     }
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                    .imageType = VK_IMAGE_TYPE_2D,
+                                    .imageType = layers ? VK_IMAGE_TYPE_2D : VK_IMAGE_TYPE_3D,
                                     .format = format,
                                     .extent = {extent.width, extent.height, 1},
                                     .mipLevels = 1,
-                                    .arrayLayers = layers,
+                                    .arrayLayers = layers ? layers : 1,
                                     .samples = VK_SAMPLE_COUNT_1_BIT,
                                     .tiling = VK_IMAGE_TILING_OPTIMAL,
                                     .usage = usage};

@@ -208,39 +208,6 @@ static void fill_uploads(virga_rain *rain)
     virga_buffer_flush(rain->context, rain->index_upload, 0, rain->index_upload->size);
 }
 
-/* A 3D image of one texel, for the wind that a host has not given. */
-static virga_result create_blank_wind(virga_rain *rain)
-{
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
-    const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                    .imageType = VK_IMAGE_TYPE_3D,
-                                    .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                    .extent = {1, 1, 1},
-                                    .mipLevels = 1,
-                                    .arrayLayers = 1,
-                                    .samples = VK_SAMPLE_COUNT_1_BIT,
-                                    .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT};
-    VkMemoryRequirements need;
-    VK_TRY(context, CreateImage(context->device, &info, NULL, &rain->blank_wind_image));
-    context->objects++;
-    context->vk.GetImageMemoryRequirements(context->device, rain->blank_wind_image, &need);
-    TRY(virga_memory_allocate(context, &need, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true, "rain.blank_wind",
-                              &rain->blank_wind_memory));
-    VK_TRY(context, BindImageMemory(context->device, rain->blank_wind_image, rain->blank_wind_memory.block.memory,
-                                    rain->blank_wind_memory.block.offset));
-    const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                        .image = rain->blank_wind_image,
-                                        .viewType = VK_IMAGE_VIEW_TYPE_3D,
-                                        .format = info.format,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    VK_TRY(context, CreateImageView(context->device, &view, NULL, &rain->blank_wind_view));
-    context->objects++;
-error:
-    return result;
-}
-
 static virga_result create_passes(virga_rain *rain)
 {
     virga_result result = VIRGA_OK;
@@ -261,7 +228,7 @@ static virga_result create_passes(virga_rain *rain)
         {&rain->points, VIRGA_SPIRV(rain_points_comp), "rain.points"},
     };
     for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
-        TRY(virga_compute_pipeline_create(rain->context, passes[i].shader, rain->layout, passes[i].name,
+        TRY(virga_compute_pipeline_create(rain->context, passes[i].shader, rain->bindings->layout, passes[i].name,
                                           passes[i].pipeline));
 error:
     return result;
@@ -295,7 +262,9 @@ static virga_result init(virga_rain *rain)
     TRY(virga_image_create(rain->context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){1, 1}, 1,
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                            VK_IMAGE_ASPECT_DEPTH_BIT, "rain.blank", &rain->blank));
-    TRY(create_blank_wind(rain));
+    TRY(virga_image_create(rain->context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){1, 1}, 0,
+                           VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "rain.blank_wind",
+                           &rain->blank_wind));
     TRY(rain_occlusion_create(rain));
     TRY(rain_descriptors_create(rain));
     TRY(create_passes(rain));
@@ -354,17 +323,9 @@ void virga_rain_destroy(virga_rain **rain)
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->blank);
-    rain_occlusion_destroy(dying);
-    rain_descriptors_destroy(dying);
-    if (dying->blank_wind_view) {
-        context->vk.DestroyImageView(context->device, dying->blank_wind_view, NULL);
-        context->objects--;
-    }
-    if (dying->blank_wind_image) {
-        context->vk.DestroyImage(context->device, dying->blank_wind_image, NULL);
-        context->objects--;
-    }
-    virga_memory_release(context, &dying->blank_wind_memory);
+    VIRGA_RETIRE(context, dying->blank_wind);
+    virga_mesh_map_retire(context, &dying->map);
+    VIRGA_RETIRE(context, dying->bindings);
     virga_free(&context->heap, dying->classes);
     virga_free(&context->heap, dying->table_diameter_m);
     virga_free(&context->heap, dying->table_number);

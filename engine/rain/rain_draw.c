@@ -315,7 +315,7 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
         return virga_wrong_argument(&rain->context->log, "virga_rain_attach: more than %d targets",
                                     VIRGA_RAIN_MAX_TARGETS);
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.layout = rain->layout, .blend_premultiplied = true, .depth_test = true};
+    virga_graphics_def def = {.layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true};
     for (uint32_t depth = 0; depth < 2; depth++) {
         def.constant = depth;
         def.vertex = VIRGA_SPIRV(rain_streak_thin_vert);

@@ -12,6 +12,7 @@
 #define VIRGA_RAIN_INTERNAL_H
 
 #include "gpu/context.h"
+#include "gpu/mesh_map.h"
 
 #include <stddef.h>
 
@@ -84,7 +85,7 @@ typedef struct rain_target {
     virga_pipeline *haze;
 } rain_target;
 
-enum { RAIN_BINDINGS = 17, RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
+enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
 /* What the statistics ring reads back for one frame. */
 typedef struct rain_readback {
@@ -120,28 +121,19 @@ struct virga_rain {
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
         *prepared_buffer, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
-    virga_image_2d *map_depth, *map_surface;
-    virga_image_2d *blank; /* depth, for the scene depth that a view has not */
-    VkImage blank_wind_image;
-    VkImageView blank_wind_view;
-    virga_memory blank_wind_memory;
-    bool images_ready; /* first layouts have been recorded */
+    virga_mesh_map *map;
+    virga_image_2d *blank;      /* depth, for the scene depth that a view has not */
+    virga_image_2d *blank_wind; /* a 3D image of one texel, for the wind that a host has not given */
+    bool images_ready;          /* first layouts have been recorded */
 
-    VkRenderPass map_pass;
-    VkFramebuffer map_framebuffers[VIRGA_RAIN_MAX_MAPS];
-    VkPipelineLayout map_layout;
-    virga_pipeline *map_pipelines[4]; /* for def.occluder_strides */
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
     uint32_t map_count; /* drawn and in use */
     bool host_maps;
     virga_image host_map_image;
 
-    VkDescriptorSetLayout set_layout;
-    VkPipelineLayout layout;
-    VkDescriptorPool pool;
-    VkDescriptorSet sets[VIRGA_MAX_FRAMES_IN_FLIGHT][RAIN_SETS];
+    virga_bindings *bindings;
+    VkDescriptorSet step_set; /* of the frame step_set_frame */
     uint64_t step_set_frame;
-    VkSampler nearest, linear;
     virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan,
         *prepare_write, *list, *points;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
@@ -182,7 +174,6 @@ uint32_t rain_view_bytes(void);
 
 /* ---- rain_descriptors.c */
 virga_result rain_descriptors_create(virga_rain *rain);
-void rain_descriptors_destroy(virga_rain *rain);
 
 /* Writes a set of this frame; `scene_depth` NULL for a blank. */
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);
@@ -202,7 +193,6 @@ void rain_dispatch_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipel
 
 /* ---- rain_occlusion.c */
 virga_result rain_occlusion_create(virga_rain *rain);
-void rain_occlusion_destroy(virga_rain *rain);
 uint32_t rain_class_slant(const virga_rain *rain, double diameter_m);
 void rain_occlusion_tick(virga_rain *rain);
 void rain_fill_maps(const virga_rain *rain, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS]);

@@ -7,9 +7,6 @@
  * each four times as wide as the one inside it. */
 #include "rain/rain_internal.h"
 
-#include "shaders/rain_map_frag.spv.h"
-#include "shaders/rain_map_vert.spv.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -107,228 +104,24 @@ void rain_fill_maps(const virga_rain *rain, virga_map_gpu maps[VIRGA_RAIN_MAX_MA
 
 /* ---- drawing them */
 
-static virga_result create_pass(virga_rain *rain)
-{
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
-    const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32_UINT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                     .finalLayout = read_only},
-                                                    {.format = VK_FORMAT_D32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                     .finalLayout = read_only}};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          .colorAttachmentCount = 1,
-                                          .pColorAttachments = &color,
-                                          .pDepthStencilAttachment = &depth};
-    /* What read the maps before is done before they are cleared, and what reads them after waits for them. */
-    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                       VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                       VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                 VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | draws, draws,
-         VK_ACCESS_SHADER_READ_BIT | writes, writes, 0},
-        {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes, VK_ACCESS_SHADER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, &rain->map_pass));
-    context->objects++;
-error:
-    return result;
-}
-
-static virga_result create_framebuffers(virga_rain *rain, uint32_t size, uint32_t count)
-{
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
-    for (uint32_t i = 0; i < count; i++) {
-        const VkImageView views[2] = {rain->map_surface->layer_views[i], rain->map_depth->layer_views[i]};
-        const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                              .renderPass = rain->map_pass,
-                                              .attachmentCount = 2,
-                                              .pAttachments = views,
-                                              .width = size,
-                                              .height = size,
-                                              .layers = 1};
-        VK_TRY(context, CreateFramebuffer(context->device, &info, NULL, &rain->map_framebuffers[i]));
-        context->objects++;
-    }
-error:
-    return result;
-}
-
-static virga_result create_pipeline(virga_rain *rain, uint32_t stride, virga_pipeline **pipeline)
-{
-    const virga_graphics_def def = {.vertex = VIRGA_SPIRV(rain_map_vert),
-                                    .fragment = VIRGA_SPIRV(rain_map_frag),
-                                    .layout = rain->map_layout,
-                                    .render_pass = rain->map_pass,
-                                    .vertex_stride = stride,
-                                    .color_count = 1,
-                                    .depth_test = true,
-                                    .depth_write = true,
-                                    .name = "rain.map"};
-    return virga_graphics_pipeline_create(rain->context, &def, pipeline);
-}
-
 virga_result rain_occlusion_create(virga_rain *rain)
 {
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
-    const bool on = rain->def.occlusion_size > 0;
-    const uint32_t size = on ? rain->def.occlusion_size : 1;
-    const uint32_t count = on ? rain->def.occlusion_cascades * rain->def.occlusion_slants : 1;
-    TRY(virga_image_create(context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){size, size}, count,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                           VK_IMAGE_ASPECT_DEPTH_BIT, "rain.map_depth", &rain->map_depth));
-    TRY(virga_image_create(context, VK_FORMAT_R32_UINT, (VkExtent2D){size, size}, count,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
-                           "rain.map_surface", &rain->map_surface));
-    if (!on)
-        return VIRGA_OK;
-    TRY(create_pass(rain));
-    TRY(create_framebuffers(rain, size, count));
-    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                       sizeof(virga_map_push)};
-    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .pushConstantRangeCount = 1,
-                                             .pPushConstantRanges = &range};
-    VK_TRY(context, CreatePipelineLayout(context->device, &info, NULL, &rain->map_layout));
-    context->objects++;
-    for (uint32_t i = 0; i < 4; i++)
-        if (rain->def.occluder_strides[i])
-            TRY(create_pipeline(rain, rain->def.occluder_strides[i], &rain->map_pipelines[i]));
-error:
-    return result;
-}
-
-void rain_occlusion_destroy(virga_rain *rain)
-{
-    virga_context *context = rain->context;
-    for (uint32_t i = 0; i < 4; i++)
-        VIRGA_RETIRE(context, rain->map_pipelines[i]);
-    VIRGA_RETIRE(context, rain->map_depth);
-    VIRGA_RETIRE(context, rain->map_surface);
-    for (uint32_t i = 0; i < VIRGA_RAIN_MAX_MAPS; i++)
-        if (rain->map_framebuffers[i]) {
-            context->vk.DestroyFramebuffer(context->device, rain->map_framebuffers[i], NULL);
-            context->objects--;
-        }
-    if (rain->map_layout) {
-        context->vk.DestroyPipelineLayout(context->device, rain->map_layout, NULL);
-        context->objects--;
-    }
-    if (rain->map_pass) {
-        context->vk.DestroyRenderPass(context->device, rain->map_pass, NULL);
-        context->objects--;
-    }
-}
-
-static virga_pipeline *pipeline_for(const virga_rain *rain, uint32_t stride)
-{
-    for (uint32_t i = 0; i < 4; i++)
-        if (rain->map_pipelines[i] && rain->def.occluder_strides[i] == stride)
-            return rain->map_pipelines[i];
-    return NULL;
-}
-
-static virga_result check_occluders(const virga_rain *rain, const virga_occluder *occluders, uint32_t count)
-{
-    const virga_log *log = &rain->context->log;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!occluders[i].vertices || !occluders[i].indices)
-            return virga_wrong_argument(log, "occluder %u: expected a vertex and an index buffer", i);
-        if (!pipeline_for(rain, occluders[i].vertex_stride))
-            return virga_wrong_argument(log, "occluder %u: vertex_stride %u is not among def.occluder_strides", i,
-                                        occluders[i].vertex_stride);
-        if (occluders[i].material > 255)
-            return virga_wrong_argument(log, "occluder %u: material: expected 0 to 255, got %u", i,
-                                        occluders[i].material);
-    }
-    return VIRGA_OK;
-}
-
-/* The push constants of one mesh in one map. Translations are large far from the world's origin, so they are made
- * relative to the camera in double. */
-static virga_map_push describe_push(const virga_rain *rain, const rain_map *map, const double camera_m[3],
-                                    const virga_occluder *occluder)
-{
-    double centre[2];
-    centre_from(map, camera_m, centre);
-    virga_map_push push = {.centre = {(float)centre[0], (float)centre[1]},
-                           .inv_half_m = (float)(1 / map->half_m),
-                           .inv_height = (float)(1 / map->height_m),
-                           .slant = {(float)map->slant[0], (float)map->slant[1]},
-                           .top_m = (float)(map->top_m - camera_m[1]),
-                           .cover = occluder->cover > 0 ? occluder->cover : 1,
-                           .material = occluder->material,
-                           .texels = rain->def.occlusion_size};
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 4; column++) {
-            const double value = (double)occluder->world_from_mesh[row * 4 + column];
-            push.rel_from_mesh[row * 4 + column] = (float)(column == 3 ? value - camera_m[row] : value);
-        }
-    return push;
-}
-
-static void draw_occluder(virga_rain *rain, VkCommandBuffer cmd, const rain_map *map, const double camera_m[3],
-                          const virga_occluder *occluder, const virga_pipeline **bound)
-{
-    virga_context *context = rain->context;
-    const virga_pipeline *pipeline = pipeline_for(rain, occluder->vertex_stride);
-    if (pipeline != *bound)
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    *bound = pipeline;
-    const virga_map_push push = describe_push(rain, map, camera_m, occluder);
-    context->vk.CmdPushConstants(cmd, rain->map_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                 sizeof push, &push);
-    context->vk.CmdBindVertexBuffers(cmd, 0, 1, &occluder->vertices, &occluder->vertex_offset);
-    context->vk.CmdBindIndexBuffer(cmd, occluder->indices, occluder->index_offset, occluder->index_type);
-    context->vk.CmdDrawIndexed(cmd, occluder->index_count, 1, 0, occluder->vertex_base, 0);
+    return virga_mesh_map_create(rain->context, rain->def.occlusion_size,
+                                 rain->def.occlusion_cascades * rain->def.occlusion_slants, rain->def.occluder_strides,
+                                 "rain.map", &rain->map);
 }
 
 static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, const double camera_m[3],
                      const virga_occluder *occluders, uint32_t count)
 {
-    virga_context *context = rain->context;
-    const uint32_t size = rain->def.occlusion_size;
-    const VkClearValue clears[2] = {{.color = {.uint32 = {0}}}, {.depthStencil = {1, 0}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = rain->map_pass,
-                                         .framebuffer = rain->map_framebuffers[index],
-                                         .renderArea = {{0, 0}, {size, size}},
-                                         .clearValueCount = 2,
-                                         .pClearValues = clears};
-    const VkViewport viewport = {0, 0, (float)size, (float)size, 0, 1};
-    const VkRect2D scissor = {{0, 0}, {size, size}};
-    const virga_pipeline *bound = NULL;
-    context->vk.CmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
-    for (uint32_t i = 0; i < count; i++)
-        if (occluders[i].index_count)
-            draw_occluder(rain, cmd, &rain->maps[index], camera_m, &occluders[i], &bound);
-    context->vk.CmdEndRenderPass(cmd);
+    const rain_map *map = &rain->maps[index];
+    virga_map_view view = {.slant = {map->slant[0], map->slant[1]},
+                           .half_m = map->half_m,
+                           .top_m = map->top_m - camera_m[1],
+                           .height_m = map->height_m};
+    memcpy(view.origin_m, camera_m, sizeof view.origin_m);
+    centre_from(map, camera_m, view.centre);
+    virga_mesh_map_draw(rain->context, cmd, rain->map, index, &view, occluders, count);
 }
 
 static virga_result check_call(const virga_rain *rain, const double camera_m[3])
@@ -350,7 +143,7 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
         return result;
     if (!cmd || !camera_m || (count && !occluders))
         return virga_wrong_argument(&rain->context->log, "virga_rain_occlusion: NULL argument");
-    result = check_occluders(rain, occluders, count);
+    result = virga_mesh_map_check(rain->context, rain->map, occluders, count);
     if (result)
         return result;
     rain_begin_frame(rain, cmd);

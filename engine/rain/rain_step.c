@@ -69,10 +69,9 @@ static void first_layouts(virga_rain *rain, VkCommandBuffer cmd)
     const virga_image_state after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                                      VK_ACCESS_SHADER_READ_BIT};
-    virga_image_barrier(rain->context, cmd, rain->map_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
-    virga_image_barrier(rain->context, cmd, rain->map_surface->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_mesh_map_first_layouts(rain->context, cmd, rain->map);
     virga_image_barrier(rain->context, cmd, rain->blank->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
-    virga_image_barrier(rain->context, cmd, rain->blank_wind_image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_image_barrier(rain->context, cmd, rain->blank_wind->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
 }
 
 static void upload_tables(virga_rain *rain, VkCommandBuffer cmd)
@@ -326,10 +325,10 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     for (int axis = 0; axis < 3; axis++)
         rain->origin[axis] = (double)(float)info->camera_m[axis];
     if (rain->step_set_frame != context->frame_index) {
-        rain_write_set(rain, RAIN_STEP_SET, NULL);
+        rain->step_set = rain_write_set(rain, RAIN_STEP_SET, NULL);
         rain->step_set_frame = context->frame_index;
     }
-    const VkDescriptorSet set = rain->sets[context->ring_slot][RAIN_STEP_SET];
+    const VkDescriptorSet set = rain->step_set;
 
     /* Passes and copies of the frame before may still read what this one writes. */
     virga_barrier(context, cmd,
@@ -372,7 +371,7 @@ virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->sets[context->ring_slot][RAIN_STEP_SET]);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.points");
     dispatch(rain, cmd, rain->points, rain->groups);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,

@@ -20,7 +20,6 @@ typedef struct virga_sway_gpu virga_sway_gpu;
 typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
 typedef struct virga_list_gpu virga_list_gpu;
-typedef struct virga_map_push virga_map_push;
 #endif
 
 /* A slot: its place in the lattice of its class, and which drops it stands for. Never changes. */
@@ -178,20 +177,6 @@ struct virga_list_gpu {
     uint pad[2];
 };
 
-/* Push constants of the occlusion draw, 96 bytes. */
-struct virga_map_push {
-    float rel_from_mesh[12]; /* 3 x 4, relative to the step's origin */
-    float centre[2];
-    float inv_half_m;
-    float inv_height;
-    float slant[2];
-    float top_m;
-    float cover;
-    uint material;
-    uint texels;
-    uint pad[2];
-};
-
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_slot_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_travel_gpu, 32);
@@ -207,7 +192,6 @@ VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_prepared_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_map_push, 96);
 #undef uint
 #endif
 

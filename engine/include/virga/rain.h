@@ -15,6 +15,7 @@
 #include <virga/drops.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/point.h>
+#include <virga/mesh.h>
 #include <virga/shared/rain_limits.h>
 #include <virga/vulkan.h>
 
@@ -123,22 +124,6 @@ VIRGA_API void virga_rain_get(const virga_rain *rain, virga_rain_settings *setti
 VIRGA_API VkDeviceSize virga_rain_estimate(const virga_rain_def *def);
 
 /* ---- occlusion: where no rain falls --------------------------------------------------------------------------- */
-
-/* A host's triangle mesh, drawn into the occlusion maps. Buffers need VERTEX and INDEX usage. */
-typedef struct virga_occluder {
-    VkBuffer vertices;
-    VkDeviceSize vertex_offset;
-    uint32_t vertex_stride;    /* bytes between positions (3 floats at the start of each vertex); one of
-                                * def.occluder_strides */
-    VkBuffer indices;
-    VkDeviceSize index_offset;
-    VkIndexType index_type;    /* UINT16 or UINT32 */
-    uint32_t index_count;
-    int32_t vertex_base;       /* added to each index */
-    float world_from_mesh[12]; /* 3 x 4, row-major: three rows of rotation and translation (m) */
-    uint32_t material;         /* [0; 255] given to impacts */
-    float cover;               /* [0; 1] share of the surface that stops drops; leaves about 0.6. 0 means 1 */
-} virga_occluder;
 
 /* Draws the meshes into the occlusion maps around the camera position. Outside rendering. Every frame for moving
  * things, or when the camera has moved; without a call the last maps stay in use, where they reach.

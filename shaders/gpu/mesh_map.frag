@@ -1,9 +1,9 @@
-// map.frag - normal and material of the first surface under the sky.
+// mesh_map.frag - normal and material of the first surface from above.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
-#include "shared/rain_gpu.h"
+#include "shared/mesh_map.h"
 #include "shared/random.h"
 
 layout(scalar, push_constant) uniform Push { virga_map_push push; };

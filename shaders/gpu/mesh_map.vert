@@ -1,9 +1,9 @@
-// map.vert - a host's mesh into an occlusion map: parallel to the fall of the drops, depth by height.
+// mesh_map.vert - a host's mesh seen from above along parallel lines, which may lean: depth by height.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define VIRGA_GLSL
-#include "shared/rain_gpu.h"
+#include "shared/mesh_map.h"
 
 layout(scalar, push_constant) uniform Push { virga_map_push push; };
 layout(location = 0) in vec3 position;

@@ -1,0 +1,125 @@
+/* gpu/bindings.c - the binding model: an effect lists its bindings once, and all of its passes see the same set. */
+#include "gpu/context.h"
+
+static void bindings_destroy(virga_context *context, virga_resource *resource)
+{
+    virga_bindings *bindings = (virga_bindings *)resource;
+    if (bindings->pool) {
+        context->vk.DestroyDescriptorPool(context->device, bindings->pool, NULL);
+        context->objects--;
+    }
+    if (bindings->layout) {
+        context->vk.DestroyPipelineLayout(context->device, bindings->layout, NULL);
+        context->objects--;
+    }
+    if (bindings->set_layout) {
+        context->vk.DestroyDescriptorSetLayout(context->device, bindings->set_layout, NULL);
+        context->objects--;
+    }
+    virga_free(&context->heap, bindings->sets);
+    virga_free(&context->heap, bindings);
+}
+
+static virga_result create_layouts(virga_context *context, virga_bindings *made, uint32_t push_bytes)
+{
+    virga_result result = VIRGA_OK;
+    VkDescriptorSetLayoutBinding described[VIRGA_MAX_BINDINGS];
+    for (uint32_t i = 0; i < made->count; i++)
+        described[i] = (VkDescriptorSetLayoutBinding){.binding = i,
+                                                      .descriptorType = made->kinds[i].type,
+                                                      .descriptorCount = 1,
+                                                      .stageFlags = made->kinds[i].stages};
+    const VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                      .bindingCount = made->count,
+                                                      .pBindings = described};
+    VK_TRY(context, CreateDescriptorSetLayout(context->device, &set_info, NULL, &made->set_layout));
+    context->objects++;
+    const VkPushConstantRange range = {VIRGA_ALL_STAGES, 0, push_bytes};
+    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                             .setLayoutCount = 1,
+                                             .pSetLayouts = &made->set_layout,
+                                             .pushConstantRangeCount = push_bytes ? 1 : 0,
+                                             .pPushConstantRanges = &range};
+    VK_TRY(context, CreatePipelineLayout(context->device, &info, NULL, &made->layout));
+    context->objects++;
+error:
+    return result;
+}
+
+static virga_result create_sets(virga_context *context, virga_bindings *made)
+{
+    virga_result result = VIRGA_OK;
+    const uint32_t sets = context->frames_in_flight * made->sets_per_frame;
+    VkDescriptorPoolSize sizes[VIRGA_MAX_BINDINGS];
+    VkDescriptorSetLayout *layouts = virga_alloc_array(&context->heap, sets, sizeof *layouts);
+    made->sets = virga_alloc_array(&context->heap, sets, sizeof *made->sets);
+    if (!layouts || !made->sets) {
+        result = virga_out_of_host_memory(context, "descriptor sets");
+        goto error;
+    }
+    for (uint32_t i = 0; i < made->count; i++)
+        sizes[i] = (VkDescriptorPoolSize){made->kinds[i].type, sets};
+    for (uint32_t i = 0; i < sets; i++)
+        layouts[i] = made->set_layout;
+    const VkDescriptorPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                                  .maxSets = sets,
+                                                  .poolSizeCount = made->count,
+                                                  .pPoolSizes = sizes};
+    VK_TRY(context, CreateDescriptorPool(context->device, &pool_info, NULL, &made->pool));
+    context->objects++;
+    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                              .descriptorPool = made->pool,
+                                              .descriptorSetCount = sets,
+                                              .pSetLayouts = layouts};
+    VK_TRY(context, AllocateDescriptorSets(context->device, &info, made->sets));
+error:
+    virga_free(&context->heap, layouts);
+    return result;
+}
+
+virga_result virga_bindings_create(virga_context *context, const virga_binding_kind *kinds, uint32_t count,
+                                   uint32_t sets_per_frame, uint32_t push_bytes, virga_bindings **bindings)
+{
+    virga_bindings *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "bindings");
+    made->resource.destroy = bindings_destroy;
+    made->kinds = kinds;
+    made->count = count;
+    made->sets_per_frame = sets_per_frame;
+    virga_result result = create_layouts(context, made, push_bytes);
+    if (!result)
+        result = create_sets(context, made);
+    if (result)
+        bindings_destroy(context, &made->resource);
+    else
+        *bindings = made;
+    return result;
+}
+
+VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bindings, uint32_t index,
+                                     const virga_bound *bound)
+{
+    const VkDescriptorSet set = bindings->sets[context->ring_slot * bindings->sets_per_frame + index];
+    VkWriteDescriptorSet writes[VIRGA_MAX_BINDINGS];
+    VkDescriptorBufferInfo buffers[VIRGA_MAX_BINDINGS];
+    VkDescriptorImageInfo images[VIRGA_MAX_BINDINGS];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < bindings->count; i++) {
+        if (!bound[i].buffer && !bound[i].view)
+            continue; /* no pass that is recorded with this set reads it */
+        writes[count] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                               .dstSet = set,
+                                               .dstBinding = i,
+                                               .descriptorCount = 1,
+                                               .descriptorType = bindings->kinds[i].type};
+        buffers[count] =
+            (VkDescriptorBufferInfo){bound[i].buffer, bound[i].offset, bound[i].range ? bound[i].range : VK_WHOLE_SIZE};
+        images[count] = (VkDescriptorImageInfo){bound[i].sampler, bound[i].view, bound[i].image_layout};
+        writes[count].pBufferInfo = bound[i].buffer ? &buffers[count] : NULL;
+        writes[count].pImageInfo = bound[i].buffer ? NULL : &images[count];
+        count++;
+    }
+    context->vk.UpdateDescriptorSets(context->device, count, writes, 0, NULL);
+    return set;
+}

@@ -1,0 +1,264 @@
+/* gpu/mesh_map.c - a host's meshes seen from above along parallel lines: height, normal and material of what comes
+ * first. Rain asks it what shelters, ground asks it what there is to wet. */
+#include "gpu/mesh_map.h"
+
+#include "shaders/gpu_mesh_map_frag.spv.h"
+#include "shaders/gpu_mesh_map_vert.spv.h"
+
+#include <virga/shared/mesh_map.h>
+
+static void mesh_map_destroy(virga_context *context, virga_resource *resource)
+{
+    virga_mesh_map *map = (virga_mesh_map *)resource;
+    for (uint32_t i = 0; i < VIRGA_MAP_MAX_LAYERS; i++)
+        if (map->framebuffers[i]) {
+            context->vk.DestroyFramebuffer(context->device, map->framebuffers[i], NULL);
+            context->objects--;
+        }
+    if (map->layout) {
+        context->vk.DestroyPipelineLayout(context->device, map->layout, NULL);
+        context->objects--;
+    }
+    if (map->pass) {
+        context->vk.DestroyRenderPass(context->device, map->pass, NULL);
+        context->objects--;
+    }
+    virga_free(&context->heap, map);
+}
+
+void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map)
+{
+    if (!*map)
+        return;
+    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
+        VIRGA_RETIRE(context, (*map)->pipelines[i]);
+    VIRGA_RETIRE(context, (*map)->depth);
+    VIRGA_RETIRE(context, (*map)->surface);
+    VIRGA_RETIRE(context, *map);
+}
+
+static virga_result create_images(virga_context *context, virga_mesh_map *map)
+{
+    virga_result result = VIRGA_OK;
+    const VkExtent2D extent = {map->size, map->size};
+    TRY(virga_image_create(context, VK_FORMAT_D32_SFLOAT, extent, map->layers,
+                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                           VK_IMAGE_ASPECT_DEPTH_BIT, map->name, &map->depth));
+    TRY(virga_image_create(context, VK_FORMAT_R32_UINT, extent, map->layers,
+                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
+                           map->name, &map->surface));
+error:
+    return result;
+}
+
+static virga_result create_pass(virga_context *context, virga_mesh_map *map)
+{
+    virga_result result = VIRGA_OK;
+    const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32_UINT,
+                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                     .finalLayout = read_only},
+                                                    {.format = VK_FORMAT_D32_SFLOAT,
+                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                     .finalLayout = read_only}};
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                          .colorAttachmentCount = 1,
+                                          .pColorAttachments = &color,
+                                          .pDepthStencilAttachment = &depth};
+    /* What read the maps before is done before they are cleared, and what reads them after waits for them. */
+    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                       VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+                                       VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                                 VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+    const VkSubpassDependency dependencies[2] = {
+        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | draws, draws,
+         VK_ACCESS_SHADER_READ_BIT | writes, writes, 0},
+        {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes, VK_ACCESS_SHADER_READ_BIT, 0}};
+    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                         .attachmentCount = 2,
+                                         .pAttachments = attachments,
+                                         .subpassCount = 1,
+                                         .pSubpasses = &subpass,
+                                         .dependencyCount = 2,
+                                         .pDependencies = dependencies};
+    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, &map->pass));
+    context->objects++;
+error:
+    return result;
+}
+
+static virga_result create_framebuffers(virga_context *context, virga_mesh_map *map)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < map->layers; i++) {
+        const VkImageView views[2] = {map->surface->layer_views[i], map->depth->layer_views[i]};
+        const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                              .renderPass = map->pass,
+                                              .attachmentCount = 2,
+                                              .pAttachments = views,
+                                              .width = map->size,
+                                              .height = map->size,
+                                              .layers = 1};
+        VK_TRY(context, CreateFramebuffer(context->device, &info, NULL, &map->framebuffers[i]));
+        context->objects++;
+    }
+error:
+    return result;
+}
+
+static virga_result create_pipelines(virga_context *context, virga_mesh_map *map)
+{
+    virga_result result = VIRGA_OK;
+    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                       sizeof(virga_map_push)};
+    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                             .pushConstantRangeCount = 1,
+                                             .pPushConstantRanges = &range};
+    VK_TRY(context, CreatePipelineLayout(context->device, &info, NULL, &map->layout));
+    context->objects++;
+    virga_graphics_def def = {.vertex = VIRGA_SPIRV(gpu_mesh_map_vert),
+                              .fragment = VIRGA_SPIRV(gpu_mesh_map_frag),
+                              .layout = map->layout,
+                              .render_pass = map->pass,
+                              .color_count = 1,
+                              .depth_test = true,
+                              .depth_write = true,
+                              .name = map->name};
+    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++) {
+        def.vertex_stride = map->strides[i];
+        if (map->strides[i])
+            TRY(virga_graphics_pipeline_create(context, &def, &map->pipelines[i]));
+    }
+error:
+    return result;
+}
+
+virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
+                                   const uint32_t strides[VIRGA_MAP_STRIDES], const char *name, virga_mesh_map **map)
+{
+    virga_result result = VIRGA_OK;
+    virga_mesh_map *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, name);
+    made->resource.destroy = mesh_map_destroy;
+    made->size = size ? size : 1;
+    made->layers = size ? layers : 1;
+    made->name = name;
+    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
+        made->strides[i] = strides[i];
+    TRY(create_images(context, made));
+    if (size) {
+        TRY(create_pass(context, made));
+        TRY(create_framebuffers(context, made));
+        TRY(create_pipelines(context, made));
+    }
+    *map = made;
+    return VIRGA_OK;
+error:
+    virga_mesh_map_retire(context, &made);
+    return result;
+}
+
+void virga_mesh_map_first_layouts(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map)
+{
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const virga_image_state after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                     VK_ACCESS_SHADER_READ_BIT};
+    virga_image_barrier(context, cmd, map->depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
+    virga_image_barrier(context, cmd, map->surface->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+}
+
+static virga_pipeline *pipeline_for(const virga_mesh_map *map, uint32_t stride)
+{
+    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
+        if (map->pipelines[i] && map->strides[i] == stride)
+            return map->pipelines[i];
+    return NULL;
+}
+
+virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh_map *map,
+                                  const virga_occluder *occluders, uint32_t count)
+{
+    const virga_log *log = &context->log;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!occluders[i].vertices || !occluders[i].indices)
+            return virga_wrong_argument(log, "occluder %u: expected a vertex and an index buffer", i);
+        if (!pipeline_for(map, occluders[i].vertex_stride))
+            return virga_wrong_argument(log, "occluder %u: vertex_stride %u is not among def.occluder_strides", i,
+                                        occluders[i].vertex_stride);
+        if (occluders[i].material > 255)
+            return virga_wrong_argument(log, "occluder %u: material: expected 0 to 255, got %u", i,
+                                        occluders[i].material);
+    }
+    return VIRGA_OK;
+}
+
+/* Translations are large far from the world's origin, so they are made relative to the map's origin in double. */
+static virga_map_push describe_push(const virga_mesh_map *map, const virga_map_view *view, const virga_occluder *mesh)
+{
+    virga_map_push push = {.centre = {(float)view->centre[0], (float)view->centre[1]},
+                           .inv_half_m = (float)(1 / view->half_m),
+                           .inv_height = (float)(1 / view->height_m),
+                           .slant = {(float)view->slant[0], (float)view->slant[1]},
+                           .top_m = (float)view->top_m,
+                           .cover = mesh->cover > 0 ? mesh->cover : 1,
+                           .material = mesh->material,
+                           .texels = map->size};
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++) {
+            const double value = (double)mesh->world_from_mesh[row * 4 + column];
+            push.rel_from_mesh[row * 4 + column] = (float)(column == 3 ? value - view->origin_m[row] : value);
+        }
+    return push;
+}
+
+static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map,
+                      const virga_map_view *view, const virga_occluder *mesh, const virga_pipeline **bound)
+{
+    const virga_pipeline *pipeline = pipeline_for(map, mesh->vertex_stride);
+    if (pipeline != *bound)
+        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    *bound = pipeline;
+    const virga_map_push push = describe_push(map, view, mesh);
+    context->vk.CmdPushConstants(cmd, map->layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                 sizeof push, &push);
+    context->vk.CmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices, &mesh->vertex_offset);
+    context->vk.CmdBindIndexBuffer(cmd, mesh->indices, mesh->index_offset, mesh->index_type);
+    context->vk.CmdDrawIndexed(cmd, mesh->index_count, 1, 0, mesh->vertex_base, 0);
+}
+
+void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, uint32_t layer,
+                         const virga_map_view *view, const virga_occluder *meshes, uint32_t count)
+{
+    const VkClearValue clears[2] = {{.color = {.uint32 = {0}}}, {.depthStencil = {1, 0}}};
+    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                         .renderPass = map->pass,
+                                         .framebuffer = map->framebuffers[layer],
+                                         .renderArea = {{0, 0}, {map->size, map->size}},
+                                         .clearValueCount = 2,
+                                         .pClearValues = clears};
+    const VkViewport viewport = {0, 0, (float)map->size, (float)map->size, 0, 1};
+    const VkRect2D scissor = {{0, 0}, {map->size, map->size}};
+    const virga_pipeline *bound = NULL;
+    context->vk.CmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
+    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    for (uint32_t i = 0; i < count; i++)
+        if (meshes[i].index_count && (!view->ground_only || meshes[i].ground))
+            draw_mesh(context, cmd, map, view, &meshes[i], &bound);
+    context->vk.CmdEndRenderPass(cmd);
+}

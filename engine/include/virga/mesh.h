@@ -1,0 +1,31 @@
+/* virga/mesh.h - a host's triangles as the effects take them. */
+#ifndef VIRGA_MESH_H
+#define VIRGA_MESH_H
+
+#include <virga/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A host's triangle mesh: what rain is sheltered by, lands on and wets. Buffers need VERTEX and INDEX usage. */
+typedef struct virga_occluder {
+    VkBuffer vertices;
+    VkDeviceSize vertex_offset;
+    uint32_t vertex_stride;    /* bytes between positions (3 floats at the start of each vertex); one of
+                                * the strides named at creation (def.occluder_strides) */
+    VkBuffer indices;
+    VkDeviceSize index_offset;
+    VkIndexType index_type;    /* UINT16 or UINT32 */
+    uint32_t index_count;
+    int32_t vertex_base;       /* added to each index */
+    float world_from_mesh[12]; /* 3 x 4, row-major: three rows of rotation and translation (m) */
+    uint32_t material;         /* [0; 255] given to impacts */
+    float cover;               /* [0; 1] share of the surface that stops drops; leaves about 0.6. 0 means 1 */
+    bool ground;               /* its upper side gets cells of the ground effect. Default false */
+} virga_occluder;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
