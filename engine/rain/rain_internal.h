@@ -112,9 +112,10 @@ struct virga_rain {
     rain_wind wind;
     double wind_now[3];
     uint32_t levels, groups_per_level, groups, slots;
-    uint64_t ticks;     /* run since creation */
-    double left_over_s; /* host time not yet run */
-    double origin[3];   /* of the newest tick */
+    uint64_t ticks;         /* run since creation */
+    uint32_t ticks_of_step; /* run by the newest step */
+    double left_over_s;     /* host time not yet run */
+    double origin[3];       /* of the newest tick */
     bool stepped, slots_uploaded, sway_cleared, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 

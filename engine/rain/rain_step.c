@@ -350,6 +350,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     frame->stepped = true;
     frame->time_s = virga_rain_time(rain);
     frame->ticks = ticks;
+    rain->ticks_of_step = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
     return VIRGA_OK;
@@ -388,4 +389,13 @@ virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain
 double virga_rain_time(const virga_rain *rain)
 {
     return rain ? (double)rain->ticks * rain->def.tick_s + rain->left_over_s : 0;
+}
+
+void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count)
+{
+    const uint32_t run = rain ? rain->ticks_of_step : 0;
+    if (count)
+        *count = run;
+    if (first)
+        *first = rain ? (uint32_t)rain->ticks - (run ? run - 1 : 0) : 0;
 }

@@ -4,6 +4,7 @@
 #include "shared/random.h"
 #include "shared/drop.h"
 #include "shared/impact.h"
+#include "shared/surface.glsl"
 
 // Small tables are uniforms: software Vulkan reads them without a loop over lanes.
 layout(scalar, set = 0, binding = 0) uniform Tick
@@ -66,16 +67,6 @@ float plane_offset(virga_map_gpu map, vec2 from_middle, vec3 normal)
     const float texel_m = 2.0 / (map.inv_half_m * map.texels);
     const float offset = -dot(normal.xz, from_middle) * texel_m / across;
     return clamp(offset, -4.0 * texel_m, 4.0 * texel_m);
-}
-
-vec3 unpack_normal(uint surface)
-{
-    // Octahedral, 12 bits an axis above 8 bits of material (Cigolle et al. 2014).
-    const vec2 e = vec2((surface >> 8) & 4095u, surface >> 20) * (2.0 / 4095.0) - 1.0;
-    vec3 n = vec3(e.x, 1.0 - abs(e.x) - abs(e.y), e.y);
-    if (n.y < 0.0)
-        n.xz = (1.0 - abs(n.zx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.z >= 0.0 ? 1.0 : -1.0);
-    return normalize(n);
 }
 
 // Texel of a place in a map; outside of [1; texels - 1) there is none.

@@ -161,6 +161,9 @@ VIRGA_API virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, co
 /* Simulated time (s) that draw times count from: whole ticks plus what dt_s left over. */
 VIRGA_API double virga_rain_time(const virga_rain *rain);
 
+/* The ticks that the newest step ran, as virga_impact_gpu.tick counts them: `*first` and those that follow. */
+VIRGA_API void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count);
+
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s` (normally virga_rain_time; any time within a tick or two of it is

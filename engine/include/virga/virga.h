@@ -3,6 +3,7 @@
 #define VIRGA_VIRGA_H
 #include <virga/base.h>
 #include <virga/drops.h>
+#include <virga/ground.h>
 #include <virga/rain.h>
 #include <virga/scene.h>
 #include <virga/vulkan.h>

@@ -1,0 +1,353 @@
+/* ground/ground.c - create, destroy, settings, and what others read. */
+#include "ground/ground_internal.h"
+
+#include "shaders/ground_adopt_comp.spv.h"
+#include "shaders/ground_flow_comp.spv.h"
+#include "shaders/ground_forget_comp.spv.h"
+#include "shaders/ground_land_comp.spv.h"
+#include "shaders/ground_map_comp.spv.h"
+#include "shaders/ground_measure_comp.spv.h"
+#include "shaders/ground_share_comp.spv.h"
+#include "shaders/ground_soak_comp.spv.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DEF_COOKIE      VIRGA_COOKIE(7)
+#define SETTINGS_COOKIE VIRGA_COOKIE(8)
+
+/* ---- defaults */
+
+virga_ground_def virga_default_ground_def(void)
+{
+    return (virga_ground_def){.size = sizeof(virga_ground_def),
+                              .cookie = DEF_COOKIE,
+                              .seed = 1,
+                              .cells = 1024,
+                              .cell_m = 0.05f,
+                              .kept_tiles = 1024,
+                              .tick_s = 1.0 / 60,
+                              .flow_ticks = 4,
+                              .max_impacts = 65536,
+                              .max_ticks_per_step = 16,
+                              .occluder_strides = {12, 32}};
+}
+
+virga_ground_settings virga_default_ground_settings(void)
+{
+    virga_ground_settings settings = {
+        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .evaporation_mm_h = 0.2f, .measure = true};
+    ground_default_materials(settings.materials);
+    return settings;
+}
+
+static virga_result check_def(const virga_log *log, const virga_ground_def *given, virga_ground_def *def)
+{
+    const virga_result result =
+        virga_settings_check(log, "ground_def", given->size, sizeof *given, given->cookie, DEF_COOKIE);
+    if (result)
+        return result;
+    if (virga_settings_finite(log, "ground_def.cell_m", &given->cell_m, 1) ||
+        virga_settings_finite_double(log, "ground_def.tick_s", &given->tick_s, 1))
+        return VIRGA_ERROR_INVALID;
+    *def = *given;
+    def->cells = virga_clamp_setting_u32(log, "ground_def.cells", def->cells, 128, 4096, NULL);
+    if (def->cells & (def->cells - 1))
+        return virga_wrong_argument(log, "ground_def.cells: expected a power of two, got %u", def->cells);
+    def->cell_m = (float)virga_clamp_setting(log, "ground_def.cell_m", (double)def->cell_m, 0.01, 0.1, NULL);
+    def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 65536, NULL);
+    const uint32_t tiles = def->cells / VIRGA_GROUND_TILE;
+    def->kept_tiles = def->kept_tiles > 2 * tiles * tiles ? def->kept_tiles : 2 * tiles * tiles;
+    def->tick_s = virga_clamp_setting(log, "ground_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
+    def->flow_ticks = virga_clamp_setting_u32(log, "ground_def.flow_ticks", def->flow_ticks, 1, 60, NULL);
+    def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
+    def->max_ticks_per_step =
+        virga_clamp_setting_u32(log, "ground_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
+    return VIRGA_OK;
+}
+
+VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
+{
+    virga_ground_def def;
+    if (!given || check_def(NULL, given, &def))
+        return 0;
+    const VkDeviceSize cells = (VkDeviceSize)def.cells * def.cells;
+    const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + 2 * sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
+                                8 /* spots */ + 16 /* maps */ + 8 /* survey */;
+    return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
+           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) +
+           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
+               ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
+}
+
+/* ---- creating */
+
+static virga_result create_buffers(virga_ground *ground)
+{
+    virga_result result = VIRGA_OK;
+    const VkDeviceSize cells = (VkDeviceSize)ground->def.cells * ground->def.cells;
+    const VkDeviceSize kept = (VkDeviceSize)ground->def.kept_tiles * VIRGA_GROUND_TILE_CELLS;
+    const uint32_t frames = ground->context->frames_in_flight;
+    const VkBufferUsageFlags storage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const struct {
+        virga_buffer **buffer;
+        VkDeviceSize size;
+        VkBufferUsageFlags usage;
+        virga_heap_kind heap;
+        const char *name;
+    } wanted[] = {
+        {&ground->floors, cells * sizeof(virga_floor_gpu), storage, VIRGA_HEAP_DEVICE, "ground.floors"},
+        {&ground->cells[0], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells0"},
+        {&ground->cells[1], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells1"},
+        {&ground->arrivals, cells * sizeof(virga_arrivals_gpu), storage, VIRGA_HEAP_DEVICE, "ground.arrivals"},
+        {&ground->spots, cells * 8, storage, VIRGA_HEAP_DEVICE, "ground.spots"},
+        {&ground->kept_cells, kept * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.kept_cells"},
+        {&ground->kept_spots, kept * 8, storage, VIRGA_HEAP_DEVICE, "ground.kept_spots"},
+        {&ground->counts, sizeof(ground_readback), storage, VIRGA_HEAP_DEVICE, "ground.counts"},
+        {&ground->landings, ground->def.max_impacts * sizeof(virga_landing_gpu), storage, VIRGA_HEAP_DEVICE,
+         "ground.landings"},
+        {&ground->tick_ring, (VkDeviceSize)frames * (ground->def.max_ticks_per_step + 1) * ground_tick_bytes(),
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "ground.ticks"},
+        {&ground->list_ring, (VkDeviceSize)frames * ground_list_bytes(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+         VIRGA_HEAP_UPLOAD, "ground.lists"},
+        {&ground->readback_ring, frames * sizeof(ground_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         VIRGA_HEAP_READBACK, "ground.readback"},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
+        TRY(virga_buffer_create(ground->context, wanted[i].size, wanted[i].usage, wanted[i].heap, wanted[i].name,
+                                wanted[i].buffer));
+error:
+    return result;
+}
+
+static virga_result create_images(virga_ground *ground)
+{
+    virga_result result = VIRGA_OK;
+    const uint32_t cells = ground->def.cells;
+    const VkImageUsageFlags usage =
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    TRY(virga_image_create(ground->context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){cells, cells}, 1, usage,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.wet_map", &ground->wet_map));
+    TRY(virga_image_create(ground->context, VK_FORMAT_R32_UINT, (VkExtent2D){2 * cells, cells}, 1, usage,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.spot_map", &ground->spot_map));
+    TRY(virga_mesh_map_create(ground->context, cells, 1, ground->def.occluder_strides, "ground.survey",
+                              &ground->survey));
+error:
+    return result;
+}
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+
+/* As in shaders/ground: what each file declares. */
+static const virga_binding_kind kinds[] = {
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE}, /* 0 tick */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE}, /* 1 lists of tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 2 impacts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 3 floors */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 4 cells */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 5 cells after flow */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 6 arrivals */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 7 spots */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 8 kept cells */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 9 counts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 10 landings */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE}, /* 11 survey: depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE}, /* 12 survey: surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 13 wet map */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 14 spot map */
+};
+
+enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
+
+static virga_bound whole(const virga_buffer *buffer)
+{
+    return (virga_bound){.buffer = buffer->buffer};
+}
+
+void ground_write_sets(virga_ground *ground)
+{
+    const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
+    const VkSampler nearest = ground->context->nearest;
+    for (uint32_t parity = 0; parity < 2; parity++) {
+        const virga_bound bound[BINDINGS] = {
+            {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
+            {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
+            {.buffer = ground->impacts, .offset = ground->impacts_offset},
+            whole(ground->floors),
+            whole(ground->cells[parity]),
+            whole(ground->cells[parity ^ 1]),
+            whole(ground->arrivals),
+            whole(ground->spots),
+            whole(ground->kept_cells),
+            whole(ground->counts),
+            whole(ground->landings),
+            {.sampler = nearest, .view = ground->survey->depth->view, .image_layout = read_only},
+            {.sampler = nearest, .view = ground->survey->surface->view, .image_layout = read_only},
+            {.view = ground->wet_map->view, .image_layout = general},
+            {.view = ground->spot_map->view, .image_layout = general}};
+        ground->sets[parity] = virga_bindings_write(ground->context, ground->bindings, parity, bound);
+    }
+}
+
+static virga_result create_pipelines(virga_ground *ground)
+{
+    virga_result result = VIRGA_OK;
+    const struct {
+        virga_pipeline **pipeline;
+        virga_spirv shader;
+        const char *name;
+    } passes[] = {
+        {&ground->adopt, VIRGA_SPIRV(ground_adopt_comp), "ground.adopt"},
+        {&ground->forget, VIRGA_SPIRV(ground_forget_comp), "ground.forget"},
+        {&ground->land, VIRGA_SPIRV(ground_land_comp), "ground.land"},
+        {&ground->share, VIRGA_SPIRV(ground_share_comp), "ground.share"},
+        {&ground->soak, VIRGA_SPIRV(ground_soak_comp), "ground.soak"},
+        {&ground->flow, VIRGA_SPIRV(ground_flow_comp), "ground.flow"},
+        {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
+        {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
+    };
+    for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
+        TRY(virga_compute_pipeline_create(ground->context, passes[i].shader, ground->bindings->layout, passes[i].name,
+                                          passes[i].pipeline));
+error:
+    return result;
+}
+
+static virga_result init(virga_ground *ground)
+{
+    virga_result result = VIRGA_OK;
+    ground->window.tiles = ground->def.cells / VIRGA_GROUND_TILE;
+    ground->window.kept_capacity = ground->def.kept_tiles;
+    ground->window.kept =
+        virga_alloc_array(&ground->context->heap, ground->def.kept_tiles, sizeof ground->window.kept[0]);
+    if (!ground->window.kept)
+        return virga_out_of_host_memory(ground->context, "the tiles of the ground");
+    TRY(create_buffers(ground));
+    TRY(create_images(ground));
+    TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2, 0, &ground->bindings));
+    TRY(create_pipelines(ground));
+error:
+    return result;
+}
+
+virga_result virga_ground_create(virga_context *context, const virga_ground_def *given, virga_ground **ground)
+{
+    if (ground)
+        *ground = NULL;
+    if (!context || !given || !ground)
+        return virga_wrong_argument(context ? &context->log : NULL, "virga_ground_create: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    virga_ground_def def;
+    virga_result result = check_def(&context->log, given, &def);
+    if (result)
+        return result;
+    virga_ground *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "ground");
+    made->context = context;
+    made->def = def;
+    made->settings = virga_default_ground_settings();
+    context->effects++;
+    result = init(made);
+    if (result < 0) {
+        virga_ground_destroy(&made);
+        return result;
+    }
+    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
+                  "ground: %u x %u cells of %g m, %u tiles kept, %.1f MB of device memory in use", def.cells, def.cells,
+                  (double)def.cell_m, def.kept_tiles, (double)context->device_used * 1e-6);
+    *ground = made;
+    return VIRGA_OK;
+}
+
+void virga_ground_destroy(virga_ground **ground)
+{
+    if (!ground || !*ground)
+        return;
+    virga_ground *dying = *ground;
+    virga_context *context = dying->context;
+    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget, &dying->land,    &dying->share,
+                                    &dying->soak,  &dying->flow,   &dying->measure, &dying->map};
+    for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
+        VIRGA_RETIRE(context, *pipelines[i]);
+    virga_buffer **buffers[] = {&dying->floors,   &dying->cells[0],   &dying->cells[1],   &dying->arrivals,
+                                &dying->spots,    &dying->kept_cells, &dying->kept_spots, &dying->counts,
+                                &dying->landings, &dying->tick_ring,  &dying->list_ring,  &dying->readback_ring};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        VIRGA_RETIRE(context, *buffers[i]);
+    VIRGA_RETIRE(context, dying->wet_map);
+    VIRGA_RETIRE(context, dying->spot_map);
+    virga_mesh_map_retire(context, &dying->survey);
+    VIRGA_RETIRE(context, dying->bindings);
+    virga_free(&context->heap, dying->window.kept);
+    context->effects--;
+    virga_free(&context->heap, dying);
+    *ground = NULL;
+}
+
+virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings)
+{
+    if (!ground)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &ground->context->log;
+    if (!settings)
+        return virga_wrong_argument(log, "virga_ground_set: NULL argument");
+    virga_result result = virga_settings_check(log, "ground_settings", settings->size, sizeof *settings,
+                                               settings->cookie, SETTINGS_COOKIE);
+    if (result)
+        return result;
+    virga_ground_settings taken = *settings;
+    result = ground_check_settings(log, &taken);
+    if (result >= 0)
+        ground->settings = taken;
+    return result;
+}
+
+void virga_ground_survey(virga_ground *ground)
+{
+    if (ground)
+        ground->survey_all = true;
+}
+
+/* ---- what others read */
+
+void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
+{
+    if (!maps)
+        return;
+    memset(maps, 0, sizeof *maps);
+    if (!ground)
+        return;
+    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
+    *maps = (virga_ground_maps){.wet = ground->wet_map->view,
+                                .spots = ground->spot_map->view,
+                                .cells = ground->def.cells,
+                                .cell_m = ground->def.cell_m,
+                                .base_m = (float)ground->base_m};
+    for (int axis = 0; axis < 2; axis++) {
+        maps->low_m[axis] = ground->window.low[axis] * tile_m;
+        maps->high_m[axis] = (ground->window.low[axis] + (int32_t)ground->window.tiles) * tile_m;
+    }
+}
+
+void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)
+{
+    if (buffer)
+        *buffer = ground ? ground->landings->buffer : VK_NULL_HANDLE;
+    if (size)
+        *size = ground ? ground->landings->size : 0;
+}
+
+void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats)
+{
+    if (!stats)
+        return;
+    memset(stats, 0, sizeof *stats);
+    if (!ground)
+        return;
+    ground_take_statistics(ground);
+    *stats = ground->stats;
+    stats->tiles_kept = ground->window.kept_count;
+}

@@ -1,0 +1,387 @@
+/* ground/ground_step.c - a step: the window follows, drops land, water flows, maps are written. */
+#include "ground/ground_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#define READ_WRITE    (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
+#define SURVEY_TOP_M  256.0 /* above the camera */
+#define SURVEY_DEEP_M 512.0
+#define TILE_GROUPS   (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
+
+static uint32_t ring_bytes(size_t size)
+{
+    return (uint32_t)((size + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT);
+}
+
+uint32_t ground_tick_bytes(void)
+{
+    return ring_bytes(sizeof(virga_ground_tick_gpu));
+}
+
+uint32_t ground_list_bytes(void)
+{
+    return ring_bytes(sizeof(ground_lists));
+}
+
+/* ---- statistics */
+
+static uint64_t count_of(const ground_readback *read, uint32_t index)
+{
+    return (uint64_t)read->counts[index].high << 32 | read->counts[index].low;
+}
+
+static void take_counts(virga_ground *ground, uint32_t slot)
+{
+    ground_readback read;
+    memcpy(&read, (const char *)ground->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
+    virga_ground_stats *stats = &ground->stats;
+    stats->frame_index = ground->frame_of_slot[slot];
+    stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
+    stats->elsewhere_nl = count_of(&read, VIRGA_GROUND_ELSEWHERE);
+    stats->infiltrated_nl = count_of(&read, VIRGA_GROUND_INFILTRATED);
+    stats->run_off_nl = count_of(&read, VIRGA_GROUND_RUN_OFF);
+    stats->evaporated_nl = count_of(&read, VIRGA_GROUND_EVAPORATED);
+    stats->forgotten_nl = count_of(&read, VIRGA_GROUND_FORGOTTEN);
+    stats->film_nl = count_of(&read, VIRGA_GROUND_FILM);
+    stats->puddles_nl = count_of(&read, VIRGA_GROUND_PUDDLES);
+    stats->held_nl = count_of(&read, VIRGA_GROUND_HELD);
+    stats->kept_nl = count_of(&read, VIRGA_GROUND_KEPT);
+    for (uint32_t i = 0; i < VIRGA_GROUND_STATES; i++)
+        stats->cells[i] = read.counts[VIRGA_GROUND_CELLS + i].low;
+    ground->frame_of_slot[slot] = 0;
+}
+
+void ground_take_statistics(virga_ground *ground)
+{
+    const virga_context *context = ground->context;
+    virga_buffer_invalidate(ground->context, ground->readback_ring);
+    for (;;) {
+        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
+        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
+            const uint64_t index = ground->frame_of_slot[i];
+            if (index && index <= context->completed_index &&
+                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || index < ground->frame_of_slot[oldest]))
+                oldest = i;
+        }
+        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
+            return;
+        take_counts(ground, oldest);
+    }
+}
+
+static void record_readback(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->context;
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, COPY);
+    const VkBufferCopy copy = {0, context->ring_slot * sizeof(ground_readback), sizeof(ground_readback)};
+    context->vk.CmdCopyBuffer(cmd, ground->counts->buffer, ground->readback_ring->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    ground->frame_of_slot[context->ring_slot] = context->frame_index;
+}
+
+/* ---- a tick's numbers */
+
+static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_tick_gpu *out)
+{
+    const double cell = (double)ground->def.cell_m, area = cell * cell;
+    memset(out, 0, sizeof *out);
+    out->tiles = ground->window.tiles;
+    out->tick = tick;
+    for (int axis = 0; axis < 2; axis++) {
+        out->low_tile[axis] = ground->window.low[axis];
+        const double corner = ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell;
+        out->window_high[axis * 2] = (float)corner;
+        out->window_low[axis * 2] = (float)(corner - (double)(float)corner);
+    }
+    out->cell_m = (float)cell;
+    out->inv_cell_m = (float)(1 / cell);
+    out->nl_per_um = (int)floor(area * 1e6 + 0.5);
+    out->m_per_nl = (float)(1e-12 / area);
+    out->seed = ground->def.seed;
+    out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);
+    out->evaporation_nl_s = (float)((double)ground->settings.evaporation_mm_h / 3600 * area * 1e9);
+    out->survey_top_m = (float)(ground->base_m + SURVEY_TOP_M);
+    out->survey_height_m = (float)SURVEY_DEEP_M;
+    out->base_m = (float)ground->base_m;
+    out->tiles_entering = ground->move.entering_count;
+    out->tiles_forgotten = ground->move.forgotten_count;
+    ground_fill_soils(&ground->settings, cell, out->soils);
+}
+
+static void push_tick(virga_ground *ground, uint32_t tick)
+{
+    const uint32_t per_frame = ground->def.max_ticks_per_step + 1;
+    const uint32_t place = ground->context->ring_slot * per_frame + ground->ring_ticks++;
+    ground->tick_offset = place * ground_tick_bytes();
+    char *mapped = ground->tick_ring->memory.block.mapped;
+    fill_tick(ground, tick, (virga_ground_tick_gpu *)(mapped + ground->tick_offset));
+    virga_buffer_flush(ground->context, ground->tick_ring, ground->tick_offset, ground_tick_bytes());
+}
+
+static void bind(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
+    ground->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
+                                              &ground->sets[ground->parity], 2, offsets);
+}
+
+static void dispatch(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
+{
+    ground->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    ground->context->vk.CmdDispatch(cmd, groups, 1, 1);
+}
+
+/* ---- the window follows */
+
+static void copy_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_buffer *from, const virga_buffer *to,
+                       const uint32_t *from_slots, const uint32_t *to_slots, uint32_t count)
+{
+    const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu); /* spots are as large */
+    uint32_t copies = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (from_slots[i] != GROUND_NEW)
+            ground->copies[copies++] = (VkBufferCopy){from_slots[i] * bytes, to_slots[i] * bytes, bytes};
+    if (copies)
+        ground->context->vk.CmdCopyBuffer(cmd, from->buffer, to->buffer, copies, ground->copies);
+}
+
+static void clear_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_buffer *buffer)
+{
+    const ground_move *move = &ground->move;
+    const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
+    for (uint32_t i = 0; i < move->entering_count; i++)
+        if (move->entering_from[i] == GROUND_NEW)
+            ground->context->vk.CmdFillBuffer(cmd, buffer->buffer, move->entering[i] * bytes, bytes, 0);
+}
+
+/* Places among the kept that were taken back hold nothing, so that their water is not counted twice. */
+static void clear_taken(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const ground_move *move = &ground->move;
+    const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
+    for (uint32_t i = 0; i < move->entering_count; i++)
+        if (move->entering_from[i] != GROUND_NEW)
+            ground->context->vk.CmdFillBuffer(cmd, ground->kept_cells->buffer, move->entering_from[i] * bytes, bytes,
+                                              0);
+}
+
+static void transfer_barrier(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, READ_WRITE | COPY);
+}
+
+static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const ground_move *move = &ground->move;
+    const virga_buffer *cells = ground->cells[ground->parity];
+    if (move->forgotten_count) {
+        dispatch(ground, cmd, ground->forget, move->forgotten_count * TILE_GROUPS);
+        transfer_barrier(ground, cmd);
+    }
+    copy_tiles(ground, cmd, cells, ground->kept_cells, move->leaving, move->leaving_to, move->leaving_count);
+    copy_tiles(ground, cmd, ground->spots, ground->kept_spots, move->leaving, move->leaving_to, move->leaving_count);
+    transfer_barrier(ground, cmd);
+    copy_tiles(ground, cmd, ground->kept_cells, cells, move->entering_from, move->entering, move->entering_count);
+    copy_tiles(ground, cmd, ground->kept_spots, ground->spots, move->entering_from, move->entering,
+               move->entering_count);
+    clear_tiles(ground, cmd, cells);
+    clear_tiles(ground, cmd, ground->spots);
+    transfer_barrier(ground, cmd);
+    clear_taken(ground, cmd);
+    transfer_barrier(ground, cmd);
+}
+
+static void survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+{
+    const double side = ground->def.cells * (double)ground->def.cell_m;
+    virga_map_view view = {.half_m = 0.5 * side, .height_m = SURVEY_DEEP_M, .ground_only = true};
+    for (int axis = 0; axis < 2; axis++)
+        view.origin_m[axis * 2] =
+            ground->window.low[axis] * (double)VIRGA_GROUND_TILE * (double)ground->def.cell_m + 0.5 * side;
+    view.origin_m[1] = ground->base_m;
+    view.top_m = SURVEY_TOP_M;
+    virga_mesh_map_draw(ground->context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
+    dispatch(ground, cmd, ground->adopt, ground->move.entering_count * TILE_GROUPS);
+    virga_compute_barrier(ground->context, cmd);
+}
+
+static void write_lists(virga_ground *ground)
+{
+    ground->list_offset = ground->context->ring_slot * ground_list_bytes();
+    char *mapped = ground->list_ring->memory.block.mapped;
+    ground_lists *lists = (ground_lists *)(mapped + ground->list_offset);
+    memcpy(lists->entering, ground->move.entering, ground->move.entering_count * sizeof lists->entering[0]);
+    memcpy(lists->forgotten, ground->move.forgotten, ground->move.forgotten_count * sizeof lists->forgotten[0]);
+    virga_buffer_flush(ground->context, ground->list_ring, ground->list_offset, ground_list_bytes());
+}
+
+/* All tiles of the window are surveyed anew. */
+static void enter_all(ground_move *move, uint32_t tiles)
+{
+    move->entering_count = tiles * tiles;
+    for (uint32_t i = 0; i < move->entering_count; i++)
+        move->entering[i] = i;
+}
+
+static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+{
+    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
+    int32_t low[2];
+    ground_window_wanted(&ground->window, info->camera_m, tile_m, low);
+    ground_window_move(&ground->window, low, &ground->move);
+    const bool moved = ground->move.entering_count > 0;
+    if (!moved && !ground->survey_all)
+        return;
+    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.window");
+    write_lists(ground);
+    push_tick(ground, 0);
+    bind(ground, cmd);
+    if (moved)
+        move_tiles(ground, cmd);
+    if (ground->survey_all) {
+        enter_all(&ground->move, ground->window.tiles);
+        write_lists(ground);
+    }
+    survey(ground, cmd, info);
+    ground->survey_all = false;
+    virga_pass_end(ground->context, cmd, scope);
+}
+
+/* ---- ticks */
+
+static void over_impacts(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
+{
+    const virga_functions *vk = &ground->context->vk;
+    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    vk->CmdDispatchIndirect(cmd, ground->impacts, ground->impacts_offset + offsetof(virga_impacts_gpu, group_count));
+    virga_compute_barrier(ground->context, cmd);
+}
+
+static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
+{
+    push_tick(ground, tick);
+    bind(ground, cmd);
+    virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.land");
+    over_impacts(ground, cmd, ground->land);
+    over_impacts(ground, cmd, ground->share);
+    over_impacts(ground, cmd, ground->soak);
+    virga_pass_end(ground->context, cmd, scope);
+    ground->ticks++;
+    if (ground->ticks % ground->def.flow_ticks)
+        return;
+    scope = virga_pass_begin(ground->context, cmd, "ground.flow");
+    dispatch(ground, cmd, ground->flow, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    virga_compute_barrier(ground->context, cmd);
+    virga_pass_end(ground->context, cmd, scope);
+    ground->parity ^= 1;
+    bind(ground, cmd);
+}
+
+static void measure(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->context;
+    const VkDeviceSize first = VIRGA_GROUND_FIRST_MEASURED * sizeof(virga_ground_count_gpu);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.measure");
+    transfer_barrier(ground, cmd);
+    context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
+    transfer_barrier(ground, cmd);
+    const uint32_t window = ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP;
+    dispatch(ground, cmd, ground->measure, window + ground->window.kept_capacity * TILE_GROUPS);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.map");
+    dispatch(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT);
+    virga_pass_end(ground->context, cmd, scope);
+}
+
+/* ---- a step */
+
+static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->context;
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const virga_image_state after = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                     VK_ACCESS_SHADER_WRITE_BIT};
+    virga_image_barrier(context, cmd, ground->wet_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_mesh_map_first_layouts(context, cmd, ground->survey);
+    virga_buffer *const zero[] = {ground->cells[0], ground->cells[1],   ground->arrivals, ground->spots,
+                                  ground->counts,   ground->kept_cells, ground->landings};
+    for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
+        context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
+    transfer_barrier(ground, cmd);
+}
+
+static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+{
+    if (!ground)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &ground->context->log;
+    if (!cmd || !info || !info->impacts || (info->mesh_count && !info->meshes))
+        return virga_wrong_argument(log, "virga_ground_step: NULL argument");
+    if (ground->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!ground->context->frame_index)
+        return virga_wrong_argument(log, "virga_ground_step: expected virga_frame_begin before it");
+    if (ground->ring_frame == ground->context->frame_index)
+        return virga_wrong_argument(log, "virga_ground_step: expected one step a frame");
+    if (info->ticks > ground->def.max_ticks_per_step)
+        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
+                                    ground->def.max_ticks_per_step, info->ticks);
+    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3))
+        return VIRGA_ERROR_INVALID;
+    return virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
+}
+
+virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+{
+    const virga_result result = check_step(ground, cmd, info);
+    if (result)
+        return result;
+    virga_context *context = ground->context;
+    virga_timers_reset(context, cmd);
+    ground_take_statistics(ground);
+    ground->ring_frame = context->frame_index;
+    ground->ring_ticks = 0;
+    ground->impacts = info->impacts;
+    ground->impacts_offset = info->impacts_offset;
+    ground_write_sets(ground);
+    /* What read maps, landings and cells in the frame before is done with them. */
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    if (!ground->started) {
+        ground->base_m = floor(info->camera_m[1]);
+        first_contents(ground, cmd);
+        ground->started = true;
+    }
+    follow(ground, cmd, info);
+    if (!info->ticks) {
+        push_tick(ground, 0);
+        bind(ground, cmd);
+    }
+    for (uint32_t i = 0; i < info->ticks; i++)
+        run_tick(ground, cmd, info->first_tick + i);
+    if (ground->settings.measure)
+        measure(ground, cmd);
+    write_maps(ground, cmd);
+    record_readback(ground, cmd);
+    return VIRGA_OK;
+}

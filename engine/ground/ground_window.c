@@ -1,0 +1,102 @@
+/* ground/ground_window.c - which tiles are in the window, which are kept, which are forgotten. */
+#include "ground/ground_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define STAY 1 /* tiles that the middle may be off before the window follows */
+
+void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2])
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const double at = floor(camera_m[axis * 2] / tile_m);
+        /* Numbers of cells must fit an int. */
+        const double most = INT32_MAX / VIRGA_GROUND_TILE - 2.0 * window->tiles;
+        const int32_t wanted = (int32_t)fmin(fmax(at, -most), most) - (int32_t)window->tiles / 2;
+        low[axis] = window->placed && abs(wanted - window->low[axis]) <= STAY ? window->low[axis] : wanted;
+    }
+}
+
+/* Where a tile lies in the window's buffers. */
+static uint32_t slot_of(const ground_window *window, int32_t x, int32_t z)
+{
+    const uint32_t mask = window->tiles - 1;
+    return ((uint32_t)z & mask) * window->tiles + ((uint32_t)x & mask);
+}
+
+static bool inside(const ground_window *window, const int32_t low[2], int32_t x, int32_t z)
+{
+    return x >= low[0] && z >= low[1] && x - low[0] < (int32_t)window->tiles && z - low[1] < (int32_t)window->tiles;
+}
+
+static uint32_t find_kept(const ground_window *window, int32_t x, int32_t z)
+{
+    for (uint32_t i = 0; i < window->kept_capacity; i++)
+        if (window->kept[i].since && window->kept[i].tile[0] == x && window->kept[i].tile[1] == z)
+            return i;
+    return GROUND_NEW;
+}
+
+/* A free place among the kept, or that of the tile which left longest ago. There is always one that the move does not
+ * want: there are at least twice as many as the window holds. */
+static uint32_t make_room(ground_window *window, ground_move *move)
+{
+    uint32_t oldest = GROUND_NEW;
+    for (uint32_t i = 0; i < window->kept_capacity; i++) {
+        if (!window->kept[i].since)
+            return i;
+        if (!window->kept[i].wanted && window->kept[i].since < window->moves &&
+            (oldest == GROUND_NEW || window->kept[i].since < window->kept[oldest].since))
+            oldest = i;
+    }
+    move->forgotten[move->forgotten_count++] = oldest;
+    window->kept_count--;
+    return oldest;
+}
+
+static void enter(ground_window *window, const int32_t low[2], ground_move *move)
+{
+    for (int32_t z = low[1]; z < low[1] + (int32_t)window->tiles; z++)
+        for (int32_t x = low[0]; x < low[0] + (int32_t)window->tiles; x++) {
+            if (window->placed && inside(window, window->low, x, z))
+                continue;
+            const uint32_t from = find_kept(window, x, z);
+            if (from != GROUND_NEW)
+                window->kept[from].wanted = true;
+            move->entering[move->entering_count] = slot_of(window, x, z);
+            move->entering_from[move->entering_count++] = from;
+        }
+}
+
+static void leave(ground_window *window, const int32_t low[2], ground_move *move)
+{
+    for (int32_t z = window->low[1]; z < window->low[1] + (int32_t)window->tiles; z++)
+        for (int32_t x = window->low[0]; x < window->low[0] + (int32_t)window->tiles; x++) {
+            if (inside(window, low, x, z))
+                continue;
+            const uint32_t to = make_room(window, move);
+            window->kept[to] = (ground_kept){.tile = {x, z}, .since = window->moves};
+            window->kept_count++;
+            move->leaving[move->leaving_count] = slot_of(window, x, z);
+            move->leaving_to[move->leaving_count++] = to;
+        }
+}
+
+void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move)
+{
+    move->leaving_count = move->entering_count = move->forgotten_count = 0;
+    if (window->placed && low[0] == window->low[0] && low[1] == window->low[1])
+        return;
+    window->moves++;
+    enter(window, low, move);
+    if (window->placed)
+        leave(window, low, move);
+    for (uint32_t i = 0; i < move->entering_count; i++)
+        if (move->entering_from[i] != GROUND_NEW) {
+            window->kept[move->entering_from[i]] = (ground_kept){0};
+            window->kept_count--;
+        }
+    window->low[0] = low[0];
+    window->low[1] = low[1];
+    window->placed = true;
+}

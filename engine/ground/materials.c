@@ -1,0 +1,87 @@
+/* ground/materials.c - what materials do with water, in one readable place.
+ *
+ * Capacity is what a surface takes up in the first minutes, not what a soil column holds: 0.1 to 0.5 mm wets a paved
+ * surface (depression and wetting losses of impervious areas, 0.2 to 1.5 mm together, are capacity + retention here).
+ * Infiltration of soils is the saturated conductivity of Carsel and Parrish 1988: sand 712.8 cm/day, sandy loam 106.1
+ * (lawn), silt loam 10.8 (trodden soil). Manning's n: paved surfaces .011 to .016, overland flow in grass .15. */
+#include "ground/ground_internal.h"
+
+#define CM_DAY (10.0f / 24) /* mm/h */
+
+static const virga_ground_material table[] = {
+    /*                            capacity retention infiltration   drying manning bumps  width drain */
+    [VIRGA_MATERIAL_DEFAULT] =  {0.25f,   0.20f,    0.05f,          1.0f,  0.013f, 1.5f,  2.0f, false},
+    [VIRGA_MATERIAL_ASPHALT] =  {0.15f,   0.35f,    0.20f,          1.0f,  0.014f, 3.0f,  2.4f, false},
+    [VIRGA_MATERIAL_CONCRETE] = {0.25f,   0.15f,    0.05f,          1.0f,  0.013f, 1.5f,  2.0f, false},
+    [VIRGA_MATERIAL_STONE] =    {0.10f,   0.20f,    0.10f,          1.0f,  0.015f, 1.5f,  0.8f, false},
+    [VIRGA_MATERIAL_BRICK] =    {0.50f,   0.20f,    0.50f,          1.0f,  0.015f, 1.0f,  0.8f, false},
+    [VIRGA_MATERIAL_GRASS] =    {3.00f,   3.00f,    106.1f * CM_DAY, 1.2f, 0.15f,  12.0f, 1.5f, false},
+    [VIRGA_MATERIAL_SAND] =     {5.00f,   1.00f,    712.8f * CM_DAY, 1.0f, 0.025f, 8.0f,  1.0f, false},
+    [VIRGA_MATERIAL_SOIL] =     {2.00f,   2.00f,    10.8f * CM_DAY, 1.0f,  0.03f,  8.0f,  1.5f, false},
+    [VIRGA_MATERIAL_WOOD] =     {0.40f,   0.10f,    0.50f,          1.2f,  0.012f, 0.4f,  1.0f, false},
+    [VIRGA_MATERIAL_STEEL] =    {0.00f,   0.03f,    0.00f,          1.5f,  0.012f, 0.2f,  1.0f, false},
+    [VIRGA_MATERIAL_GLASS] =    {0.00f,   0.02f,    0.00f,          1.2f,  0.010f, 0.0f,  1.0f, false},
+    [VIRGA_MATERIAL_WATER] =    {0.00f,   0.00f,    0.00f,          1.0f,  0.010f, 0.0f,  1.0f, false},
+    [VIRGA_MATERIAL_LEAVES] =   {0.20f,   0.30f,    0.00f,          1.2f,  0.05f,  0.0f,  1.0f, false},
+    [VIRGA_MATERIAL_CLOTH] =    {0.60f,   0.10f,    0.00f,          1.2f,  0.02f,  0.0f,  1.0f, false},
+    [VIRGA_MATERIAL_PLASTIC] =  {0.00f,   0.05f,    0.00f,          1.2f,  0.011f, 0.2f,  1.0f, false},
+    [VIRGA_MATERIAL_TILE] =     {0.02f,   0.03f,    0.00f,          1.2f,  0.011f, 0.4f,  1.0f, false},
+    [VIRGA_MATERIAL_DRAIN] =    {0.00f,   0.00f,    0.00f,          1.0f,  0.011f, 0.0f,  1.0f, true},
+};
+
+void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATERIALS])
+{
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
+        materials[i] = table[i < sizeof table / sizeof table[0] ? i : VIRGA_MATERIAL_DEFAULT];
+}
+
+static void check(const virga_log *log, float *value, double low, double high, const char *name, bool *changed)
+{
+    *value = (float)virga_clamp_setting(log, name, (double)*value, low, high, changed);
+}
+
+virga_result ground_check_settings(const virga_log *log, virga_ground_settings *settings)
+{
+    bool changed = false;
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
+        virga_ground_material *m = &settings->materials[i];
+        float *const values[7] = {&m->capacity_mm, &m->retention_mm, &m->infiltration_mm_h, &m->drying,
+                                  &m->manning_n,   &m->bumps_mm,     &m->bump_m};
+        for (int j = 0; j < 7; j++)
+            if (virga_settings_finite(log, "ground_settings.materials", values[j], 1))
+                return VIRGA_ERROR_INVALID;
+        check(log, &m->capacity_mm, 0, 100, "ground_settings.materials.capacity_mm", &changed);
+        check(log, &m->retention_mm, 0, 50, "ground_settings.materials.retention_mm", &changed);
+        check(log, &m->infiltration_mm_h, 0, 10000, "ground_settings.materials.infiltration_mm_h", &changed);
+        check(log, &m->drying, 0, 10, "ground_settings.materials.drying", &changed);
+        check(log, &m->manning_n, 0.005, 1, "ground_settings.materials.manning_n", &changed);
+        check(log, &m->bumps_mm, 0, 50, "ground_settings.materials.bumps_mm", &changed);
+        check(log, &m->bump_m, 0.2, 50, "ground_settings.materials.bump_m", &changed);
+    }
+    if (virga_settings_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1))
+        return VIRGA_ERROR_INVALID;
+    check(log, &settings->evaporation_mm_h, 0, 100, "ground_settings.evaporation_mm_h", &changed);
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+/* Millimetres on a cell in nanolitres: 1 mm on 1 m^2 is a litre. */
+static double on_cell_nl(double mm, double cell_m)
+{
+    return mm * cell_m * cell_m * 1e9;
+}
+
+void ground_fill_soils(const virga_ground_settings *settings, double cell_m,
+                       virga_soil_gpu soils[VIRGA_GROUND_MATERIALS])
+{
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
+        const virga_ground_material *m = &settings->materials[i];
+        soils[i] = (virga_soil_gpu){.capacity_nl = (uint32_t)on_cell_nl((double)m->capacity_mm, cell_m),
+                                    .retention_nl = (uint32_t)on_cell_nl((double)m->retention_mm, cell_m),
+                                    .sink_nl_s = (float)on_cell_nl((double)m->infiltration_mm_h / 3600, cell_m),
+                                    .drying = m->drying,
+                                    .inv_manning = 1 / m->manning_n,
+                                    .bumps_um = m->bumps_mm * 1e3f,
+                                    .bump_cells = (float)((double)m->bump_m / cell_m),
+                                    .drain = m->drain};
+    }
+}

@@ -1,0 +1,168 @@
+/* virga/ground.h - ground that gets wet: cells with a material, a height and counted water.
+ *
+ * What rain drops on the meshes that are marked as ground (virga_occluder.ground) is followed by cells of some
+ * centimetres: the first drops leave dark spots, pores fill up, a film forms, flows to where it is lower and gathers in
+ * puddles; it sinks, runs into drains and dries. The model of drops is Mizukami et al., "Rendering of water splash",
+ * section 4.6; what happens between drops (flow, infiltration, evaporation) is added here. Water is counted in whole
+ * nanolitres: what landed is on the ground, in it, run off or evaporated, to the last one.
+ *
+ * The cells are a square window around the camera. Where it moves, tiles of 64 x 64 cells that leave it are kept with
+ * their water until def.kept_tiles are; then those that left longest ago are forgotten, and their water is counted as
+ * that. A place has one cell: of surfaces above one another the highest that is ground.
+ *
+ * A frame: after virga_rain_step, and outside rendering,
+ *
+ *     virga_ground_step(ground, cmd, &info);
+ *
+ * then the host samples the maps (virga_ground_maps_get) in its own materials; virga/shared/ground_map.glsl shows how.
+ *
+ * Deterministic: the same drops in the same ticks give the same state bit for bit, whatever order they come in.
+ * Thread-safety: as virga/vulkan.h says.
+ */
+#ifndef VIRGA_GROUND_H
+#define VIRGA_GROUND_H
+
+#include <virga/mesh.h>
+#include <virga/shared/ground_limits.h>
+#include <virga/shared/impact.h>
+#include <virga/shared/landing.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct virga_ground virga_ground; /* opaque */
+
+/* Materials that virga_default_ground_settings describes; the same numbers as in impacts. A host may redefine all of
+ * them, or use the free ones. */
+typedef enum virga_material {
+    VIRGA_MATERIAL_DEFAULT = 0, /* as concrete */
+    VIRGA_MATERIAL_ASPHALT = 1,
+    VIRGA_MATERIAL_CONCRETE = 2,
+    VIRGA_MATERIAL_STONE = 3,
+    VIRGA_MATERIAL_BRICK = 4,
+    VIRGA_MATERIAL_GRASS = 5,
+    VIRGA_MATERIAL_SAND = 6,
+    VIRGA_MATERIAL_SOIL = 7,
+    VIRGA_MATERIAL_WOOD = 8,
+    VIRGA_MATERIAL_STEEL = 9, /* the griddle of the paper */
+    VIRGA_MATERIAL_GLASS = 10,
+    VIRGA_MATERIAL_WATER = 11,
+    VIRGA_MATERIAL_LEAVES = 12,
+    VIRGA_MATERIAL_CLOTH = 13,
+    VIRGA_MATERIAL_PLASTIC = 14,
+    VIRGA_MATERIAL_TILE = 15,
+    VIRGA_MATERIAL_DRAIN = 16,
+    VIRGA_MATERIAL_OWN = 17 /* this one and those above it, up to VIRGA_GROUND_MATERIALS - 1, are free */
+} virga_material;
+
+typedef struct virga_ground_def {
+    uint32_t size, cookie;
+    uint32_t seed;        /* of what is left to chance: fractions of spots, of infiltration. Default 1 */
+    uint32_t cells;       /* [128; 4096] along the window's side, a power of two. About 44 bytes of device memory a
+                          * cell. Default 1024: 51 m at 5 cm */
+    float cell_m;         /* [0.01; 0.1] side of a cell. Default 0.05 */
+    uint32_t kept_tiles;  /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
+                          * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
+    double tick_s;        /* [1/1000; 1/20] the same as rain's. Default 1/60 */
+    uint32_t flow_ticks;  /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
+    uint32_t max_impacts; /* [256; 4194304] the same as rain's. Default 65536 */
+    uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
+    uint32_t occluder_strides[4]; /* vertex strides of meshes, see virga_rain_def. Default 12, 32, 0, 0 */
+} virga_ground_def;
+
+VIRGA_API virga_ground_def virga_default_ground_def(void);
+
+/* What a material does with water. */
+typedef struct virga_ground_material {
+    float capacity_mm;       /* [0; 100] water that its pores take before it is saturated */
+    float retention_mm;      /* [0; 50] depth that its roughness holds back when the rest runs off */
+    float infiltration_mm_h; /* [0; 10000] speed at which water sinks out of a wet cell */
+    float drying;            /* [0; 10] times the settings' evaporation */
+    float manning_n;         /* [0.005; 1] s m^(-1/3), roughness to flow */
+    float bumps_mm;          /* [0; 50] standard deviation of its unevenness: decides where puddles gather */
+    float bump_m;            /* [0.2; 50] width of its bumps */
+    bool drain;              /* takes away all water that comes to it */
+} virga_ground_material;
+
+typedef struct virga_ground_settings {
+    uint32_t size, cookie;
+    virga_ground_material materials[VIRGA_GROUND_MATERIALS]; /* by the number in virga_occluder.material (31 at most;
+                              * higher numbers count as 31). Heights of bumps are taken when a tile comes into the
+                              * window; the rest is live */
+    float evaporation_mm_h; /* [0; 100] from a free surface. 0.1 in rain, 0.5 on a mild day, 5 in sun and wind.
+                              * Default 0.2 */
+    bool measure;           /* sums the water of all cells in each step, for the statistics: one pass over all cells.
+                              * Default true */
+} virga_ground_settings;
+
+/* Defaults of materials with their sources: engine/ground/materials.c. */
+VIRGA_API virga_ground_settings virga_default_ground_settings(void);
+
+/* Allocates, builds pipelines. Errors as virga_context_create. */
+VIRGA_API virga_result virga_ground_create(virga_context *context, const virga_ground_def *def, virga_ground **ground);
+
+/* Destroys it and sets *ground to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they
+ * have completed. */
+VIRGA_API void virga_ground_destroy(virga_ground **ground);
+
+/* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
+ * VIRGA_ERROR_INVALID and nothing changes. */
+VIRGA_API virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings);
+
+/* Device memory in bytes that virga_ground_create will take. */
+VIRGA_API VkDeviceSize virga_ground_estimate(const virga_ground_def *def);
+
+/* One step. */
+typedef struct virga_ground_step_info {
+    double camera_m[3];           /* middle of the window, which follows in whole tiles */
+    const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
+    uint32_t mesh_count;
+    VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
+    VkDeviceSize impacts_offset;
+    uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks */
+} virga_ground_step_info;
+
+/* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read
+ * by compute (virga_rain_step leaves them so); maps and landings are left ready for compute, vertex and fragment
+ * shaders. */
+VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
+
+/* Surveys all of the window anew in the next step: after meshes were changed. Water stays. */
+VIRGA_API void virga_ground_survey(virga_ground *ground);
+
+/* What materials read. Both images are cells x cells (spots: twice as wide), one array layer, and wrap around: the
+ * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL. */
+typedef struct virga_ground_maps {
+    VkImageView wet;   /* 2D array, R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
+                        * ripples, a height of the floor above base_m (m) */
+    VkImageView spots; /* 2D array, R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
+    uint32_t cells;
+    float cell_m;
+    float base_m;
+    double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
+} virga_ground_maps;
+
+VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps);
+
+/* What the impacts of the newest step met: virga_landing_gpu by index of impact. */
+VIRGA_API void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);
+
+/* Newest statistics of completed frames. Water in nanolitres since creation. While `measure` is on, and nothing is
+ * dropped by rain for want of room:
+ *     landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
+typedef struct virga_ground_stats {
+    uint64_t frame_index;             /* 0: none yet */
+    uint64_t landed_nl, elsewhere_nl; /* on cells; on what is not ground, or outside of the window */
+    uint64_t infiltrated_nl, run_off_nl, evaporated_nl, forgotten_nl;
+    uint64_t film_nl, puddles_nl, held_nl, kept_nl;
+    uint32_t cells[VIRGA_GROUND_STATES]; /* by state */
+    uint32_t tiles_kept;
+} virga_ground_stats;
+
+VIRGA_API void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

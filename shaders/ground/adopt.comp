@@ -1,0 +1,53 @@
+// adopt.comp - tiles that come into the window get their floors: height and material of what lies there, and the
+// unevenness of that material, which decides where puddles gather.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+#include "shared/surface.glsl"
+
+layout(local_size_x = VIRGA_GROUND_GROUP) in;
+layout(scalar, set = 0, binding = 1) readonly buffer Lists
+{
+    uint entering[VIRGA_GROUND_MAX_TILES];  // slots of tiles
+    uint forgotten[VIRGA_GROUND_MAX_TILES]; // slots of kept tiles
+};
+layout(set = 0, binding = 11) uniform sampler2DArray survey_depth;
+layout(set = 0, binding = 12) uniform usampler2DArray survey_surface;
+
+float knot(ivec2 at) { return virga_unit(virga_hash3(0x6b756d70u, uint(at.x), uint(at.y))) * 2.0 - 1.0; }
+
+// Smooth noise between knots; its standard deviation is about 0.33.
+float noise(vec2 at)
+{
+    const ivec2 low = ivec2(floor(at));
+    vec2 t = at - vec2(low);
+    t = t * t * (3.0 - 2.0 * t);
+    return mix(mix(knot(low), knot(low + ivec2(1, 0)), t.x), mix(knot(low + ivec2(0, 1)), knot(low + ivec2(1, 1)), t.x), t.y);
+}
+
+float bumps_um(ivec2 cell, virga_soil_gpu soil)
+{
+    if (soil.bumps_um <= 0.0)
+        return 0.0;
+    // Three octaves; cells are taken modulo a large period so that floats stay fine far from the origin.
+    const vec2 at = vec2(cell & 0xfffff) / soil.bump_cells;
+    return soil.bumps_um * (2.4 * noise(at) + 1.2 * noise(2.0 * at + 17.3) + 0.6 * noise(4.0 * at + 5.1));
+}
+
+void main()
+{
+    const uint tile = entering[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
+    const uint part = gl_WorkGroupID.x % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
+    const uint place = (tile << (2 * TILE_SHIFT)) + part * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
+    const ivec2 cell = cell_at_place(place);
+    const ivec3 texel = ivec3(cell - (ivec2(tick.low_tile[0], tick.low_tile[1]) << TILE_SHIFT), 0);
+    const float depth = texelFetch(survey_depth, texel, 0).r;
+    const uint material = min(surface_material(texelFetch(survey_surface, texel, 0).r), VIRGA_GROUND_MATERIALS - 1u);
+    virga_floor_gpu made = virga_floor_gpu(0, NO_GROUND);
+    if (depth < 1.0) {
+        const float height_m = tick.survey_top_m - depth * tick.survey_height_m;
+        made = virga_floor_gpu(int(round(height_m * 1e6 + bumps_um(cell, tick.soils[material]))), material);
+    }
+    floors[place] = made;
+}

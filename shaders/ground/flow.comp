@@ -1,0 +1,97 @@
+// flow.comp - between rains: water runs downhill, sinks and dries, over all of the window.
+//
+// A thin sheet whose inertia does not matter (the diffusive wave): through the side that two cells share flows
+//   q = h^(5/3) sqrt(S) / n   per metre of width (Manning), h the water above what the roughness of the upper cell holds
+//   back, S the slope of the surface.
+// It never takes more than a quarter of that water nor a fifth of the difference in height, so five cells can not swing,
+// nor a cell run below empty. Both cells of a pair work out the same integer, so nothing is made or lost.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+
+layout(local_size_x = VIRGA_GROUND_GROUP) in;
+layout(scalar, set = 0, binding = 5) writeonly buffer Next { virga_cell_gpu next_cells[]; };
+
+shared uint group_sunk, group_dried; // a few thousand nl a cell at most
+
+const ivec2 sides[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+
+// What flows through the side from the higher of two surfaces to the lower one.
+int flow_down(uint upper, int difference)
+{
+    const virga_soil_gpu soil = tick.soils[floors[upper].material];
+    const uint free_nl = cells[upper].free_nl;
+    const int mobile = int(min(free_nl - min(free_nl, soil.retention_nl), 0x7fffffffu));
+    precise const float h = float(mobile) * tick.m_per_nl;
+    precise const float slope = float(difference) * tick.m_per_nl * tick.inv_cell_m;
+    precise const float q = soil.inv_manning * h * pow(h, 2.0 / 3.0) * sqrt(slope);
+    precise const float moved = min(q * tick.flow_s * tick.inv_cell_m / tick.m_per_nl, 1e9);
+    return min(int(moved), min(mobile / 4, difference / 5));
+}
+
+int net_inflow(uint place, ivec2 cell)
+{
+    int sum = 0;
+    const int floor_um = floors[place].height_um;
+    const int own = int(min(cells[place].free_nl, uint(MOST_STEP_NL)));
+    for (int i = 0; i < 4; i++) {
+        const uint other = cell_place(cell + sides[i]);
+        if (!is_ground(other))
+            continue;
+        const int rise_um = clamp(floors[other].height_um - floor_um, -MOST_STEP_NL / tick.nl_per_um,
+                                  MOST_STEP_NL / tick.nl_per_um);
+        const int difference = rise_um * tick.nl_per_um + int(min(cells[other].free_nl, uint(MOST_STEP_NL))) - own;
+        const bool comes = difference > 0;
+        const int flow = flow_down(comes ? other : place, abs(difference));
+        sum += comes ? flow : -flow;
+    }
+    return sum;
+}
+
+// Evaporation takes what lies on the cell, then, ever slower, what is in its pores.
+uint dry(inout virga_cell_gpu cell, virga_soil_gpu soil, uint hash)
+{
+    const float share = cell.free_nl > 0u ? 1.0 : float(cell.held_nl) / max(float(soil.capacity_nl), 1.0);
+    const uint wanted = round_fairly(tick.evaporation_nl_s * soil.drying * share * tick.flow_s, hash);
+    const uint from_free = min(wanted, cell.free_nl), from_pores = min(wanted - from_free, cell.held_nl);
+    cell.free_nl -= from_free;
+    cell.held_nl -= from_pores;
+    return from_free + from_pores;
+}
+
+void main()
+{
+    if (gl_LocalInvocationIndex == 0u) {
+        group_sunk = 0u;
+        group_dried = 0u;
+    }
+    barrier();
+    const uint place = gl_GlobalInvocationID.x;
+    virga_cell_gpu cell = cells[place];
+    if (is_ground(place)) {
+        const virga_soil_gpu soil = tick.soils[floors[place].material];
+        const ivec2 where = cell_at_place(place);
+        cell.free_nl = uint(int(cell.free_nl) + net_inflow(place, where));
+        const uint hash = virga_hash4(tick.seed, uint(where.x), uint(where.y), tick.tick);
+        const uint sunk = min(round_fairly(soil.sink_nl_s * tick.flow_s, hash), cell.free_nl);
+        cell.free_nl -= sunk;
+        const uint drained = soil.drain != 0u ? cell.free_nl : 0u;
+        cell.free_nl -= drained;
+        const uint dried = dry(cell, soil, virga_hash1(hash));
+        if (sunk > 0u)
+            atomicAdd(group_sunk, sunk);
+        if (dried > 0u)
+            atomicAdd(group_dried, dried);
+        if (drained > 0u)
+            count_water(VIRGA_GROUND_RUN_OFF, drained);
+    }
+    next_cells[place] = cell;
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) {
+        if (group_sunk > 0u)
+            count_water(VIRGA_GROUND_INFILTRATED, group_sunk);
+        if (group_dried > 0u)
+            count_water(VIRGA_GROUND_EVAPORATED, group_dried);
+    }
+}

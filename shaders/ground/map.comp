@@ -1,0 +1,40 @@
+// map.comp - what hosts' materials read: wetness, depth of water, height, and the dark spots of first drops.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+
+layout(local_size_x = VIRGA_GROUND_GROUP) in;
+layout(scalar, set = 0, binding = 7) readonly buffer Spots { uvec2 spots[]; };
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2DArray wet_map;
+layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray spot_map;
+
+// Spots fade with the water that made them: a cell that dries loses its bits one by one, in the order of a hash.
+uvec2 spots_left(uint place, uvec2 bits, float held_share)
+{
+    const float shown = clamp(held_share * 64.0, 0.0, 1.0);
+    return shown > 0.0 ? bits : uvec2(0u);
+}
+
+void main()
+{
+    const uint place = gl_GlobalInvocationID.x;
+    const uint side = tick.tiles * VIRGA_GROUND_TILE;
+    const ivec2 cell = cell_at_place(place);
+    const ivec2 texel = cell & int(side - 1u);
+    const virga_floor_gpu own = floors[place];
+    vec4 wet = vec4(0.0, 0.0, 0.0, -60000.0); // far below everything: nothing wet there
+    uvec2 bits = uvec2(0u);
+    if (own.material != NO_GROUND) {
+        const virga_cell_gpu state = cells[place];
+        const uint capacity = tick.soils[own.material].capacity_nl;
+        const float held = float(state.held_nl) / max(float(capacity), 1.0);
+        const float depth_mm = float(state.free_nl) * tick.m_per_nl * 1e3;
+        const float film = clamp(depth_mm / 0.05, 0.0, 1.0);
+        wet = vec4(max(min(held, 1.0), film), depth_mm, 0.0, float(own.height_um) * 1e-6 - tick.base_m);
+        bits = spots_left(place, spots[place], capacity > 0u ? held : film);
+    }
+    imageStore(wet_map, ivec3(texel, 0), wet);
+    imageStore(spot_map, ivec3(2 * texel.x, texel.y, 0), uvec4(bits.x, 0u, 0u, 0u));
+    imageStore(spot_map, ivec3(2 * texel.x + 1, texel.y, 0), uvec4(bits.y, 0u, 0u, 0u));
+}

@@ -1,0 +1,66 @@
+// pieces.glsl - where the water of an impact comes to lie.
+//
+// An impact far from the camera stands for many drops. Its water is not poured on one cell but scattered in up to eight
+// pieces over the ground near it, or a distant pavement would be spotted like a leopard.
+layout(scalar, set = 0, binding = 2) readonly buffer Impacts
+{
+    virga_impacts_gpu head;
+    virga_impact_gpu impacts[];
+};
+
+#define SAME_SURFACE_M 0.5 // an impact this far above or below a cell's floor fell on something else
+
+struct Piece {
+    uint place;      // NO_CELL: not on the ground
+    ivec2 cell;
+    vec2 in_cell;    // [0; 1)
+    uint water_nl;
+};
+
+uint piece_count(virga_impact_gpu impact)
+{
+    return uint(clamp(ceil(impact.weight - 1e-3), 1.0, float(VIRGA_GROUND_SCATTER)));
+}
+
+// In units of cells from the window's low corner. The corner is far from the origin, so it comes as two floats.
+vec2 in_window(virga_impact_gpu impact)
+{
+    const vec2 position = vec2(impact.position[0], impact.position[2]);
+    const vec2 origin = vec2(head.origin[0], head.origin[2]);
+    const vec2 high = vec2(tick.window_high[0], tick.window_high[2]), low = vec2(tick.window_low[0], tick.window_low[2]);
+    return (position + ((origin - high) - low)) * tick.inv_cell_m;
+}
+
+Piece piece_at(vec2 cells_in_window, float height_m)
+{
+    Piece piece;
+    const vec2 whole = floor(cells_in_window);
+    piece.cell = ivec2(whole) + ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
+    piece.in_cell = cells_in_window - whole;
+    piece.place = cell_place(piece.cell);
+    if (is_ground(piece.place) && abs(float(floors[piece.place].height_um) * 1e-6 - height_m) > SAME_SURFACE_M)
+        piece.place = NO_CELL;
+    else if (!is_ground(piece.place))
+        piece.place = NO_CELL;
+    piece.water_nl = 0u;
+    return piece;
+}
+
+// Piece i of n; the first lies where the impact is, and takes what does not divide.
+Piece get_piece(virga_impact_gpu impact, uint i, uint n)
+{
+    const float height_m = head.origin[1] + impact.position[1];
+    const vec2 at = in_window(impact);
+    const Piece own = piece_at(at, height_m);
+    Piece piece = own;
+    if (i > 0u) {
+        const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
+        const float radius = sqrt(virga_unit(h) * float(n)) * 0.12 * tick.inv_cell_m;
+        const float angle = 6.2831853 * virga_unit(virga_hash1(h));
+        const Piece scattered = piece_at(at + radius * vec2(cos(angle), sin(angle)), height_m);
+        if (scattered.place != NO_CELL && own.place != NO_CELL)
+            piece = scattered;
+    }
+    piece.water_nl = impact.water_nl / n + (i == 0u ? impact.water_nl % n : 0u);
+    return piece;
+}

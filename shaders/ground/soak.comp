@@ -1,0 +1,42 @@
+// soak.comp - what came to a cell goes into its pores first, the rest lies on it.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+#include "pieces.glsl"
+
+layout(local_size_x = 64) in;
+layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
+
+const ivec2 around[5] = ivec2[5](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+
+void soak(uint place)
+{
+    // Nothing is added in this pass, so of all invocations that look here one finds the sum and the others nothing.
+    const uint given = atomicExchange(arrivals[place].given_nl, 0u);
+    if (given == 0u)
+        return;
+    const virga_cell_gpu cell = cells[place];
+    const uint capacity = tick.soils[floors[place].material].capacity_nl;
+    const uint taken = min(given, capacity - min(cell.held_nl, capacity));
+    cells[place] = virga_cell_gpu(cell.free_nl + (given - taken), cell.held_nl + taken);
+}
+
+void main()
+{
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= head.count || impacts[index].tick != tick.tick)
+        return;
+    const virga_impact_gpu impact = impacts[index];
+    const uint n = piece_count(impact);
+    for (uint i = 0u; i < n; i++) {
+        const Piece piece = get_piece(impact, i, n);
+        if (piece.place == NO_CELL)
+            continue;
+        for (int k = 0; k < 5; k++) {
+            const uint place = cell_place(piece.cell + around[k]);
+            if (is_ground(place))
+                soak(place);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+/* ground_gpu.h - what ground's passes share with the C that feeds them. Internal to Virga.
+ *
+ * Water is in whole nanolitres, so that it is counted and never rounded away. Heights are in whole micrometres. */
+#ifndef VIRGA_SHARED_GROUND_GPU_H
+#define VIRGA_SHARED_GROUND_GPU_H
+
+#include "ground_limits.h"
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_floor_gpu virga_floor_gpu;
+typedef struct virga_cell_gpu virga_cell_gpu;
+typedef struct virga_arrivals_gpu virga_arrivals_gpu;
+typedef struct virga_soil_gpu virga_soil_gpu;
+typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
+typedef struct virga_ground_count_gpu virga_ground_count_gpu;
+#endif
+
+#define VIRGA_GROUND_GROUP 256
+
+/* What a cell is. */
+struct virga_floor_gpu {
+    int height_um;   /* of its middle, in the world, its material's unevenness in it */
+    uint material;   /* [0; 31]; 0xff: there is no ground */
+};
+
+/* What a cell holds. */
+struct virga_cell_gpu {
+    uint free_nl;    /* on it */
+    uint held_nl;    /* in its pores */
+};
+
+/* Water on its way within a tick; zero between ticks. */
+struct virga_arrivals_gpu {
+    uint landed_nl;  /* of drops that fell on the cell */
+    uint given_nl;   /* what of all drops comes to it */
+};
+
+/* A material as cells of this size have it. */
+struct virga_soil_gpu {
+    uint capacity_nl;   /* that its pores hold */
+    uint retention_nl;  /* that its roughness holds back when the rest runs off */
+    float sink_nl_s;    /* infiltration out of the cell, downwards */
+    float drying;       /* times the evaporation */
+    float inv_manning;  /* s^-1 m^(1/3) */
+    float bumps_um;     /* standard deviation of its unevenness, and how many cells a bump is wide */
+    float bump_cells;
+    uint drain;         /* 1: takes all water away */
+};
+
+/* All that a tick's passes need. */
+struct virga_ground_tick_gpu {
+    int low_tile[2];    /* of the window, in tiles from the world's origin */
+    uint tiles;         /* along the window's side, a power of two */
+    uint tick;          /* that the passes are for: impacts of others are left alone */
+    float window_high[3]; /* low corner of the window in the world, as the sum of two floats; y: 0 */
+    float window_low[3];
+    float cell_m;
+    float inv_cell_m;
+    int nl_per_um;      /* water that raises a cell by a micrometre */
+    float m_per_nl;
+    uint seed;
+    float flow_s;       /* time that a flow pass stands for */
+    float evaporation_nl_s;
+    float survey_top_m; /* height in the world of depth 0 in the survey, and metres to depth 1 */
+    float survey_height_m;
+    float base_m;       /* that heights in the map count from */
+    uint tiles_entering;
+    uint tiles_forgotten;
+    uint first_impact_pad;
+    uint pad;
+    virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+};
+
+/* A count of water, 64 bits. */
+struct virga_ground_count_gpu {
+    uint low;
+    uint high;
+};
+
+/* Indices into the counts. First those that only grow, then those that measure.comp makes anew. */
+#define VIRGA_GROUND_LANDED      0
+#define VIRGA_GROUND_ELSEWHERE   1  /* on what is not ground, or outside of the window */
+#define VIRGA_GROUND_INFILTRATED 2
+#define VIRGA_GROUND_RUN_OFF     3  /* into drains */
+#define VIRGA_GROUND_EVAPORATED  4
+#define VIRGA_GROUND_FORGOTTEN   5  /* with tiles that there was no room to keep */
+#define VIRGA_GROUND_FIRST_MEASURED 6
+#define VIRGA_GROUND_FILM        6  /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES     7  /* free water of puddles */
+#define VIRGA_GROUND_HELD        8
+#define VIRGA_GROUND_KEPT        9  /* all water of tiles outside of the window */
+#define VIRGA_GROUND_CELLS       10 /* cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS      16
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_floor_gpu, 8);
+VIRGA_ASSERT_SIZE(virga_cell_gpu, 8);
+VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
+VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 96 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
+#undef uint
+#endif
+
+#endif

@@ -1,0 +1,21 @@
+/* ground_limits.h - sizes and names that ground's C, its GLSL and its readers agree on. */
+#ifndef VIRGA_SHARED_GROUND_LIMITS_H
+#define VIRGA_SHARED_GROUND_LIMITS_H
+
+#define VIRGA_GROUND_TILE       64   /* cells along a tile's side: what comes into the window, leaves it and is kept */
+#define VIRGA_GROUND_TILE_CELLS 4096
+#define VIRGA_GROUND_MAX_TILES  4096 /* in the window: 64 x 64, a window of 4096 x 4096 cells */
+#define VIRGA_GROUND_MATERIALS  32
+#define VIRGA_GROUND_SPOTS      8    /* a cell's dark spots are this many bits along its side */
+#define VIRGA_GROUND_SCATTER    8    /* pieces at most that an impact which stands for many drops is scattered in */
+
+/* The states of a cell, as section 2.1 and 4.6 of Mizukami et al. have them. */
+#define VIRGA_GROUND_NONE       0 /* no ground there */
+#define VIRGA_GROUND_DRY        1 /* takes up what falls on it; also while it is damp */
+#define VIRGA_GROUND_WET        2 /* saturated, and less than 3 mm of water on it */
+#define VIRGA_GROUND_PUDDLE_3   3 /* 3 mm of water and more */
+#define VIRGA_GROUND_PUDDLE_5   4 /* 5 mm and more */
+#define VIRGA_GROUND_PUDDLE_10  5 /* 10 mm and more */
+#define VIRGA_GROUND_STATES     6
+
+#endif

@@ -1,0 +1,241 @@
+/* ground_fixture.h - ground on a device with validation on, with floors, drops and water that a test chooses. */
+#ifndef VIRGA_TESTS_GROUND_FIXTURE_H
+#define VIRGA_TESTS_GROUND_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "../host/plate_fixture.h"
+
+#include "ground/ground_internal.h"
+
+#include <virga/virga.h>
+
+#define MOST_DROPS 16384
+
+typedef struct ground_fixture {
+    fixture gpu;
+    virga_context *context;
+    virga_ground *ground;
+    virga_ground_settings settings;
+    host_buffer vertices, indices, impacts, upload, download;
+    virga_occluder meshes[8];
+    uint32_t mesh_count;
+    virga_impact_gpu drops[MOST_DROPS]; /* of the next step */
+    uint32_t drop_count;
+    double camera[3];
+    uint32_t tick;
+    virga_cell_gpu *cells;   /* read back */
+    virga_floor_gpu *floors; /* read back */
+    virga_landing_gpu *landings;
+} ground_fixture;
+
+#define REQUIRE(condition)                      \
+    do {                                        \
+        if (!(condition))                       \
+            fail_msg("not so: %s", #condition); \
+    } while (0)
+
+static inline void ground_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    (void)user;
+    if (level == VIRGA_LOG_ERROR)
+        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
+}
+
+static inline void ground_fixture_open(ground_fixture *f)
+{
+    memset(f, 0, sizeof *f);
+    if (!fixture_begin(&f->gpu)) {
+        printf("skipped: %s\n", f->gpu.error);
+        exit(77);
+    }
+    virga_context_def def = virga_default_context_def();
+    def.instance = f->gpu.instance.instance;
+    def.physical_device = f->gpu.device.physical;
+    def.device = f->gpu.device.device;
+    def.queue_family = f->gpu.device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.log = ground_fixture_log;
+    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+}
+
+/* Quads of ground, each of four corners and a material. */
+static inline void ground_fixture_quads(ground_fixture *f, const float (*corners)[4][3], const uint32_t *materials,
+                                        uint32_t count)
+{
+    static const uint32_t pattern[6] = {0, 1, 2, 0, 2, 3};
+    uint32_t indices[8 * 6];
+    for (uint32_t i = 0; i < count * 6; i++)
+        indices[i] = i / 6 * 4 + pattern[i % 6];
+    REQUIRE(host_buffer_create_with(&f->gpu.device, corners, count * 48, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "quads",
+                                    &f->vertices, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_buffer_create_with(&f->gpu.device, indices, count * 24, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices",
+                                    &f->indices, f->gpu.error, sizeof f->gpu.error));
+    f->mesh_count = count;
+    for (uint32_t i = 0; i < count; i++)
+        f->meshes[i] = (virga_occluder){.vertices = f->vertices.buffer,
+                                        .vertex_stride = 12,
+                                        .indices = f->indices.buffer,
+                                        .index_offset = i * 24,
+                                        .index_type = VK_INDEX_TYPE_UINT32,
+                                        .index_count = 6,
+                                        .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+                                        .material = materials ? materials[i] : VIRGA_MATERIAL_OWN,
+                                        .ground = true};
+}
+
+/* A level floor 100 m wide at height 0. */
+static inline void ground_fixture_floor(ground_fixture *f, uint32_t material)
+{
+    static const float quad[1][4][3] = {{{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}}};
+    ground_fixture_quads(f, quad, &material, 1);
+}
+
+/* 128 x 128 cells of 5 cm around the origin. VIRGA_MATERIAL_OWN is smooth and takes up nothing, nothing dries. */
+static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_def *given)
+{
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.kept_tiles = 0;
+    def.max_impacts = MOST_DROPS;
+    if (given)
+        def = *given;
+    REQUIRE(virga_ground_create(f->context, &def, &f->ground) == VIRGA_OK);
+    f->settings = virga_default_ground_settings();
+    f->settings.evaporation_mm_h = 0;
+    f->settings.materials[VIRGA_MATERIAL_OWN] = (virga_ground_material){.manning_n = 0.013f, .bump_m = 1};
+    REQUIRE(virga_ground_set(f->ground, &f->settings) == VIRGA_OK);
+    const size_t cells = (size_t)def.cells * def.cells;
+    char *error = f->gpu.error;
+    const size_t size = sizeof f->gpu.error;
+    REQUIRE(host_buffer_create(&f->gpu.device, sizeof(virga_impacts_gpu) + sizeof f->drops,
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                               HOST_BUFFER_UPLOAD, "drops", &f->impacts, error, size));
+    REQUIRE(host_buffer_create(&f->gpu.device, cells * sizeof(virga_cell_gpu), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                               HOST_BUFFER_UPLOAD, "cells up", &f->upload, error, size));
+    REQUIRE(host_buffer_create(
+        &f->gpu.device,
+        cells * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu)) + def.max_impacts * sizeof(virga_landing_gpu),
+        VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "cells down", &f->download, error, size));
+}
+
+/* A drop on the middle of a cell (numbers of the world), falling straight. */
+static inline virga_impact_gpu *ground_fixture_drop(ground_fixture *f, int x, int z, double height_m, uint32_t water_nl)
+{
+    REQUIRE(f->drop_count < MOST_DROPS);
+    virga_impact_gpu *drop = &f->drops[f->drop_count];
+    const double cell = (double)f->ground->def.cell_m;
+    *drop = (virga_impact_gpu){.position = {(float)((x + 0.5) * cell), (float)height_m, (float)((z + 0.5) * cell)},
+                               .velocity = {0, -6, 0},
+                               .diameter_m = 2e-3f,
+                               .normal = {0, 1, 0},
+                               .weight = 1,
+                               .id = f->drop_count,
+                               .water_nl = water_nl};
+    f->drop_count++;
+    return drop;
+}
+
+static inline void ground_fixture_copy(VkCommandBuffer cmd, VkBuffer from, VkDeviceSize from_offset, VkBuffer to,
+                                       VkDeviceSize to_offset, VkDeviceSize size)
+{
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+    const VkBufferCopy copy = {from_offset, to_offset, size};
+    vkCmdCopyBuffer(cmd, from, to, 1, &copy);
+}
+
+static inline void ground_fixture_submit(ground_fixture *f)
+{
+    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
+}
+
+/* One frame of `ticks` ticks; the drops set are all of its first. Reads back cells, floors and landings. */
+static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
+{
+    VkCommandBuffer cmd;
+    virga_impacts_gpu *head = f->impacts.mapped;
+    memset(head, 0, sizeof *head);
+    head->count = f->drop_count;
+    head->group_count[0] = (f->drop_count + 63) / 64;
+    head->group_count[1] = head->group_count[2] = 1;
+    for (uint32_t i = 0; i < f->drop_count; i++)
+        f->drops[i].tick = f->tick;
+    memcpy(head + 1, f->drops, f->drop_count * sizeof f->drops[0]);
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    const virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
+                                         .meshes = f->meshes,
+                                         .mesh_count = f->mesh_count,
+                                         .impacts = f->impacts.buffer,
+                                         .first_tick = f->tick,
+                                         .ticks = ticks};
+    REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
+    const VkDeviceSize cells = f->ground->floors->size;
+    ground_fixture_copy(cmd, f->ground->cells[f->ground->parity]->buffer, 0, f->download.buffer, 0, cells);
+    ground_fixture_copy(cmd, f->ground->floors->buffer, 0, f->download.buffer, cells, cells);
+    ground_fixture_copy(cmd, f->ground->landings->buffer, 0, f->download.buffer, 2 * cells, f->ground->landings->size);
+    ground_fixture_submit(f);
+    host_buffer_invalidate(&f->gpu.device, &f->download);
+    f->cells = f->download.mapped;
+    f->floors = (virga_floor_gpu *)((char *)f->download.mapped + cells);
+    f->landings = (virga_landing_gpu *)((char *)f->download.mapped + 2 * cells);
+    f->tick += ticks;
+    f->drop_count = 0;
+}
+
+/* Puts f->upload's contents into the cells. */
+static inline void ground_fixture_put(ground_fixture *f)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    ground_fixture_copy(cmd, f->upload.buffer, 0, f->ground->cells[f->ground->parity]->buffer, 0, f->upload.size);
+    ground_fixture_submit(f);
+}
+
+/* Place of a cell of the world in the buffers of a window of `tiles`. */
+static inline uint32_t ground_fixture_place(const ground_fixture *f, int x, int z)
+{
+    const uint32_t mask = f->ground->window.tiles - 1;
+    const uint32_t tile = (((uint32_t)z >> 6) & mask) * f->ground->window.tiles + (((uint32_t)x >> 6) & mask);
+    return tile << 12 | ((uint32_t)z & 63) << 6 | ((uint32_t)x & 63);
+}
+
+static inline uint32_t ground_fixture_free(const ground_fixture *f, int x, int z)
+{
+    return f->cells[ground_fixture_place(f, x, z)].free_nl;
+}
+
+/* All water of the window. */
+static inline uint64_t ground_fixture_sum(const ground_fixture *f)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < f->ground->def.cells * f->ground->def.cells; i++)
+        sum += (uint64_t)f->cells[i].free_nl + f->cells[i].held_nl;
+    return sum;
+}
+
+static inline void ground_fixture_close(ground_fixture *f)
+{
+    virga_ground_destroy(&f->ground);
+    virga_context_destroy(&f->context);
+    host_buffer *buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->upload, &f->download};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        if (buffers[i]->buffer)
+            host_buffer_destroy(&f->gpu.device, buffers[i]);
+    if (f->gpu.instance.messages)
+        fail_msg("validation: %s", f->gpu.instance.first_message);
+    assert_int_equal(fixture_end(&f->gpu), 0);
+}
+
+#endif

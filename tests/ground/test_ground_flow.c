@@ -1,0 +1,220 @@
+/* Between drops: water runs downhill and comes to rest level, sinks, dries, runs into drains; the window moves; and all
+ * of it is counted. */
+#include "ground_fixture.h"
+
+#include <virga/shared/random.h>
+
+#include <math.h>
+
+static ground_fixture f;
+
+static void begin(const float (*quads)[4][3], const uint32_t *materials, uint32_t count, const virga_ground_def *def)
+{
+    ground_fixture_open(&f);
+    ground_fixture_quads(&f, quads, materials, count);
+    ground_fixture_ground(&f, def);
+}
+
+/* landed = all that is left of it */
+static void check_budget(void)
+{
+    virga_ground_stats s;
+    virga_ground_stats_get(f.ground, &s);
+    assert_true(s.landed_nl > 0);
+    assert_int_equal(s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl + s.run_off_nl +
+                                      s.evaporated_nl + s.forgotten_nl);
+}
+
+static void drops_at_random(uint32_t seed, uint32_t count, int reach, uint32_t most_nl)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t h = virga_hash2(seed, i);
+        const int x = (int)floor(f.camera[0] / 0.05) + (int)(virga_hash2(h, 1) % (2 * (uint32_t)reach)) - reach;
+        const int z = (int)floor(f.camera[2] / 0.05) + (int)(virga_hash2(h, 2) % (2 * (uint32_t)reach)) - reach;
+        ground_fixture_drop(&f, x, z, 0, 1 + virga_hash2(h, 3) % most_nl);
+    }
+}
+
+/* A basin 1.1 m wide with a hump in it; around it there is nothing, which is a wall. */
+static const float basin[2][4][3] = {
+    {{-0.55f, -0.02f, -0.55f}, {0.55f, -0.02f, -0.55f}, {0.55f, -0.02f, 0.55f}, {-0.55f, -0.02f, 0.55f}},
+    {{-0.3f, -0.021f, -0.3f}, {0.1f, -0.015f, -0.3f}, {0.1f, -0.015f, 0.3f}, {-0.3f, -0.021f, 0.3f}}};
+
+static void test_water_at_rest_ends_level(void **state)
+{
+    (void)state;
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.kept_tiles = 0;
+    def.max_impacts = MOST_DROPS;
+    def.flow_ticks = 1;
+    def.max_ticks_per_step = 64;
+    begin(basin, NULL, 2, &def);
+    /* 20 mm on the middle of it, all at once. */
+    for (int x = -4; x < 4; x++)
+        for (int z = -4; z < 4; z++)
+            ground_fixture_drop(&f, x, z, -0.02, 50000000);
+    for (int i = 0; i < 60; i++)
+        ground_fixture_step(&f, 64);
+    double low = 1e9, high = -1e9;
+    for (int x = -11; x < 11; x++)
+        for (int z = -11; z < 11; z++) {
+            const uint32_t place = ground_fixture_place(&f, x, z);
+            if (f.floors[place].material == 0xff || f.cells[place].free_nl < 25000) /* 0.01 mm */
+                continue;
+            const double surface_mm = f.floors[place].height_um * 1e-3 + f.cells[place].free_nl / 2.5e6;
+            low = fmin(low, surface_mm);
+            high = fmax(high, surface_mm);
+        }
+    if (!(high - low < 0.05))
+        fail_msg("surfaces between %g and %g mm", low, high);
+    check_budget();
+    ground_fixture_close(&f);
+}
+
+static void test_water_runs_down_a_slope_into_the_drain(void **state)
+{
+    (void)state;
+    /* 2 m of road, falling 4 cm to a gutter that is a drain. */
+    static const float road[2][4][3] = {{{-1, 0.04f, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0.04f, 1}},
+                                        {{1, -0.01f, -1}, {1.2f, -0.01f, -1}, {1.2f, -0.01f, 1}, {1, -0.01f, 1}}};
+    static const uint32_t materials[2] = {VIRGA_MATERIAL_OWN, VIRGA_MATERIAL_DRAIN};
+    begin(road, materials, 2, NULL);
+    for (int i = 0; i < 200; i++)
+        ground_fixture_drop(&f, -18 + i % 36, -18 + i / 6, 0.02, 8000000);
+    for (int i = 0; i < 90; i++)
+        ground_fixture_step(&f, 16);
+    check_budget();
+    virga_ground_stats s;
+    virga_ground_stats_get(f.ground, &s);
+    if (s.run_off_nl < s.landed_nl / 2)
+        fail_msg("%llu of %llu nl run off", (unsigned long long)s.run_off_nl, (unsigned long long)s.landed_nl);
+    ground_fixture_close(&f);
+}
+
+static void test_a_sheet_flows_at_mannings_speed(void **state)
+{
+    (void)state;
+    /* A long slope of 1 %: a sheet of 2 mm moves with v = h^(2/3) sqrt(S) / n = 0.122 m/s at n = 0.013. */
+    static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.03f, 3}, {-3, 0.03f, 3}}};
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.max_impacts = MOST_DROPS;
+    def.flow_ticks = 1;
+    begin(slope, NULL, 1, &def);
+    ground_fixture_step(&f, 0);
+    virga_cell_gpu *cells = f.upload.mapped;
+    for (uint32_t i = 0; i < 128 * 128; i++)
+        cells[i] = (virga_cell_gpu){5000000, 0};
+    ground_fixture_put(&f);
+    ground_fixture_step(&f, 16);
+    /* In the middle as much comes as goes; what passes x = 0 is seen where it gathers: sum right of it. */
+    uint64_t right = 0;
+    for (int x = 0; x < 60; x++)
+        right += ground_fixture_free(&f, x, 0);
+    const double passed_m2 = ((double)right - 60 * 5e6) * 1e-12 / 0.05;
+    const double expected = pow(2e-3, 5.0 / 3) * sqrt(0.01) / 0.013 * 16 / 60;
+    if (fabs(passed_m2 / expected - 1) > 0.03)
+        fail_msg("%g m^2 passed, expected %g", passed_m2, expected);
+    ground_fixture_close(&f);
+}
+
+static void test_water_sinks_and_dries_at_the_rates_asked_for(void **state)
+{
+    (void)state;
+    static const float quad[1][4][3] = {{{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}}};
+    begin(quad, NULL, 1, NULL);
+    f.settings.materials[VIRGA_MATERIAL_OWN].infiltration_mm_h = 36;
+    f.settings.materials[VIRGA_MATERIAL_OWN].drying = 2;
+    f.settings.evaporation_mm_h = 9;
+    virga_ground_set(f.ground, &f.settings);
+    ground_fixture_step(&f, 0);
+    virga_cell_gpu *cells = f.upload.mapped;
+    for (uint32_t i = 0; i < 128 * 128; i++)
+        cells[i] = (virga_cell_gpu){5000000, 0};
+    ground_fixture_put(&f);
+    for (int i = 0; i < 10; i++)
+        ground_fixture_step(&f, 12);
+    virga_ground_stats s;
+    virga_ground_stats_get(f.ground, &s);
+    const double cells_mm_nl = 128.0 * 128 * 2.5e6, seconds = 2;
+    assert_float_equal(s.infiltrated_nl / cells_mm_nl, 36 * seconds / 3600, 1e-4);
+    assert_float_equal(s.evaporated_nl / cells_mm_nl, 18 * seconds / 3600, 1e-4);
+    assert_int_equal(ground_fixture_sum(&f) + s.infiltrated_nl + s.evaporated_nl, 128ull * 128 * 5000000);
+    ground_fixture_close(&f);
+}
+
+static void test_the_budget_closes_while_the_window_moves(void **state)
+{
+    (void)state;
+    static const float quad[1][4][3] = {{{-80, 0, -80}, {80, 0, -80}, {80, 0, 80}, {-80, 0, 80}}};
+    static const uint32_t asphalt = VIRGA_MATERIAL_ASPHALT;
+    begin(quad, &asphalt, 1, NULL);
+    f.settings.evaporation_mm_h = 20;
+    virga_ground_set(f.ground, &f.settings);
+    for (uint32_t i = 0; i < 24; i++) {
+        f.camera[0] = 40 * sin(i * 1.7);
+        f.camera[2] = 40 * cos(i * 2.9);
+        drops_at_random(i, 300, 90, 900000);
+        ground_fixture_step(&f, 5);
+        check_budget();
+    }
+    virga_ground_stats s;
+    virga_ground_stats_get(f.ground, &s);
+    assert_true(s.forgotten_nl > 0 && s.kept_nl > 0 && s.elsewhere_nl > 0);
+    ground_fixture_close(&f);
+}
+
+static void test_cells_come_back_as_they_left(void **state)
+{
+    (void)state;
+    static virga_cell_gpu before[128 * 128];
+    static const float quad[1][4][3] = {{{-80, 0, -80}, {80, 0, -80}, {80, 0, 80}, {-80, 0, 80}}};
+    static const uint32_t soil = VIRGA_MATERIAL_SOIL;
+    begin(quad, &soil, 1, NULL);
+    drops_at_random(9, 3000, 60, 900000);
+    ground_fixture_step(&f, 1);
+    memcpy(before, f.cells, sizeof before);
+    f.camera[0] = 30;
+    ground_fixture_step(&f, 0);
+    assert_int_equal(ground_fixture_sum(&f), 0);
+    f.camera[0] = 0;
+    ground_fixture_step(&f, 0);
+    assert_memory_equal(before, f.cells, sizeof before);
+    ground_fixture_close(&f);
+}
+
+static void test_floors_are_where_the_meshes_are(void **state)
+{
+    (void)state;
+    static const float quads[2][4][3] = {{{-2, 1, -2}, {2, 1.4f, -2}, {2, 1.4f, 2}, {-2, 1, 2}},
+                                         {{0.5f, 3, 0.5f}, {1, 3, 0.5f}, {1, 3, 1}, {0.5f, 3, 1}}};
+    static const uint32_t materials[2] = {VIRGA_MATERIAL_OWN, VIRGA_MATERIAL_OWN + 1};
+    begin(quads, materials, 2, NULL);
+    f.settings.materials[VIRGA_MATERIAL_OWN + 1].bumps_mm = 0;
+    virga_ground_set(f.ground, &f.settings);
+    ground_fixture_step(&f, 0);
+    assert_int_equal(f.floors[ground_fixture_place(&f, 50, 0)].material, 0xff);
+    const virga_floor_gpu slope = f.floors[ground_fixture_place(&f, -10, 5)];
+    assert_int_equal(slope.material, VIRGA_MATERIAL_OWN);
+    assert_in_range(slope.height_um, 1152500 - 100,
+                    1152500 + 100); /* 1.2 - 0.475 x 0.1; the survey's depth has 31 um */
+    const virga_floor_gpu roof = f.floors[ground_fixture_place(&f, 15, 15)];
+    assert_int_equal(roof.material, VIRGA_MATERIAL_OWN + 1);
+    assert_in_range(roof.height_um, 3000000 - 100, 3000000 + 100);
+    ground_fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_floors_are_where_the_meshes_are),
+        cmocka_unit_test(test_water_at_rest_ends_level),
+        cmocka_unit_test(test_water_runs_down_a_slope_into_the_drain),
+        cmocka_unit_test(test_a_sheet_flows_at_mannings_speed),
+        cmocka_unit_test(test_water_sinks_and_dries_at_the_rates_asked_for),
+        cmocka_unit_test(test_the_budget_closes_while_the_window_moves),
+        cmocka_unit_test(test_cells_come_back_as_they_left),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
