@@ -122,13 +122,13 @@ static void image_destroy(virga_context *context, virga_resource *resource)
     virga_free(&context->heap, image);
 }
 
-static virga_result view_create(virga_context *context, const virga_image_2d *image, VkImageAspectFlags aspect,
-                                uint32_t first, uint32_t count, VkImageView *view)
+static virga_result view_create(virga_context *context, const virga_image_2d *image, VkImageViewType type,
+                                VkImageAspectFlags aspect, uint32_t first, uint32_t count, VkImageView *view)
 {
     virga_result result = VIRGA_OK;
     const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = image->image,
-                                        .viewType = image->layers ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_3D,
+                                        .viewType = type,
                                         .format = image->format,
                                         .subresourceRange = {aspect, 0, 1, first, count ? count : 1}};
     VK_TRY(context, CreateImageView(context->device, &info, NULL, view));
@@ -171,9 +171,10 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
     TRY(virga_memory_allocate(context, &need, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true, name, &image->memory));
     VK_TRY(context,
            BindImageMemory(context->device, image->image, image->memory.block.memory, image->memory.block.offset));
-    TRY(view_create(context, image, aspect, 0, layers, &image->view));
+    TRY(view_create(context, image, layers ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_3D, aspect, 0, layers,
+                    &image->view));
     for (uint32_t i = 0; i < layers; i++)
-        TRY(view_create(context, image, aspect, i, 1, &image->layer_views[i]));
+        TRY(view_create(context, image, VK_IMAGE_VIEW_TYPE_2D, aspect, i, 1, &image->layer_views[i]));
     virga_set_name(context, VK_OBJECT_TYPE_IMAGE, (uint64_t)image->image, name);
     *created = image;
     return VIRGA_OK;

@@ -166,10 +166,13 @@ void rain_classes_set_rain(rain_classes *classes, const virga_sizes *sizes, doub
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++)
         classes->per_m3_to[k] *= landing > 0 ? rate_mm_h / landing : 0;
     memcpy(classes->per_m3_from, classes->per_m3, sizeof classes->per_m3);
+    classes->rate_from = classes->rate_mm_h;
+    classes->rate_to = rate_mm_h;
     classes->eased_s = 0;
     classes->ease_s = ease_s;
     if (ease_s <= 0) {
         memcpy(classes->per_m3, classes->per_m3_to, sizeof classes->per_m3);
+        classes->rate_mm_h = rate_mm_h;
         update_weights(classes);
     }
 }
@@ -183,6 +186,7 @@ static void ease(rain_classes *classes, double tick_s)
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++)
         classes->per_m3[k] = t < 1 ? classes->per_m3_from[k] + t * (classes->per_m3_to[k] - classes->per_m3_from[k])
                                    : classes->per_m3_to[k];
+    classes->rate_mm_h = t < 1 ? classes->rate_from + t * (classes->rate_to - classes->rate_from) : classes->rate_to;
     if (t >= 1)
         classes->ease_s = 0;
     update_weights(classes);
@@ -224,6 +228,7 @@ static void move(rain_class *c, const double wind[3], double tick_s, double side
     for (int axis = 0; axis < 3; axis++)
         relative += (c->velocity[axis] - wind[axis]) * (c->velocity[axis] - wind[axis]);
     const double drag = VIRGA_GRAVITY / (c->terminal_m_s * c->terminal_m_s) * sqrt(relative) * tick_s;
+    c->drag = drag;
     for (int axis = 0; axis < 3; axis++) {
         const double pull = axis == 1 ? VIRGA_GRAVITY * tick_s : 0;
         c->velocity[axis] = (c->velocity[axis] + drag * wind[axis] - pull) / (1 + drag);

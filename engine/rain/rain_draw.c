@@ -103,7 +103,7 @@ static double streak_coverage(const virga_view_gpu *view, const rain_class *c, d
     const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
     const double narrow = width_px < (double)view->min_width_px ? width_px / (double)view->min_width_px : 1;
     const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s);
-    const double one = (double)view->streak_gain * c->diameter_m / (way + c->diameter_m);
+    const double one = (double)view->streak_gain * c->diameter_m / (way > c->diameter_m ? way : c->diameter_m);
     return (one < 1 ? one : 1) * narrow * drops;
 }
 
@@ -131,7 +131,7 @@ static double hazy_share(const virga_rain *rain, const virga_view_gpu *view, uin
 
 static void fill_haze(const virga_rain *rain, virga_view_gpu *out)
 {
-    const double extinction = virga_rain_extinction((double)rain->settings.rate_mm_h) * (double)rain->settings.haze;
+    const double extinction = virga_rain_extinction(rain->classes->rate_mm_h) * (double)rain->settings.haze;
     for (uint32_t level = 0; level < rain->levels; level++)
         out->haze_per_m[level] = (float)(extinction * hazy_share(rain, out, level));
     out->haze_per_m[rain->levels] = (float)extinction;
@@ -268,7 +268,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
     rain->frame_stats[rain->context->ring_slot].prepared = true;
     rain->prepared_depth = has_depth;
-    rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->settings.rate_mm_h > 0;
+    rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
     rain->prepared = true;
     return VIRGA_OK;
 }

@@ -25,6 +25,7 @@
 typedef struct rain_class {
     double diameter_m, terminal_m_s, density_share; /* the last: logarithmic width x diameter, for bins */
     double velocity[3];
+    double drag;       /* of the newest tick, see virga_class_gpu */
     int64_t travel[3]; /* fixed point, see virga_class_gpu */
 } rain_class;
 
@@ -34,7 +35,8 @@ typedef struct rain_classes {
     double per_m3[VIRGA_RAIN_CLASSES];      /* drops of the class per m^3, in force */
     double per_m3_from[VIRGA_RAIN_CLASSES]; /* eased from */
     double per_m3_to[VIRGA_RAIN_CLASSES];
-    double eased_s, ease_s; /* how far, and how long it takes in all; 0: done */
+    double rate_mm_h, rate_from, rate_to; /* the same of the rate, which haze goes by */
+    double eased_s, ease_s;               /* how far, and how long it takes in all; 0: done */
     virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
     uint32_t levels, slots_per_level;
     double side_m; /* of the widest box */

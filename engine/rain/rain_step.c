@@ -134,6 +134,7 @@ static void fill_classes(const virga_rain *rain, rain_tick_block *block)
             split64(c->travel[axis] - camera[axis], &travel->low[axis], &travel->high[axis]);
             out->velocity[axis] = (float)c->velocity[axis];
         }
+        out->drag = (float)c->drag;
         out->diameter_m = (float)c->diameter_m;
         out->terminal_m_s = (float)c->terminal_m_s;
         out->slant = rain_class_slant(rain, c->diameter_m);

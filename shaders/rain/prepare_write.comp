@@ -1,9 +1,10 @@
 // prepare_write.comp - a streak for each marked slot: where the drop goes while the shutter is open, cut where it meets
 // something, and the light in it.
 //
-// A sphere of diameter D that moves by l >> D while the shutter is open covers a point on its middle line for the share
-// D / (l + D) of the time: that share is the streak's coverage (Garg and Nayar 2007). What is narrower than the
-// sampling is drawn as wide as that and covers less.
+// A drop of length D whose middle moves by l while the shutter is open covers a point between its ends for the share
+// D / l of the time (all of it where l < D); towards the ends less, over a ramp of the shorter of the two. In all that is
+// D x l / l: what the drop covers does not depend on its speed (after Garg and Nayar 2007, who have l >> D). What is
+// narrower than the sampling is drawn as wide as that and covers less.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

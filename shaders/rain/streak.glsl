@@ -51,20 +51,6 @@ Streak streak_corner(uint vertex)
     return streak;
 }
 
-// How far the streak has begun at a place along it, from 0 at its end's middle to 1 a ramp further on. The other end
-// is streak_ends() less this.
-float streak_begun(Streak streak)
-{
-    const float ramp = max(streak.body_px, 1.0);
-    return (streak.along + 0.5 * ramp) / ramp;
-}
-
-float streak_ends(Streak streak)
-{
-    const float ramp = max(streak.body_px, 1.0);
-    return (streak.way_px + ramp) / ramp;
-}
-
 float streak_turns(Streak streak)
 {
     return streak.turns_at_tail + streak.turns * streak.along / max(streak.way_px, 1.0);

@@ -10,6 +10,7 @@ float streak_profile(float from_middle, float half_width)
     return edge * mix(0.785398, sqrt(1.0 - u * u), clamp(half_width - 0.75, 0.0, 1.0));
 }
 
+// Share of the full coverage at a place between the ends, see streak_ramp.glsl.
 float streak_length(float begun, float ends) { return clamp(begun, 0.0, 1.0) * clamp(ends - begun, 0.0, 1.0); }
 
 // Light varies as the drop oscillates: a cosine of turns, as near as a cubic comes (1.1 % of its height).

@@ -5,6 +5,7 @@
 #include "field.glsl"
 #include "view.glsl"
 #include "streak.glsl"
+#include "streak_ramp.glsl"
 
 layout(location = 0) noperspective out vec4 place; // px from the middle line; see streak_begun; turns; view depth
 layout(location = 1) flat out vec4 light_alpha;
@@ -14,9 +15,9 @@ void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
-    place = vec4(streak.across, streak_begun(streak), streak_turns(streak), streak.distance);
+    place = vec4(streak.across, streak_begun(streak.along, streak.way_px, streak.body_px), streak_turns(streak), streak.distance);
     // Averaged over the width: half each where it is narrow, by u^2 where it is wide (see streak_wide.frag).
     const float wide = clamp(streak.half_width - 0.75, 0.0, 1.0);
     light_alpha = vec4(mix(streak.centre, streak.rim, wide / 3.0 + (1.0 - wide) * 0.5), streak.alpha);
-    shape = vec3(streak.half_width, streak_ends(streak), streak.wave_size);
+    shape = vec3(streak.half_width, streak_ends(streak.way_px, streak.body_px), streak.wave_size);
 }

@@ -5,6 +5,7 @@
 #include "field.glsl"
 #include "view.glsl"
 #include "streak_pixel.glsl"
+#include "streak_ramp.glsl"
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;
 
@@ -45,10 +46,10 @@ vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 
 void main()
 {
-    const float half_width = shape.x, body = shape.y, way = shape.z, ramp = max(body, 1.0);
+    const float half_width = shape.x, body = shape.y, way = shape.z;
     const float u = min(abs(place.x) / half_width, 1.0);
     float alpha = centre_alpha.a * streak_profile(abs(place.x), half_width) *
-                  streak_length((place.y + 0.5 * ramp) / ramp, (way + ramp) / ramp);
+                  streak_length(streak_begun(place.y, way, body), streak_ends(way, body));
     if (HAS_DEPTH)
         alpha *= soft_edge(place.w);
     if (alpha <= 0.0)

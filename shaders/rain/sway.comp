@@ -25,7 +25,11 @@ void main()
     vec3 air = to_vec(tick.wind_mean);
     if (tick.wind_given != 0u)
         air += textureLod(wind, (p - to_vec(tick.wind_min)) * to_vec(tick.wind_scale), 0.0).xyz;
-    const vec3 velocity = class_velocity + to_vec(sway.velocity);
+    // The class has taken this tick's step already: back to where it was, or the uniform wind would count twice.
+    const float class_drag = classes[size_class].drag;
+    const vec3 class_before = class_velocity * (1.0 + class_drag) - class_drag * to_vec(tick.wind_mean) +
+                              vec3(0.0, tick.gravity * tick.tick_s, 0.0);
+    const vec3 velocity = class_before + to_vec(sway.velocity);
     const float terminal = classes[size_class].terminal_m_s;
     const float drag = tick.gravity / (terminal * terminal) * length(velocity - air) * tick.tick_s;
     const vec3 after = (velocity + drag * air - vec3(0.0, tick.gravity * tick.tick_s, 0.0)) / (1.0 + drag);

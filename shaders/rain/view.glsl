@@ -7,12 +7,12 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #define NEAR_W 0.01 // m; streaks are cut where they come nearer to the camera's plane
 #define WIDE_PX 3.0 // from here on a streak shows the inside of its drop
 
-// Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it, and of the
-// sampling's width where the drop is narrower.
+// Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it (body / way, and all
+// of the time where it moves by less than its own length), and of the sampling's width where the drop is narrower.
 float streak_coverage(float width_px, float body, float way)
 {
     const float narrow = min(width_px / view.min_width_px, 1.0);
-    return min(view.streak_gain * body / (way + body), 1.0) * narrow;
+    return min(view.streak_gain * body / max(way, body), 1.0) * narrow;
 }
 
 vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }

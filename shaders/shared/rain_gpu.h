@@ -40,6 +40,7 @@ struct virga_class_gpu {
     float velocity[3];   /* m/s */
     float diameter_m;
     float terminal_m_s;  /* in still air */
+    float drag;          /* factor of the implicit step that led to velocity: (before + drag wind - g t) / (1 + drag) */
     uint slant;          /* which slant's maps its drops use */
 };
 
@@ -180,7 +181,7 @@ struct virga_list_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_slot_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_travel_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_class_gpu, 24);
+VIRGA_ASSERT_SIZE(virga_class_gpu, 28);
 VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);

@@ -306,6 +306,66 @@ static void attributes_come_back(void **state)
     exr_finish(&file);
 }
 
+static void any_seed_comes_back(void **state)
+{
+    (void)state;
+    static const uint32_t seeds[] = {0, 1, INT32_MAX, (uint32_t)INT32_MAX + 1, 4000000000, UINT32_MAX};
+    for (size_t i = 0; i < COUNT(seeds); i++) {
+        char digits[EXR_UINT_DIGITS], expected[16];
+        exr_header header;
+        exr_text seed = {.name = "seed"};
+        const exr_attribute one = exr_attribute_uint("seed", seeds[i], digits);
+        assert_int_equal(one.kind, seeds[i] > INT32_MAX ? EXR_ATTRIBUTE_STRING : EXR_ATTRIBUTE_INT);
+        assert_true(write_attributes(&one, 1));
+        if (!exr_read_header(in_folder("f.exr"), &header, &seed, 1, error, sizeof error))
+            fail_msg("%s", error);
+        snprintf(expected, sizeof expected, "%u", seeds[i]);
+        assert_string_equal(seed.text, expected);
+    }
+}
+
+static void a_header_is_read_without_pixels(void **state)
+{
+    (void)state;
+    picture made = make_picture(97, 53);
+    exr_header header;
+    exr_text texts[] = {{.name = "seed"}, {.name = "time"}, {.name = "none"}};
+    assert_true(write_picture(in_folder("f.exr"), &made, EXR_PACKING_ZIP));
+    assert_true(exr_read_header(in_folder("f.exr"), &header, NULL, 0, error, sizeof error));
+    assert_int_equal(header.width, 97);
+    assert_int_equal(header.height, 53);
+    assert_string_equal(header.channels, ",G,R,Z,id.Y,rain.R,");
+    /* what is there but neither text nor a whole number counts as absent */
+    assert_true(write_attributes(attributes, COUNT(attributes)));
+    memset(texts[1].text, 'x', sizeof texts[1].text);
+    assert_true(exr_read_header(in_folder("f.exr"), &header, texts, COUNT(texts), error, sizeof error));
+    assert_string_not_equal(texts[0].text, "");
+    assert_string_equal(texts[1].text, "");
+    assert_string_equal(texts[2].text, "");
+    free_picture(&made);
+}
+
+static void headers_of_broken_pictures_are_refused(void **state)
+{
+    (void)state;
+    size_t size;
+    exr_header header;
+    picture made = make_picture(64, 64);
+    assert_true(write_picture(in_folder("f.exr"), &made, EXR_PACKING_ZIP));
+    char *whole = get_file(in_folder("f.exr"), &size);
+    for (size_t length = 0; length < 400; length += 9) { /* within the header */
+        put_file(in_folder("cut.exr"), whole, length);
+        assert_false(exr_read_header(in_folder("cut.exr"), &header, NULL, 0, error, sizeof error));
+        assert_error("cannot read", "cut.exr");
+    }
+    exr_recipe recipe = {.width = 8, .height = 64, .rows = 40, .channels = "RGB", .samples = made.rgbz};
+    assert_true(make_exr(in_folder("part.exr"), &recipe));
+    assert_false(exr_read_header(in_folder("part.exr"), &header, NULL, 0, error, sizeof error));
+    assert_error("part.exr", "incomplete");
+    free(whole);
+    free_picture(&made);
+}
+
 static void the_header_is_as_designed(void **state)
 {
     (void)state;
@@ -694,6 +754,9 @@ int main(void)
         TEST_IN_FOLDER(chunks_that_pack_to_their_own_size_come_back),
         TEST_IN_FOLDER(every_mixture_of_noise_comes_back),
         TEST_IN_FOLDER(attributes_come_back),
+        TEST_IN_FOLDER(any_seed_comes_back),
+        TEST_IN_FOLDER(a_header_is_read_without_pixels),
+        TEST_IN_FOLDER(headers_of_broken_pictures_are_refused),
         TEST_IN_FOLDER(the_header_is_as_designed),
         TEST_IN_FOLDER(wrong_attributes_are_refused),
         TEST_IN_FOLDER(a_name_of_31_bytes_is_fine),

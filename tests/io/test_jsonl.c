@@ -250,6 +250,62 @@ static void too_deep_is_an_error(void **state)
     assert_text(in_folder("s.jsonl"), "");
 }
 
+static bool holds_keep(void *user, const char *line)
+{
+    ++*(int *)user;
+    return strstr(line, "keep");
+}
+
+static void assert_filtered(const char *text, size_t size, const char *expected, int asked)
+{
+    int lines = 0;
+    put_file(in_folder("s.jsonl"), text, size);
+    if (!jsonl_filter(in_folder("s.jsonl"), holds_keep, &lines, error, sizeof error))
+        fail_msg("%s", error);
+    assert_text(in_folder("s.jsonl"), expected);
+    assert_int_equal(lines, asked);
+    assert_int_equal(folder_entries(false), 1);
+}
+
+static void a_filter_leaves_what_is_wanted(void **state)
+{
+    (void)state;
+    static const char zeros[] = "keep 1\nkeep\0 2\nkeep 3\n";
+    assert_filtered("drop\nkeep 1\ndrop\n\nkeep 2\n", 26, "keep 1\nkeep 2\n", 5);
+    assert_filtered("keep 1\nkeep 2\nkeep hal", 22, "keep 1\nkeep 2\n", 2);
+    assert_filtered(zeros, sizeof zeros - 1, "keep 1\nkeep 3\n", 2);
+    assert_filtered("drop\n", 5, "", 1);
+    assert_filtered("", 0, "", 0);
+}
+
+static void a_filter_that_keeps_all_leaves_the_file_alone(void **state)
+{
+    (void)state;
+    int lines = 0;
+    struct stat before, after;
+    put_file(in_folder("s.jsonl"), "keep\nkeep\n", 10);
+    assert_int_equal(stat(in_folder("s.jsonl"), &before), 0);
+    assert_true(jsonl_filter(in_folder("s.jsonl"), holds_keep, &lines, error, sizeof error));
+    assert_int_equal(stat(in_folder("s.jsonl"), &after), 0);
+    assert_int_equal(after.st_ino, before.st_ino);
+    assert_true(jsonl_filter(in_folder("none.jsonl"), holds_keep, &lines, error, sizeof error));
+    assert_int_equal(folder_entries(false), 1);
+}
+
+static void a_filter_that_can_not_write_changes_nothing(void **state)
+{
+    (void)state;
+    int lines = 0;
+    put_file(in_folder("s.jsonl"), "drop\nkeep 1\nkeep 2\n", 19);
+    limit_files(10);
+    bool ok = jsonl_filter(in_folder("s.jsonl"), holds_keep, &lines, error, sizeof error);
+    unlimit_files();
+    assert_false(ok);
+    assert_error("s.jsonl", "cannot write");
+    assert_text(in_folder("s.jsonl"), "drop\nkeep 1\nkeep 2\n");
+    assert_int_equal(folder_entries(false), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -269,6 +325,9 @@ int main(void)
         TEST_IN_FOLDER(a_line_that_does_not_fit_leaves_nothing),
         TEST_IN_FOLDER(a_missing_folder_is_one_line),
         TEST_IN_FOLDER(too_deep_is_an_error),
+        TEST_IN_FOLDER(a_filter_leaves_what_is_wanted),
+        TEST_IN_FOLDER(a_filter_that_keeps_all_leaves_the_file_alone),
+        TEST_IN_FOLDER(a_filter_that_can_not_write_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

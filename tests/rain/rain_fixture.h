@@ -163,6 +163,51 @@ static inline uint64_t rain_fixture_hash(const void *data, size_t size, uint64_t
 
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
+/* ---- frames that a test records itself */
+
+static inline VkCommandBuffer rain_fixture_begin_frame(rain_fixture *f)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    return cmd;
+}
+
+/* Submits the frame and waits for it. */
+static inline void rain_fixture_end_frame(rain_fixture *f)
+{
+    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+}
+
+static inline void rain_fixture_record_step(rain_fixture *f, VkCommandBuffer cmd, double dt_s)
+{
+    const virga_rain_step_info info = {.dt_s = dt_s, .camera_m = {f->camera[0], f->camera[1], f->camera[2]}};
+    REQUIRE(virga_rain_step(f->rain, cmd, &info) == VIRGA_OK);
+    virga_rain_drops(f->rain, NULL, NULL, f->origin);
+}
+
+static inline void rain_fixture_readback(rain_fixture *f, VkDeviceSize size, host_buffer *buffer)
+{
+    REQUIRE(host_buffer_create(&f->gpu.device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "read",
+                               buffer, f->gpu.error, sizeof f->gpu.error));
+}
+
+/* A step without occlusion, and all drops in full; `read` is made at the first call. Needs def.points. */
+static inline const virga_point_gpu *rain_fixture_points_step(rain_fixture *f, double dt_s, host_buffer *read)
+{
+    virga_rain_buffer points;
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(f);
+    rain_fixture_record_step(f, cmd, dt_s);
+    REQUIRE(virga_rain_points(f->rain, cmd, &points, &f->slots, f->origin) == VIRGA_OK);
+    if (!read->buffer)
+        rain_fixture_readback(f, points.size, read);
+    rain_fixture_copy(cmd, &points, read);
+    rain_fixture_end_frame(f);
+    host_buffer_invalidate(&f->gpu.device, read);
+    return read->mapped;
+}
+
 /* Destroys everything and checks that nothing was left and nothing was said by validation. */
 static inline void rain_fixture_close(rain_fixture *f)
 {

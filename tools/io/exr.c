@@ -52,6 +52,14 @@ __attribute__((format(printf, 3, 4))) static bool refuse(char *error, size_t err
     return false;
 }
 
+exr_attribute exr_attribute_uint(const char *name, uint32_t value, char digits[EXR_UINT_DIGITS])
+{
+    if (value <= INT32_MAX)
+        return (exr_attribute){.name = name, .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)value};
+    snprintf(digits, EXR_UINT_DIGITS, "%u", value);
+    return (exr_attribute){.name = name, .kind = EXR_ATTRIBUTE_STRING, .string = digits};
+}
+
 /* ---- what a frame may be ---- */
 
 static bool check_name(const char *path, const char *what, const char *name, char *error, size_t error_size)

@@ -65,6 +65,13 @@ typedef struct exr_attribute {
     };
 } exr_attribute;
 
+#define EXR_UINT_DIGITS 11 /* bytes of the longest uint32_t in decimal, with its end */
+
+/* An attribute that holds any uint32_t, as the frames' `seed`. OpenEXR knows signed integers only: up to 2147483647 the
+ * attribute is an int, and above that a string of decimal digits, which are written to `digits` and must live until
+ * the frame is written. exr_read_header gives the same text for both. */
+exr_attribute exr_attribute_uint(const char *name, uint32_t value, char digits[EXR_UINT_DIGITS]);
+
 typedef struct exr_frame {
     uint32_t width, height;
     const exr_channel *channels; /* in any order: the file has them sorted by name */
@@ -95,6 +102,21 @@ typedef struct exr_request {
 /* Reads named channels whole; on failure no request has data. */
 bool exr_read_channels(const char *path, uint32_t *width, uint32_t *height, exr_request *requests, uint32_t count,
                        char *error, size_t error_size);
+
+/* A string or int attribute asked for by exr_read_header. */
+typedef struct exr_text {
+    const char *name;
+    char text[256]; /* filled in, an int as decimal digits; "" if there is none, or one of another kind */
+} exr_text;
+
+typedef struct exr_header {
+    uint32_t width, height;
+    char channels[1024]; /* names with a comma before and behind each: ",A,B,G,R,"; too many are cut */
+} exr_header;
+
+/* Reads what a picture says of itself, but no pixels. A picture of which lines are missing is refused. */
+bool exr_read_header(const char *path, exr_header *header, exr_text *texts, uint32_t count, char *error,
+                     size_t error_size);
 
 #ifdef __cplusplus
 }

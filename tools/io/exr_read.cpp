@@ -7,7 +7,9 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfPartType.h>
+#include <ImfStringAttribute.h>
 
 #include <cerrno>
 #include <cmath>
@@ -233,6 +235,35 @@ bool read_channels(const reader &reader, uint32_t *width, uint32_t *height, exr_
     return true;
 }
 
+void read_text(const Imf::Header &header, exr_text &wanted)
+{
+    const Imf::StringAttribute *string = header.findTypedAttribute<Imf::StringAttribute>(wanted.name);
+    const Imf::IntAttribute *integer = header.findTypedAttribute<Imf::IntAttribute>(wanted.name);
+    if (string)
+        std::snprintf(wanted.text, sizeof wanted.text, "%s", string->value().c_str());
+    else if (integer)
+        std::snprintf(wanted.text, sizeof wanted.text, "%d", integer->value());
+}
+
+bool read_header(const reader &reader, exr_header *header, exr_text *texts, uint32_t count)
+{
+    if (!check_start(reader))
+        return false;
+    picture picture(reader.path);
+    if (!picture.measure(reader))
+        return false;
+    header->width = picture.width;
+    header->height = picture.height;
+    std::string names = ",";
+    const Imf::ChannelList &channels = picture.file.header().channels();
+    for (auto i = channels.begin(); i != channels.end(); ++i)
+        names += std::string(i.name()) + ",";
+    std::snprintf(header->channels, sizeof header->channels, "%s", names.c_str());
+    for (uint32_t i = 0; i < count; i++)
+        read_text(picture.file.header(), texts[i]);
+    return true;
+}
+
 // Runs `action` so that whatever is thrown in it becomes an error line.
 template <typename action> bool guarded(const reader &reader, action act)
 {
@@ -268,4 +299,14 @@ bool exr_read_channels(const char *path, uint32_t *width, uint32_t *height, exr_
     for (uint32_t i = 0; i < count; i++)
         requests[i].data = nullptr;
     return guarded(reader, [&] { return read_channels(reader, width, height, requests, count); });
+}
+
+bool exr_read_header(const char *path, exr_header *header, exr_text *texts, uint32_t count, char *error,
+                     size_t error_size)
+{
+    reader reader{path, error, error_size};
+    *header = exr_header{};
+    for (uint32_t i = 0; i < count; i++)
+        texts[i].text[0] = 0;
+    return guarded(reader, [&] { return read_header(reader, header, texts, count); });
 }

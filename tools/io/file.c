@@ -1,12 +1,14 @@
 /* file.c - temporary name, write, rename. */
 #include "file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,6 +30,23 @@ static char *temporary_name(const char *path)
     if (asprintf(&name, "%.*s.virga-%ld-%u.tmp", folder, path, (long)getpid(), atomic_fetch_add(&count, 1)) < 0)
         return NULL;
     return name;
+}
+
+static bool is_temporary_name(const char *name)
+{
+    long process;
+    unsigned number;
+    int length = 0;
+    return sscanf(name, ".virga-%ld-%u.tmp%n", &process, &number, &length) == 2 && length && !name[length];
+}
+
+/* Locks a new file until it is closed. False if file_clean has taken it away before that. */
+static bool hold(int descriptor)
+{
+    struct stat info;
+    while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR)
+        ; /* where the file system has no locks, file_clean gets none either and keeps the file */
+    return fstat(descriptor, &info) == 0 && info.st_nlink > 0;
 }
 
 /* A pipe or a device must not be replaced by a regular file. */
@@ -60,6 +79,10 @@ bool file_start(file_writer *file, const char *path, char *error, size_t error_s
             file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (file->descriptor < 0 && errno != EEXIST)
                 break;
+            if (file->descriptor >= 0 && !hold(file->descriptor)) {
+                close(file->descriptor);
+                file->descriptor = -1;
+            }
         }
     }
     if (file->descriptor >= 0)
@@ -112,7 +135,8 @@ bool file_write_at(file_writer *file, const void *data, size_t size, uint64_t of
 
 bool file_finish(file_writer *file, char *error, size_t error_size)
 {
-    /* Some file systems report a full disk only here. */
+    /* Some file systems report a full disk only on close. The lock stays until the file has its name. */
+    int lock = fcntl(file->descriptor, F_DUPFD_CLOEXEC, 0);
     if (close(file->descriptor) != 0)
         fail(file, errno);
     if (!file->failure && file->temporary && rename(file->temporary, file->path) != 0)
@@ -122,6 +146,8 @@ bool file_finish(file_writer *file, char *error, size_t error_size)
         if (file->temporary)
             unlink(file->temporary);
     }
+    if (lock >= 0)
+        close(lock);
     bool ok = !file->failure;
     release(file);
     return ok;
@@ -133,6 +159,31 @@ void file_abandon(file_writer *file)
     if (file->temporary)
         unlink(file->temporary);
     release(file);
+}
+
+/* Whoever writes the file holds its lock. It is removed under the lock, so that no new writer takes it for its own. */
+static bool clean_one(int folder, const char *name)
+{
+    struct stat info;
+    int descriptor = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0)
+        return false;
+    bool removed = fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
+                   flock(descriptor, LOCK_EX | LOCK_NB) == 0 && unlinkat(folder, name, 0) == 0;
+    close(descriptor);
+    return removed;
+}
+
+uint32_t file_clean(const char *folder)
+{
+    uint32_t count = 0;
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; list && (entry = readdir(list));)
+        if (is_temporary_name(entry->d_name) && clean_one(dirfd(list), entry->d_name))
+            count++;
+    if (list)
+        closedir(list);
+    return count;
 }
 
 /* read() until the end rather than trust the size: a pipe has none. */

@@ -2,7 +2,10 @@
  *
  * A file is written under a temporary name in the folder where it will live and renamed when whole, so a reader never
  * sees half of it and an older file stays until the new one is there. What is not a regular file (a pipe, /dev/full)
- * is written in place. Errors are one line: what could not be done, the path, and the system's reason. */
+ * is written in place. Errors are one line: what could not be done, the path, and the system's reason.
+ *
+ * While a temporary file is written it is locked, so that what a killed program left behind can be told from what a
+ * living one is at, on this machine or on another that shares the folder. */
 #ifndef VIRGA_IO_FILE_H
 #define VIRGA_IO_FILE_H
 
@@ -34,6 +37,9 @@ bool file_finish(file_writer *file, char *error, size_t error_size);
 
 /* Removes what was written so far. */
 void file_abandon(file_writer *file);
+
+/* Removes from a folder the temporary files that nobody writes any more. Returns how many there were. */
+uint32_t file_clean(const char *folder);
 
 /* Whole file into malloc'ed memory with a 0 byte behind it. Refuses files larger than `limit` bytes. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, char *error, size_t error_size);

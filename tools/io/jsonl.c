@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define MAX_FILTERED ((size_t)2 << 30) /* bytes */
+
 /* ---- the file ---- */
 
 /* Length of the file up to and with its last line end. */
@@ -44,6 +46,45 @@ static bool cut_half_line(int descriptor)
         return true;
     return whole_lines(descriptor, info.st_size, &length) &&
            (length == info.st_size || ftruncate(descriptor, length) == 0);
+}
+
+/* Moves the lines that may stay to the front of the text and returns their length. */
+static size_t filter_lines(char *text, size_t size, bool (*keep)(void *user, const char *line), void *user)
+{
+    size_t kept = 0;
+    for (char *line = text, *stop; (stop = memchr(line, '\n', size - (size_t)(line - text))); line = stop + 1) {
+        size_t length = (size_t)(stop - line) + 1;
+        *stop = 0;
+        /* A line with a 0 in it is none of ours: some file systems leave zeros where the power went. */
+        bool stays = strlen(line) + 1 == length && keep(user, line);
+        *stop = '\n';
+        if (!stays)
+            continue;
+        memmove(text + kept, line, length);
+        kept += length;
+    }
+    return kept;
+}
+
+bool jsonl_filter(const char *path, bool (*keep)(void *user, const char *line), void *user, char *error,
+                  size_t error_size)
+{
+    void *text;
+    size_t size;
+    file_writer file;
+    struct stat info;
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return true; /* what can not be opened for writing is told by jsonl_open */
+    if (!file_read(path, MAX_FILTERED, &text, &size, error, error_size))
+        return false;
+    size_t kept = filter_lines(text, size, keep, user);
+    bool ok = kept == size;
+    if (!ok && file_start(&file, path, error, error_size)) {
+        file_write(&file, text, kept);
+        ok = file_finish(&file, error, error_size);
+    }
+    free(text);
+    return ok;
 }
 
 bool jsonl_open(jsonl *file, const char *path, jsonl_mode mode, char *error, size_t error_size)

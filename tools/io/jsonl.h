@@ -29,6 +29,11 @@ typedef struct jsonl {
     int failure; /* errno */
 } jsonl;
 
+/* Leaves in a file only the whole lines that `keep` wants (`line` ends with 0 in place of its line end). The file is
+ * replaced at once, or left alone where all may stay. A missing file is fine. */
+bool jsonl_filter(const char *path, bool (*keep)(void *user, const char *line), void *user, char *error,
+                  size_t error_size);
+
 /* After success call jsonl_close once. */
 bool jsonl_open(jsonl *file, const char *path, jsonl_mode mode, char *error, size_t error_size);
 void jsonl_close(jsonl *file);

@@ -59,7 +59,8 @@ int info_run(int argc, char **argv)
             printf("     not usable: %s\n", info->reason);
     }
     host_instance_destroy(&instance);
-    if (!found)
-        options_complain("info", "%s", error);
-    return found ? EXIT_OK : EXIT_FAILED;
+    if (found)
+        return EXIT_OK;
+    options_complain("info", "%s", error);
+    return count && options_value(&parsed, "--device") ? EXIT_USAGE : EXIT_FAILED;
 }

@@ -1,8 +1,10 @@
 /* cmd_render.c - `virga render`: a scene's frames to disk, each whole or absent. */
 #include "commands.h"
+#include "file.h"
 #include "frame_files.h"
 #include "options.h"
 #include "progress.h"
+#include "resume.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -14,7 +16,8 @@
 
 static const option_row rows[] = {
     {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
-    {"--frames", 0, "A-B", "frames to draw; the simulation is stepped up to A without drawing. Default: the scene's", false},
+    {"--frames", 0, "A-B", "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
+                           "with camera and weather as at their last keys. Default: the scene's", false},
     {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
     {"--samples", 0, "N", "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
                           "Default 1; 16 for film", false},
@@ -22,7 +25,8 @@ static const option_row rows[] = {
     {"--points", 0, NULL, "also write rain.%04d.ply, a point cache of the drops", false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
-    {"--resume", 0, NULL, "keep frames that are there already and go on behind them", false},
+    {"--resume", 0, NULL, "render only what is not there yet; refuses a folder in which these frames are of another "
+                          "scene, seed, size, samples or layers", false},
     {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
@@ -42,7 +46,8 @@ void render_help(void)
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
            "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n\n"
            "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk full,\n"
-           "device lost; finished frames are kept), 2 wrong command line or scene, 130 interrupted.\n");
+           "device lost; finished frames are kept), 2 wrong command line or scene, or a file that it names, 130\n"
+           "interrupted.\n");
 }
 
 typedef struct render_job {
@@ -55,6 +60,7 @@ typedef struct render_job {
     bool points, stats, preview, resume;
     jsonl stats_file;
     bool stats_open;
+    bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
     uint32_t written;
     char error[1024];
 } render_job;
@@ -142,37 +148,66 @@ static bool make_parents(const char *path)
     return !mkdir(part, 0777) || errno == EEXIST;
 }
 
-static bool make_directory(render_job *job)
+/* A folder that can not be is a wrong command line, but a disk that has no room for it is not. */
+static int make_directory(render_job *job)
 {
-    struct stat about;
-    if (!make_parents(job->directory))
-        return options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
-    if (stat(job->directory, &about) || !S_ISDIR(about.st_mode))
-        return options_complain("render", "%s is not a folder", job->directory);
-    if (access(job->directory, W_OK))
-        return options_complain("render", "cannot write into %s: %s", job->directory, strerror(errno));
-    return true;
+    struct stat about = {0};
+    if (!make_parents(job->directory)) {
+        const int code = errno == ENOSPC || errno == EDQUOT || errno == EIO ? EXIT_FAILED : EXIT_USAGE;
+        options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
+        return code;
+    }
+    if (!stat(job->directory, &about) && S_ISDIR(about.st_mode) && !access(job->directory, W_OK))
+        return EXIT_OK;
+    if (S_ISDIR(about.st_mode))
+        options_complain("render", "cannot write into %s: %s", job->directory, strerror(errno));
+    else
+        options_complain("render", "%s is not a folder", job->directory);
+    return EXIT_USAGE;
+}
+
+static resume_wish wish_of(const render_job *job)
+{
+    return (resume_wish){.scene = job->scene,
+                         .directory = job->directory,
+                         .first = job->frames[0],
+                         .last = job->frames[1],
+                         .width = job->how.width,
+                         .height = job->how.height,
+                         .samples = job->how.samples,
+                         .layers = job->layers,
+                         .points = job->points,
+                         .preview = job->preview,
+                         .stats = job->stats};
 }
 
 static bool open_stats(render_job *job)
 {
     char path[4096];
+    const resume_wish wish = wish_of(job);
     if (!job->stats)
         return true;
+    if (job->resume && !resume_trim_stats(&wish, job->there, job->error, sizeof job->error))
+        return fail(job);
     snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
     job->stats_open = jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error,
                                  sizeof job->error);
     return job->stats_open || fail(job);
 }
 
-/* A frame's EXR is written last, so it being there means that the frame is whole. */
-static bool is_there(const render_job *job, uint32_t frame)
+/* ---- frames */
+
+/* Steps to the frame before, frame by frame, as the way may be long and Ctrl-C is to be heard on it. */
+static bool step_before(render_job *job, uint32_t frame)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/frame.%04u.exr", job->directory, frame);
-    return access(path, F_OK) == 0;
+    shot *s = &job->shot;
+    while (s->frame_index + 1 < frame && !interrupt_asked())
+        if (!shot_step(s, s->frame_index + 1, job->error, sizeof job->error))
+            return false;
+    return true;
 }
 
+/* The EXR is written last: it being there means that the frame is whole. */
 static bool write_frame(render_job *job, uint32_t frame)
 {
     host_camera camera;
@@ -185,10 +220,24 @@ static bool write_frame(render_job *job, uint32_t frame)
     if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
         (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
         (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
-        !frame_write_exr(s, &camera, job->directory, frame, job->layers, job->scene->rain.seed, error, size))
+        !frame_write_exr(s, &camera, job->directory, frame, job->layers, error, size))
         return false;
     job->written++;
     return true;
+}
+
+/* Both leave what is finished; `frame` is the one to go on with. */
+static int stop_failed(const render_job *job)
+{
+    options_complain("render", "%s; %u finished frames are kept in %s", job->error, job->written, job->directory);
+    return EXIT_FAILED;
+}
+
+static int stop_interrupted(const render_job *job, uint32_t frame)
+{
+    options_complain("render", "interrupted: %u frames are in %s; --resume goes on with frame %u", job->written,
+                     job->directory, frame);
+    return EXIT_INTERRUPTED;
 }
 
 static int render_frames(render_job *job)
@@ -196,61 +245,97 @@ static int render_frames(render_job *job)
     progress bar;
     progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
     for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
-        const bool skip = job->resume && is_there(job, frame);
-        if (!skip && !write_frame(job, frame)) {
-            progress_end(&bar);
-            fail(job);
-            options_complain("render", "%u finished frames are kept in %s", job->written, job->directory);
-            return EXIT_FAILED;
+        if (job->there && job->there[frame - job->frames[0]]) {
+            progress_step(&bar, "(there already)");
+            continue;
         }
-        progress_step(&bar, skip ? "(there already)" : NULL);
-        if (interrupt_asked() && frame < job->frames[1]) {
+        const bool stepped = step_before(job, frame);
+        const bool stop = stepped && interrupt_asked();
+        if (stop || !stepped || !write_frame(job, frame)) {
             progress_end(&bar);
-            options_complain("render", "interrupted: %u frames are in %s; --resume goes on behind frame %u",
-                             job->written, job->directory, frame);
-            return EXIT_INTERRUPTED;
+            return stop ? stop_interrupted(job, frame) : stop_failed(job);
         }
+        progress_step(&bar, NULL);
     }
     progress_end(&bar);
     return EXIT_OK;
 }
 
-/* The previews as a film, where ffmpeg is installed. A film that can not be made is said, but is no failure. */
-static void make_film(const render_job *job)
+/* ---- the film */
+
+/* In the folder, as ffmpeg would take a '%' in the folder's name for a number. */
+static void run_ffmpeg(const render_job *job, const char *output)
 {
-    char fps[32], first[32];
+    char fps[32], first[32], count[32];
     snprintf(fps, sizeof fps, "%g", job->scene->frames.fps);
     snprintf(first, sizeof first, "%u", job->frames[0]);
-    const pid_t child = fork();
-    if (child == 0) {
-        /* From inside the folder, as ffmpeg would take a '%' in its name for a number. */
-        if (chdir(job->directory))
-            _exit(126);
-        execlp("ffmpeg", "ffmpeg", "-loglevel", "error", "-y", "-nostdin", "-framerate", fps, "-start_number", first,
-               "-i", "preview.%04d.png", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "16",
-               "preview.mp4", (char *)NULL);
-        _exit(127);
-    }
-    int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) < 0)
-        return;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-        fprintf(stderr, "no ffmpeg: previews stay single pictures\n");
-    else if (status)
-        fprintf(stderr, "ffmpeg could not make %s/preview.mp4\n", job->directory);
+    snprintf(count, sizeof count, "%u", job->frames[1] - job->frames[0] + 1);
+    if (chdir(job->directory))
+        _exit(126);
+    execlp("ffmpeg", "ffmpeg", "-loglevel", "error", "-y", "-nostdin", "-framerate", fps, "-start_number", first, "-i",
+           "preview.%04d.png", "-frames:v", count, "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
+           "-crf", "16", "-f", "mp4", output, (char *)NULL);
+    _exit(127);
 }
 
+static int wait_for(pid_t child)
+{
+    int status = -1;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    return status;
+}
+
+/* The previews as a film, where ffmpeg is installed. A film that can not be made is said, but is no failure. */
+static void make_film(render_job *job)
+{
+    char path[4096];
+    file_writer film;
+    snprintf(path, sizeof path, "%s/preview.mp4", job->directory);
+    if (!file_start(&film, path, job->error, sizeof job->error)) {
+        fail(job);
+        return;
+    }
+    const char *written_to = film.temporary ? film.temporary : film.path, *slash = strrchr(written_to, '/');
+    const pid_t child = fork();
+    if (child == 0)
+        run_ffmpeg(job, slash ? slash + 1 : written_to);
+    const int status = wait_for(child);
+    if (status == 0 && !file_finish(&film, job->error, sizeof job->error))
+        fail(job);
+    if (status == 0)
+        return;
+    file_abandon(&film);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        fprintf(stderr, "no ffmpeg: previews stay single pictures\n");
+    else
+        fprintf(stderr, "ffmpeg could not make %s\n", path);
+}
+
+/* ---- the command */
+
+/* What can be known to be wrong is said before a device is opened, and nothing is overwritten before all is loaded. */
 static int render_scene(render_job *job)
 {
-    if (!make_directory(job) || !open_stats(job))
-        return EXIT_FAILED;
+    const resume_wish wish = wish_of(job);
+    int code = make_directory(job);
+    if (code != EXIT_OK)
+        return code;
+    if (job->resume && !resume_find(&wish, &job->there, job->error, sizeof job->error)) {
+        fail(job);
+        return EXIT_USAGE;
+    }
     if (!shot_open(&job->shot, job->scene, &job->how, job->error, sizeof job->error)) {
         fail(job);
-        return EXIT_FAILED;
+        return job->shot.input_wrong ? EXIT_USAGE : EXIT_FAILED;
     }
-    fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0], job->frames[1],
-            job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
-    const int code = render_frames(job);
+    file_clean(job->directory);
+    code = EXIT_FAILED;
+    if (open_stats(job)) {
+        fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0],
+                job->frames[1], job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
+        code = render_frames(job);
+    }
     shot_close(&job->shot);
     if (code == EXIT_OK && job->preview && job->frames[1] > job->frames[0])
         make_film(job);
@@ -267,6 +352,7 @@ int render_run(int argc, char **argv)
         code = render_scene(job);
     if (job->stats_open)
         jsonl_close(&job->stats_file);
+    free(job->there);
     scene_file_free(job->scene);
     free(job);
     return code;

@@ -37,6 +37,25 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
     return *layers || options_complain("render", "--layers: expected at least one layer");
 }
 
+uint32_t frame_layers_in(const char *channels)
+{
+    static const char *const first[LAYER_COUNT] = {",R,", ",Z,", ",rain.R,", ",velocity.X,", ",normal.X,", ",id.Y,"};
+    uint32_t layers = 0;
+    for (size_t i = 0; i < LAYER_COUNT; i++)
+        if (strstr(channels, first[i]))
+            layers |= 1u << i;
+    return layers;
+}
+
+void frame_layers_print(uint32_t layers, char *text, size_t size)
+{
+    size_t used = 0;
+    snprintf(text, size, "none");
+    for (size_t i = 0; i < LAYER_COUNT && used < size; i++)
+        if (layers & 1u << i)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer_names[i]);
+}
+
 /* ---- EXR */
 
 typedef struct exr_parts {
@@ -81,13 +100,14 @@ static void compose(const shot *s, float *beauty)
             beauty[i * 4 + c] = s->frame.layer[i * 4 + c] + s->frame.color[i * 4 + c] * (1 - s->frame.layer[i * 4 + 3]);
 }
 
-static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32_t frame, uint32_t seed,
-                                exr_attribute *out, char *hash)
+static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32_t frame, exr_attribute *out,
+                                char *hash, char *digits)
 {
     uint32_t n = 0;
     const double fps = s->scene->frames.fps;
     snprintf(hash, 32, "%016llx", (unsigned long long)scene_file_hash(s->scene));
-    out[n++] = (exr_attribute){.name = "seed", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)seed};
+    out[n++] = exr_attribute_uint("seed", s->scene->rain.seed, digits);
+    out[n++] = (exr_attribute){.name = "samples", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)s->options.samples};
     out[n++] = (exr_attribute){.name = "frame", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)frame};
     out[n++] = (exr_attribute){.name = "time", .kind = EXR_ATTRIBUTE_DOUBLE, .real64 = shot_time(s, frame)};
     out[n++] = (exr_attribute){.name = "sceneHash", .kind = EXR_ATTRIBUTE_STRING, .string = hash};
@@ -103,7 +123,7 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
 }
 
 bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
-                     uint32_t seed, char *error, size_t error_size)
+                     char *error, size_t error_size)
 {
     const size_t pixels = (size_t)s->frame.width * s->frame.height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty), *distance = malloc(pixels * sizeof *distance);
@@ -116,15 +136,15 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
     exr_parts parts = {.count = 0};
-    exr_attribute attributes[8];
-    char path[4096], hash[32];
+    exr_attribute attributes[9];
+    char path[4096], hash[32], digits[EXR_UINT_DIGITS];
     collect(s, layers, beauty, distance, &parts);
     const exr_frame file = {.width = s->frame.width,
                             .height = s->frame.height,
                             .channels = parts.channels,
                             .channel_count = parts.count,
                             .attributes = attributes,
-                            .attribute_count = fill_attributes(s, camera, frame, seed, attributes, hash)};
+                            .attribute_count = fill_attributes(s, camera, frame, attributes, hash, digits)};
     snprintf(path, sizeof path, "%s/frame.%04u.exr", directory, frame);
     const bool written = exr_write(path, &file, error, error_size);
     free(beauty);

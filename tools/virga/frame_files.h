@@ -19,9 +19,13 @@ enum {
 /* Bits of a list such as "beauty,rain"; NULL: all. Says one line and returns false for a wrong name. */
 bool frame_layers_parse(const char *list, uint32_t *layers);
 
+/* Layers that a picture with these channels (as exr_header has them) holds, and their list as --layers takes it. */
+uint32_t frame_layers_in(const char *channels);
+void frame_layers_print(uint32_t layers, char *text, size_t size);
+
 /* Writes s->frame as DIR/frame.%04u.exr. */
 bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
-                     uint32_t seed, char *error, size_t error_size);
+                     char *error, size_t error_size);
 
 /* Writes DIR/preview.%04u.png. */
 bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);

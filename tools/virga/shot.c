@@ -30,6 +30,14 @@ static bool check(const shot *s, virga_result result, const char *what, char *er
                      s->warning);
 }
 
+/* Notes that what fails here is wrong input. A file that this machine has no room for counts as such too: it will not
+ * have it the next time either. */
+static bool blame_input(shot *s, bool right)
+{
+    s->input_wrong = !right;
+    return right;
+}
+
 static bool open_device(shot *s, char *error, size_t error_size)
 {
     host_device_info infos[HOST_MAX_DEVICES];
@@ -37,8 +45,10 @@ static bool open_device(shot *s, char *error, size_t error_size)
     if (!host_instance_create(&s->instance, false, error, error_size))
         return false;
     const uint32_t count = host_devices_list(&s->instance, infos, HOST_MAX_DEVICES);
-    if (!host_device_pick(infos, count, s->options.device, &index, error, error_size))
+    if (!host_device_pick(infos, count, s->options.device, &index, error, error_size)) {
+        s->input_wrong = count && s->options.device;
         return false;
+    }
     s->info = infos[index];
     if (!host_device_create(&s->device, &s->instance, &infos[index], error, error_size))
         return false;
@@ -87,7 +97,8 @@ static bool load_meshes(shot *s, char *error, size_t error_size)
     for (uint32_t i = 0; i < s->scene->mesh_count; i++) {
         float transform[12];
         place_mesh(&s->scene->meshes[i], transform);
-        if (!host_mesh_load(&s->device, s->scene->meshes[i].file, transform, &s->meshes[i], error, error_size))
+        const char *path = s->scene->meshes[i].file;
+        if (!blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
             return false;
         s->meshes_loaded++;
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
@@ -113,7 +124,7 @@ static bool load_environment(shot *s, char *error, size_t error_size)
     float *pixels = NULL;
     if (from->file) {
         uint64_t repaired = 0;
-        if (!exr_read_rgb(from->file, &def.width, &def.height, &pixels, &repaired, error, error_size))
+        if (!blame_input(s, exr_read_rgb(from->file, &def.width, &def.height, &pixels, &repaired, error, error_size)))
             return false;
         if (repaired)
             host_warn(&s->device, "%s: %llu values were not finite or below zero and count as 0", from->file,
@@ -170,7 +181,7 @@ static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error,
     s->settings.sizes.kind = (virga_sizes_kind)from->sizes;
     if (from->sizes != SCENE_SIZES_TABLE)
         return true;
-    if (from->table_count > 256)
+    if (!blame_input(s, from->table_count <= 256))
         return host_fail(error, error_size, "rain.table: expected at most 256 entries, got %u", from->table_count);
     for (uint32_t i = 0; i < from->table_count; i++) {
         diameters[i] = from->table[i].diameter_mm * 1e-3;
@@ -240,16 +251,25 @@ static bool open_rain(shot *s, char *error, size_t error_size)
            check(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
 }
 
+static bool make_target(shot *s, char *error, size_t error_size)
+{
+    const uint32_t width = s->options.width, height = s->options.height;
+    const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
+    const bool made = host_target_create(&s->device, width, height, &s->target, error, error_size);
+    s->input_wrong = !made && (width > limit || height > limit);
+    return made;
+}
+
 static bool open_all(shot *s, char *error, size_t error_size)
 {
     s->camera_keys = calloc(s->scene->camera.key_count, sizeof *s->camera_keys);
     if (!s->camera_keys)
         return host_fail(error, error_size, "no memory for the camera's path");
     load_camera(s);
-    if (!host_camera_path_check(&s->path, error, error_size) || !open_device(s, error, error_size))
+    if (!blame_input(s, host_camera_path_check(&s->path, error, error_size)) || !open_device(s, error, error_size))
         return false;
     if (s->options.draw &&
-        (!host_target_create(&s->device, s->options.width, s->options.height, &s->target, error, error_size) ||
+        (!make_target(s, error, error_size) ||
          !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) ||
          !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
         return false;
@@ -266,7 +286,9 @@ bool shot_open(shot *s, const scene_file *scene, const shot_options *options, ch
     s->frame_index = scene->frames.first - 1;
     if (open_all(s, error, error_size))
         return true;
+    const bool input_wrong = s->input_wrong;
     shot_close(s);
+    s->input_wrong = input_wrong;
     return false;
 }
 

@@ -46,6 +46,7 @@ typedef struct shot {
     uint32_t frame_index;   /* scene frame that the simulation stands at; first - 1 before any */
     double camera_time_s;   /* of the frame that the simulation stands at */
     char warning[512];      /* newest line that the library logged as warning or error */
+    bool input_wrong;       /* shot_open failed because of what was asked for, not because of the machine */
 } shot;
 
 /* One drop of the point cache. */
@@ -55,7 +56,7 @@ typedef struct shot_point {
     float age_s, weight;
 } shot_point;
 
-/* Loads everything. On failure nothing is left open and `error` has one line. */
+/* Loads everything. On failure nothing is left open, `error` has one line and s->input_wrong says whose fault it is. */
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);
 void shot_close(shot *s);
 
