@@ -99,34 +99,6 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     return VIRGA_OK;
 }
 
-/* A blob of another driver or device must not reach the driver: its header says whose it is. */
-static bool cache_blob_fits(const virga_context *context, const virga_context_def *def)
-{
-    VkPipelineCacheHeaderVersionOne header;
-    if (!def->pipeline_cache || def->pipeline_cache_size < sizeof header)
-        return false;
-    memcpy(&header, def->pipeline_cache, sizeof header);
-    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-           header.vendorID == context->properties.vendorID && header.deviceID == context->properties.deviceID &&
-           !memcmp(header.pipelineCacheUUID, context->properties.pipelineCacheUUID, VK_UUID_SIZE);
-}
-
-static virga_result create_pipeline_cache(virga_context *context, const virga_context_def *def)
-{
-    virga_result result = VIRGA_OK;
-    const bool fits = cache_blob_fits(context, def);
-    if (def->pipeline_cache_size && !fits)
-        virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_PIPELINE_CACHE,
-                      "the pipeline cache blob is from another driver or device; starting with an empty one");
-    const VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
-                                            .initialDataSize = fits ? def->pipeline_cache_size : 0,
-                                            .pInitialData = fits ? def->pipeline_cache : NULL};
-    VK_TRY(context, CreatePipelineCache(context->device, &info, NULL, &context->pipeline_cache));
-    context->objects++;
-error:
-    return result;
-}
-
 static virga_result create_timers(virga_context *context, const virga_context_def *def)
 {
     virga_result result = VIRGA_OK;
@@ -214,7 +186,7 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
     context->vk.GetPhysicalDeviceProperties(def->physical_device, &context->properties);
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
-    TRY(create_pipeline_cache(context, def));
+    TRY(virga_pipeline_cache_create(context, def->pipeline_cache, def->pipeline_cache_size));
     TRY(create_timers(context, def));
     TRY(create_samplers(context));
 error:
@@ -304,6 +276,8 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
 {
     if (!context)
         return VIRGA_ERROR_INVALID;
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     if (completed_index < context->completed_index || completed_index > context->frame_index) {
         virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
                       "frame %llu said to be complete, between %llu and %llu expected",

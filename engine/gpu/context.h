@@ -42,8 +42,8 @@ typedef struct virga_buffer {
 typedef struct virga_image_2d {
     virga_resource resource; /* first */
     VkImage image;
-    VkImageView view; /* all layers, as a 2D array */
-    VkImageView *layer_views;
+    VkImageView view;         /* all layers, as a 2D array */
+    VkImageView *layer_views; /* one layer each, as plain 2D */
     uint32_t layers;
     VkExtent2D extent;
     VkFormat format;
@@ -152,7 +152,8 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
 
-/* Lets go of a resource (buffer, image, pipeline) and sets the pointer to NULL; accepts NULL. */
+/* Lets go of a resource (buffer, image, pipeline): at once where every frame begun has completed, else when the newest
+ * has. The macro sets the pointer to NULL, and accepts NULL. */
 void virga_retire(virga_context *context, virga_resource *resource);
 #define VIRGA_RETIRE(context, pointer)                   \
     do {                                                 \
@@ -197,6 +198,9 @@ typedef struct virga_graphics_def {
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **pipeline);
 
+/* The context's pipeline cache, from a blob of virga_pipeline_cache_get (or NULL). One that is not whole or from
+ * another driver or device is ignored, with a line. */
+virga_result virga_pipeline_cache_create(virga_context *context, const void *blob, size_t size);
 /* ---- bindings.c: one set of bindings an effect, the same for all of its passes */
 
 #define VIRGA_MAX_BINDINGS 32

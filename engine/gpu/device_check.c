@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define STORAGE_BUFFERS 10 /* that one pass can see: as many as rain's binding model has. Vulkan promises four */
+
 #define FEATURE_12(member, why)                                                                                    \
     {                                                                                                              \
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, offsetof(VkPhysicalDeviceVulkan12Features, member), \
@@ -62,6 +64,30 @@ static virga_result refuse(char *reason, size_t size, const char *format, const 
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
+/* A log that keeps the text of its newest line. */
+typedef struct kept_line {
+    char *text;
+    size_t size;
+} kept_line;
+
+static void keep_line(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    const kept_line *line = user;
+    (void)level;
+    (void)id;
+    if (line->text && line->size)
+        snprintf(line->text, line->size, "%s", text);
+}
+
+static virga_result check_limits(const VkPhysicalDeviceLimits *limits, char *reason, size_t size)
+{
+    if (limits->maxComputeWorkGroupInvocations < 256 || limits->maxComputeWorkGroupSize[0] < 256)
+        return refuse(reason, size, "%s%s", "has compute workgroups of fewer than 256 invocations", "");
+    if (limits->maxPerStageDescriptorStorageBuffers < STORAGE_BUFFERS)
+        return refuse(reason, size, "%s%s", "lets a shader see fewer than 10 storage buffers", "");
+    return VIRGA_OK;
+}
+
 static virga_result check_features(const virga_functions *vk, VkPhysicalDevice device, char *reason, size_t size)
 {
     VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -91,8 +117,10 @@ virga_result virga_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr
     memset(&vk, 0, sizeof vk);
     if (!get_instance_proc_addr || !instance || !physical_device)
         return VIRGA_ERROR_INVALID;
-    if (virga_functions_load_instance(&vk, NULL, get_instance_proc_addr, instance))
-        return refuse(reason, reason_size, "%s%s", "the instance lacks functions of Vulkan 1.2", "");
+    kept_line line = {reason, reason_size};
+    const virga_log log = {keep_line, &line};
+    if (virga_functions_load_instance(&vk, &log, get_instance_proc_addr, instance))
+        return VIRGA_ERROR_UNSUPPORTED;
 
     VkPhysicalDeviceProperties properties;
     vk.GetPhysicalDeviceProperties(physical_device, &properties);
@@ -102,8 +130,8 @@ virga_result virga_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr
                  VK_API_VERSION_MINOR(properties.apiVersion));
         return refuse(reason, reason_size, "knows Vulkan %s, and %s is needed", version, "1.2");
     }
-    if (properties.limits.maxComputeWorkGroupInvocations < 256 || properties.limits.maxComputeWorkGroupSize[0] < 256)
-        return refuse(reason, reason_size, "%s%s", "has compute workgroups of fewer than 256 invocations", "");
-    virga_result result = check_features(&vk, physical_device, reason, reason_size);
+    virga_result result = check_limits(&properties.limits, reason, reason_size);
+    if (!result)
+        result = check_features(&vk, physical_device, reason, reason_size);
     return result ? result : check_formats(&vk, physical_device, reason, reason_size);
 }

@@ -6,7 +6,9 @@
 
 #include <string.h>
 
-#define PAGE_BYTES ((VkDeviceSize)32 << 20) /* larger requests get a page of their own size */
+#define PAGE_BYTES  ((VkDeviceSize)32 << 20) /* requests above half of it get a page of their own size */
+#define PAGE_ROUND  ((VkDeviceSize)65536)
+#define PAGE_BUDGET 64 /* pages that a budget should hold at least, so that little of it lies in pages unused */
 #define MAX_RANGES \
     256 /* free ranges a page remembers; beyond, a released range is lost to it
                                              * until the page is empty */
@@ -154,9 +156,32 @@ error:
     return result;
 }
 
+/* DEVICE_MEMORY where `size` more bytes would pass the budget. */
+static virga_result check_budget(virga_context *context, VkDeviceSize size, const char *name)
+{
+    const VkDeviceSize budget = context->memory_budget, taken = context->device_bytes;
+    if (!budget || (taken <= budget && size <= budget - taken))
+        return VIRGA_OK;
+    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY,
+                  "%s needs %llu bytes and the budget of %llu bytes has %llu left", name, (unsigned long long)size,
+                  (unsigned long long)budget, (unsigned long long)(taken < budget ? budget - taken : 0));
+    return VIRGA_ERROR_DEVICE_MEMORY;
+}
+
+/* Size of the page to be made for a request. */
+static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
+{
+    const VkDeviceSize budget = context->memory_budget, own = align_up(need, PAGE_ROUND);
+    VkDeviceSize common = PAGE_BYTES;
+    if (budget && budget / PAGE_BUDGET < common)
+        common = align_up(budget / PAGE_BUDGET + 1, PAGE_ROUND);
+    const bool fits = !budget || context->device_bytes + common <= budget;
+    return need > common / 2 || !fits ? own : common;
+}
+
 /* A page with room, or a new one. */
 static virga_result take_from_pages(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
-                                    bool for_image, virga_memory *memory)
+                                    bool for_image, const char *name, virga_memory *memory)
 {
     VkDeviceSize offset = 0;
     virga_memory_page *page = context->pages;
@@ -165,10 +190,10 @@ static virga_result take_from_pages(virga_context *context, const VkMemoryRequir
             page_take(page, need->size, need->alignment, &offset))
             break;
     if (!page) {
-        VkDeviceSize size = need->size > PAGE_BYTES / 2 ? align_up(need->size, 65536) : PAGE_BYTES;
-        if (context->memory_budget && context->device_bytes + size > context->memory_budget)
-            size = align_up(need->size, 65536);
-        const virga_result result = page_create(context, size, type_index, for_image, &page);
+        const VkDeviceSize size = page_size(context, need->size);
+        virga_result result = check_budget(context, size, name);
+        if (!result)
+            result = page_create(context, size, type_index, for_image, &page);
         if (result)
             return result;
         page_take(page, need->size, need->alignment, &offset);
@@ -179,8 +204,11 @@ static virga_result take_from_pages(virga_context *context, const VkMemoryRequir
 }
 
 static virga_result take_from_host(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
-                                   bool mapped, virga_memory *memory)
+                                   bool mapped, const char *name, virga_memory *memory)
 {
+    const virga_result result = check_budget(context, need->size, name);
+    if (result)
+        return result;
     const VkResult taken =
         context->device_memory.alloc(context->device_memory.user, need, type_index, mapped, &memory->block);
     if (taken != VK_SUCCESS)
@@ -200,17 +228,10 @@ virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequire
         virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY, "no memory type suits %s", name);
         return VIRGA_ERROR_DEVICE_MEMORY;
     }
-    if (context->memory_budget && context->device_used + requirements->size > context->memory_budget) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY,
-                      "%s needs %llu bytes and the budget of %llu bytes has %llu left", name,
-                      (unsigned long long)requirements->size, (unsigned long long)context->memory_budget,
-                      (unsigned long long)(context->memory_budget - context->device_used));
-        return VIRGA_ERROR_DEVICE_MEMORY;
-    }
     const bool mapped = wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
     const virga_result result = context->device_memory.alloc
-                                    ? take_from_host(context, requirements, type, mapped, memory)
-                                    : take_from_pages(context, requirements, type, for_image, memory);
+                                    ? take_from_host(context, requirements, type, mapped, name, memory)
+                                    : take_from_pages(context, requirements, type, for_image, name, memory);
     if (result)
         return result;
     memory->size = requirements->size;

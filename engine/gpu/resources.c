@@ -36,10 +36,25 @@ static void heap_flags(virga_heap_kind heap, VkMemoryPropertyFlags *wanted, VkMe
                      : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
+/* What the device sets a limit to is asked before it is made: beyond it the device may do anything. */
+static virga_result check_limit(virga_context *context, const char *name, const char *what, VkDeviceSize value,
+                                VkDeviceSize limit)
+{
+    if (value <= limit)
+        return VIRGA_OK;
+    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "%s: %llu %s, and the device allows %llu",
+                  name, (unsigned long long)value, what, (unsigned long long)limit);
+    return VIRGA_ERROR_UNSUPPORTED;
+}
+
 virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
                                  virga_heap_kind heap, const char *name, virga_buffer **created)
 {
     virga_result result = VIRGA_OK;
+    if (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)
+        result = check_limit(context, name, "bytes", size, context->properties.limits.maxStorageBufferRange);
+    if (result)
+        return result;
     virga_buffer *buffer = virga_alloc(&context->heap, sizeof *buffer);
     if (!buffer)
         return virga_out_of_host_memory(context, name);
@@ -141,7 +156,13 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **created)
 {
-    virga_result result = VIRGA_OK;
+    const VkPhysicalDeviceLimits *limits = &context->properties.limits;
+    const uint32_t side = extent.width > extent.height ? extent.width : extent.height;
+    virga_result result = check_limit(context, name, "texels a side", side, limits->maxImageDimension2D);
+    if (!result)
+        result = check_limit(context, name, "layers", layers, limits->maxImageArrayLayers);
+    if (result)
+        return result;
     virga_image_2d *image = virga_alloc(&context->heap, sizeof *image);
     if (!image)
         return virga_out_of_host_memory(context, name);
@@ -190,6 +211,10 @@ void virga_retire(virga_context *context, virga_resource *resource)
     resource->last_frame = context->frame_index;
     resource->next = context->graveyard;
     context->graveyard = resource;
+    /* No device work is under way, so nothing has to wait: memory is free for what is made next, a create that failed
+     * half-way leaves nothing behind, and a host that has no more frames gets everything back. */
+    if (context->frame_index == context->completed_index)
+        virga_graveyard_sweep(context, false);
 }
 
 void virga_graveyard_sweep(virga_context *context, bool all)

@@ -321,8 +321,8 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     if (!ground)
         return;
     const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
-    *maps = (virga_ground_maps){.wet = ground->wet_map->view,
-                                .spots = ground->spot_map->view,
+    *maps = (virga_ground_maps){.wet = ground->wet_map->layer_views[0],
+                                .spots = ground->spot_map->layer_views[0],
                                 .cells = ground->def.cells,
                                 .cell_m = ground->def.cell_m,
                                 .base_m = (float)ground->base_m};

@@ -8,6 +8,7 @@
 #define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
 #define SURVEY_TOP_M  256.0 /* above the camera */
 #define SURVEY_DEEP_M 512.0
+#define NEVER_SEEN    0x80000000u /* as in shaders/ground/adopt.comp */
 #define TILE_GROUPS   (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 
 static uint32_t ring_bytes(size_t size)
@@ -38,6 +39,7 @@ static void take_counts(virga_ground *ground, uint32_t slot)
     memcpy(&read, (const char *)ground->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
     virga_ground_stats *stats = &ground->stats;
     stats->frame_index = ground->frame_of_slot[slot];
+    stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->elsewhere_nl = count_of(&read, VIRGA_GROUND_ELSEWHERE);
     stats->infiltrated_nl = count_of(&read, VIRGA_GROUND_INFILTRATED);
@@ -107,6 +109,8 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->survey_top_m = (float)(ground->base_m + SURVEY_TOP_M);
     out->survey_height_m = (float)SURVEY_DEEP_M;
     out->base_m = (float)ground->base_m;
+    out->start_wetness = ground->settings.start_wetness;
+    out->start_water_um = ground->settings.start_water_mm * 1e3f;
     out->tiles_entering = ground->move.entering_count;
     out->tiles_forgotten = ground->move.forgotten_count;
     ground_fill_soils(&ground->settings, cell, out->soils);
@@ -216,7 +220,9 @@ static void write_lists(virga_ground *ground)
     ground->list_offset = ground->context->ring_slot * ground_list_bytes();
     char *mapped = ground->list_ring->memory.block.mapped;
     ground_lists *lists = (ground_lists *)(mapped + ground->list_offset);
-    memcpy(lists->entering, ground->move.entering, ground->move.entering_count * sizeof lists->entering[0]);
+    for (uint32_t i = 0; i < ground->move.entering_count; i++)
+        lists->entering[i] =
+            ground->move.entering[i] | (ground->move.entering_from[i] == GROUND_NEW ? NEVER_SEEN : 0);
     memcpy(lists->forgotten, ground->move.forgotten, ground->move.forgotten_count * sizeof lists->forgotten[0]);
     virga_buffer_flush(ground->context, ground->list_ring, ground->list_offset, ground_list_bytes());
 }
@@ -225,8 +231,10 @@ static void write_lists(virga_ground *ground)
 static void enter_all(ground_move *move, uint32_t tiles)
 {
     move->entering_count = tiles * tiles;
-    for (uint32_t i = 0; i < move->entering_count; i++)
+    for (uint32_t i = 0; i < move->entering_count; i++) {
         move->entering[i] = i;
+        move->entering_from[i] = 0; /* the water is there */
+    }
 }
 
 static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
@@ -244,12 +252,12 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     bind(ground, cmd);
     if (moved)
         move_tiles(ground, cmd);
-    if (ground->survey_all) {
+    if (ground->survey_all && !moved) {
         enter_all(&ground->move, ground->window.tiles);
         write_lists(ground);
     }
     survey(ground, cmd, info);
-    ground->survey_all = false;
+    ground->survey_all = ground->survey_all && moved; /* all of them in the next step */
     virga_pass_end(ground->context, cmd, scope);
 }
 

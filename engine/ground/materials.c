@@ -58,9 +58,13 @@ virga_result ground_check_settings(const virga_log *log, virga_ground_settings *
         check(log, &m->bumps_mm, 0, 50, "ground_settings.materials.bumps_mm", &changed);
         check(log, &m->bump_m, 0.2, 50, "ground_settings.materials.bump_m", &changed);
     }
-    if (virga_settings_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1))
+    if (virga_settings_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1) ||
+        virga_settings_finite(log, "ground_settings.start_wetness", &settings->start_wetness, 1) ||
+        virga_settings_finite(log, "ground_settings.start_water_mm", &settings->start_water_mm, 1))
         return VIRGA_ERROR_INVALID;
     check(log, &settings->evaporation_mm_h, 0, 100, "ground_settings.evaporation_mm_h", &changed);
+    check(log, &settings->start_wetness, 0, 1, "ground_settings.start_wetness", &changed);
+    check(log, &settings->start_water_mm, 0, 50, "ground_settings.start_water_mm", &changed);
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 

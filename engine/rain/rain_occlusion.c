@@ -135,10 +135,19 @@ static virga_result check_call(const virga_rain *rain, const double camera_m[3])
     return camera_m ? virga_settings_finite_double(&rain->context->log, "camera_m", camera_m, 3) : VIRGA_OK;
 }
 
+/* The same for calls that record: what they use belongs to a frame. */
+static virga_result check_recording(const virga_rain *rain, const double camera_m[3])
+{
+    const virga_result result = check_call(rain, camera_m);
+    if (result || rain->context->frame_index)
+        return result;
+    return virga_wrong_argument(&rain->context->log, "occlusion: expected virga_frame_begin before it");
+}
+
 virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
                                   const virga_occluder *occluders, uint32_t count)
 {
-    virga_result result = check_call(rain, camera_m);
+    virga_result result = check_recording(rain, camera_m);
     if (result)
         return result;
     if (!cmd || !camera_m || (count && !occluders))
@@ -196,7 +205,7 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
 
 virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth)
 {
-    const virga_result result = check_call(rain, NULL);
+    const virga_result result = check_recording(rain, NULL);
     if (result)
         return result;
     const uint32_t count = rain->def.occlusion_cascades * rain->def.occlusion_slants;

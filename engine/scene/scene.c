@@ -8,12 +8,26 @@
 struct virga_scene {
     virga_context *context;
     virga_rain *rain;
+    virga_ground *ground; /* NULL: none */
 };
 
 virga_scene_def virga_default_scene_def(void)
 {
     return (virga_scene_def){
-        .size = sizeof(virga_scene_def), .cookie = SCENE_COOKIE, .rain = virga_default_rain_def()};
+        .size = sizeof(virga_scene_def), .cookie = SCENE_COOKIE, .rain = virga_default_rain_def(), .ground = virga_default_ground_def()};
+}
+
+/* What must be the same as the rain's is taken from it. */
+static virga_result create_ground(virga_context *context, const virga_scene_def *def, virga_ground **ground)
+{
+    virga_ground_def taken = def->ground;
+    taken.seed = def->rain.seed;
+    taken.tick_s = def->rain.tick_s;
+    taken.max_impacts = def->rain.max_impacts;
+    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
+    for (int i = 0; i < 4; i++)
+        taken.occluder_strides[i] = def->rain.occluder_strides[i];
+    return virga_ground_create(context, &taken, ground);
 }
 
 virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene)
@@ -31,6 +45,8 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
         return virga_out_of_host_memory(context, "a scene");
     made->context = context;
     result = virga_rain_create(context, &def->rain, &made->rain);
+    if (result >= 0 && def->with_ground)
+        result = create_ground(context, def, &made->ground);
     if (result < 0)
         virga_scene_destroy(&made);
     *scene = made;
@@ -41,6 +57,7 @@ void virga_scene_destroy(virga_scene **scene)
 {
     if (!scene || !*scene)
         return;
+    virga_ground_destroy(&(*scene)->ground);
     virga_rain_destroy(&(*scene)->rain);
     virga_free(&(*scene)->context->heap, *scene);
     *scene = NULL;
@@ -51,10 +68,29 @@ virga_rain *virga_scene_rain(virga_scene *scene)
     return scene ? scene->rain : NULL;
 }
 
+virga_ground *virga_scene_ground(virga_scene *scene)
+{
+    return scene ? scene->ground : NULL;
+}
+
 /* The first error, else the last remark. */
 static virga_result worst(virga_result a, virga_result b)
 {
     return a < 0 ? a : b ? b : a;
+}
+
+static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_rain_buffer impacts;
+    virga_rain_impacts(scene->rain, &impacts);
+    virga_ground_step_info info = {.meshes = frame->occluders,
+                                   .mesh_count = frame->occluder_count,
+                                   .impacts = impacts.buffer,
+                                   .impacts_offset = impacts.offset};
+    for (int axis = 0; axis < 3; axis++)
+        info.camera_m[axis] = frame->camera_m[axis];
+    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
+    return virga_ground_step(scene->ground, cmd, &info);
 }
 
 virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
@@ -69,6 +105,8 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         step.camera_m[axis] = frame->camera_m[axis];
     if (result >= 0)
         result = worst(result, virga_rain_step(scene->rain, cmd, &step));
+    if (result >= 0 && scene->ground)
+        result = worst(result, step_ground(scene, cmd, frame));
     if (result >= 0 && frame->view)
         result = worst(result, virga_rain_prepare(scene->rain, cmd, frame->view, virga_rain_time(scene->rain)));
     return result;

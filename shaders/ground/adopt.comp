@@ -6,6 +6,8 @@
 #include "cells.glsl"
 #include "shared/surface.glsl"
 
+#define NEVER_SEEN 0x80000000u // of an entry in the list: the tile comes without water
+
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Lists
 {
@@ -37,7 +39,8 @@ float bumps_um(ivec2 cell, virga_soil_gpu soil)
 
 void main()
 {
-    const uint tile = entering[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
+    const uint entry = entering[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
+    const uint tile = entry & ~NEVER_SEEN;
     const uint part = gl_WorkGroupID.x % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
     const uint place = (tile << (2 * TILE_SHIFT)) + part * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const ivec2 cell = cell_at_place(place);
@@ -45,9 +48,24 @@ void main()
     const float depth = texelFetch(survey_depth, texel, 0).r;
     const uint material = min(surface_material(texelFetch(survey_surface, texel, 0).r), VIRGA_GROUND_MATERIALS - 1u);
     virga_floor_gpu made = virga_floor_gpu(0, NO_GROUND);
+    virga_cell_gpu start = virga_cell_gpu(0u, 0u);
     if (depth < 1.0) {
         const float height_m = tick.survey_top_m - depth * tick.survey_height_m;
-        made = virga_floor_gpu(int(round(height_m * 1e6 + bumps_um(cell, tick.soils[material]))), material);
+        const virga_soil_gpu soil = tick.soils[material];
+        const float bump_um = bumps_um(cell, soil);
+        made = virga_floor_gpu(int(round(height_m * 1e6 + bump_um)), material);
+        // Rain that fell before has left the humps and stands in the hollows.
+        const float hump_um = max(bump_um + 0.5 * soil.bumps_um, 0.0);
+        const float depth_um = soil.drain != 0u ? 0.0 : max(tick.start_water_um - hump_um, 0.0);
+        start.free_nl = uint(depth_um * float(tick.nl_per_um));
+        start.held_nl = depth_um > 0.0 ? soil.capacity_nl : uint(float(soil.capacity_nl) * tick.start_wetness);
     }
     floors[place] = made;
+    if ((entry & NEVER_SEEN) == 0u)
+        return;
+    cells[place] = start;
+    if (start.free_nl > 0u)
+        count_water(VIRGA_GROUND_STARTED, start.free_nl);
+    if (start.held_nl > 0u)
+        count_water(VIRGA_GROUND_STARTED, start.held_nl);
 }

@@ -68,8 +68,8 @@ struct virga_ground_tick_gpu {
     float base_m;       /* that heights in the map count from */
     uint tiles_entering;
     uint tiles_forgotten;
-    uint first_impact_pad;
-    uint pad;
+    float start_wetness;
+    float start_water_um;
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
 };
 
@@ -86,13 +86,14 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_RUN_OFF     3  /* into drains */
 #define VIRGA_GROUND_EVAPORATED  4
 #define VIRGA_GROUND_FORGOTTEN   5  /* with tiles that there was no room to keep */
-#define VIRGA_GROUND_FIRST_MEASURED 6
-#define VIRGA_GROUND_FILM        6  /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES     7  /* free water of puddles */
-#define VIRGA_GROUND_HELD        8
-#define VIRGA_GROUND_KEPT        9  /* all water of tiles outside of the window */
-#define VIRGA_GROUND_CELLS       10 /* cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS      16
+#define VIRGA_GROUND_STARTED     6  /* that cells came with */
+#define VIRGA_GROUND_FIRST_MEASURED 7
+#define VIRGA_GROUND_FILM        7  /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES     8  /* free water of puddles */
+#define VIRGA_GROUND_HELD        9
+#define VIRGA_GROUND_KEPT        10  /* all water of tiles outside of the window */
+#define VIRGA_GROUND_CELLS       11 /* cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS      17
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_floor_gpu, 8);

@@ -21,7 +21,7 @@ static void check_budget(void)
     virga_ground_stats s;
     virga_ground_stats_get(f.ground, &s);
     assert_true(s.landed_nl > 0);
-    assert_int_equal(s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl + s.run_off_nl +
+    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl + s.run_off_nl +
                                       s.evaporated_nl + s.forgotten_nl);
 }
 

@@ -13,9 +13,10 @@ bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t heigh
     a->layer = calloc(pixels, 4 * sizeof(float));
     a->normal = calloc(pixels, 4 * sizeof(float));
     a->velocity = calloc(pixels, 2 * sizeof(float));
+    a->water = calloc(pixels, 2 * sizeof(float));
     a->depth = calloc(pixels, sizeof(float));
     a->id = calloc(pixels, sizeof(uint32_t));
-    if (a->color && a->layer && a->normal && a->velocity && a->depth && a->id)
+    if (a->color && a->layer && a->normal && a->velocity && a->water && a->depth && a->id)
         return true;
     host_accumulator_destroy(a);
     return host_fail(error, error_size, "no memory for a picture of %u x %u", width, height);
@@ -27,6 +28,7 @@ void host_accumulator_destroy(host_accumulator *a)
     free(a->layer);
     free(a->normal);
     free(a->velocity);
+    free(a->water);
     free(a->depth);
     free(a->id);
     memset(a, 0, sizeof *a);
@@ -56,6 +58,7 @@ void host_accumulator_add(host_accumulator *a, const host_device *device, const 
     add(a->layer, host_target_floats(device, target, HOST_LAYER), pixels * 4, first);
     add(a->normal, host_target_floats(device, target, HOST_NORMAL), pixels * 4, first);
     add(a->velocity, host_target_floats(device, target, HOST_VELOCITY), pixels * 2, first);
+    add(a->water, host_target_floats(device, target, HOST_WATER), pixels * 2, first);
     if (first || keep) {
         memcpy(a->depth, host_target_floats(device, target, HOST_DEPTH), pixels * sizeof(float));
         memcpy(a->id, host_target_ids(device, target), pixels * sizeof(uint32_t));
@@ -79,6 +82,7 @@ void host_accumulator_finish(host_accumulator *a)
     scale(a->layer, pixels * 4, factor);
     scale(a->normal, pixels * 4, factor);
     scale(a->velocity, pixels * 2, factor);
+    scale(a->water, pixels * 2, factor);
     for (size_t i = 0; i < pixels; i++) {
         float *n = &a->normal[i * 4];
         float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -12,6 +12,7 @@ typedef struct host_accumulator {
     float *layer;    /* RGBA, premultiplied */
     float *normal;   /* RGBA: unit length again after finish */
     float *velocity; /* XY */
+    float *water;    /* wetness, depth (m) */
     float *depth;    /* of one sub-frame: means of depths lie where nothing is */
     uint32_t *id;    /* of the same one */
 } host_accumulator;

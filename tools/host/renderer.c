@@ -28,6 +28,9 @@ static bool create_samplers(host_renderer *r, char *error, size_t error_size)
     HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->sky_sampler));
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->volume_sampler));
+    info.magFilter = info.minFilter = VK_FILTER_NEAREST;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->point_sampler));
     return true;
 }
 
@@ -50,7 +53,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
 {
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 3},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5},
     };
     VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
@@ -76,7 +79,23 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
     };
     vkUpdateDescriptorSets(r->device->device, 1, &write, 0, NULL);
     write_image(r, r->frame_set, 3, r->volume_sampler, &r->skylight.volume);
+    write_image(r, r->frame_set, 4, r->point_sampler, &r->white);
+    write_image(r, r->frame_set, 5, r->point_sampler, &r->blank_spots);
     return true;
+}
+
+/* Bound where there is no ground. */
+static bool create_blank_spots(host_renderer *r, char *error, size_t error_size)
+{
+    static const uint32_t none = 0;
+    host_image_def def = {
+        .format = VK_FORMAT_R32_UINT,
+        .extent = {1, 1, 1},
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .name = "no spots",
+    };
+    return host_image_create(r->device, &def, &r->blank_spots, error, error_size) &&
+           host_image_upload(r->device, &r->blank_spots, &none, sizeof none, 4, error, error_size);
 }
 
 static bool create_white(host_renderer *r, char *error, size_t error_size)
@@ -105,7 +124,7 @@ bool host_renderer_create(host_device *device, const host_target *target, host_r
               host_buffer_create(device, sizeof(struct host_frame_gpu),
                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                  HOST_BUFFER_DEVICE, "plate frame", &r->frame_buffer, error, error_size) &&
-              create_white(r, error, error_size) &&
+              create_white(r, error, error_size) && create_blank_spots(r, error, error_size) &&
               host_renderer_build_pipelines(r, target->plate_pass, error, error_size) &&
               host_skylight_create(device, r->material_layout, &r->skylight, error, error_size) &&
               create_frame_set(r, error, error_size);
@@ -133,10 +152,12 @@ void host_renderer_destroy(host_renderer **renderer)
     vkDestroyDescriptorSetLayout(vk, r->material_layout, NULL);
     vkDestroyDescriptorSetLayout(vk, r->frame_layout, NULL);
     vkDestroySampler(vk, r->volume_sampler, NULL);
+    vkDestroySampler(vk, r->point_sampler, NULL);
     vkDestroySampler(vk, r->sky_sampler, NULL);
     vkDestroySampler(vk, r->mesh_sampler, NULL);
     host_skylight_destroy(r->device, &r->skylight);
     host_image_destroy(r->device, &r->white);
+    host_image_destroy(r->device, &r->blank_spots);
     host_buffer_destroy(r->device, &r->frame_buffer);
     free(r);
     *renderer = NULL;
@@ -202,6 +223,30 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
     write_image(r, r->frame_set, 1, r->sky_sampler, &environment->sky);
     write_image(r, r->frame_set, 2, r->sky_sampler, &environment->reflection);
     return true;
+}
+
+static void write_view(const host_renderer *r, uint32_t binding, VkImageView view)
+{
+    VkDescriptorImageInfo info = {r->point_sampler, view, VK_IMAGE_LAYOUT_GENERAL};
+    VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = r->frame_set,
+        .dstBinding = binding,
+        .descriptorCount = 1,
+        .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        .pImageInfo = &info,
+    };
+    vkUpdateDescriptorSets(r->device->device, 1, &write, 0, NULL);
+}
+
+void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
+{
+    const bool other = maps && maps->wet != r->ground.wet;
+    r->ground = maps ? *maps : (virga_ground_maps){0};
+    if (other) {
+        write_view(r, 4, maps->wet);
+        write_view(r, 5, maps->spots);
+    }
 }
 
 void host_renderer_set_lights(host_renderer *r, const virga_light *lights, uint32_t count)
@@ -273,6 +318,20 @@ static void fill_irradiance(const float sh[9][3], host_vec4 out[9])
             out[k][c] = factor[k] * sh[k][c];
 }
 
+static void fill_ground(const virga_ground_maps *maps, const host_camera *camera, struct host_frame_gpu *frame)
+{
+    if (!maps->cells)
+        return;
+    for (int axis = 0; axis < 2; axis++) {
+        const double cell = floor(maps->low_m[axis] / (double)maps->cell_m + 0.5);
+        frame->ground_low[axis * 2] = (float)(maps->low_m[axis] - camera->position_m[axis * 2]);
+        frame->ground_wrap[axis] = (float)(cell - floor(cell / maps->cells) * maps->cells);
+    }
+    frame->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
+    frame->ground_low[3] = 1.0f / maps->cell_m;
+    frame->ground_wrap[2] = (float)maps->cells;
+}
+
 static void fill_frame(const host_renderer *r, const host_target *target, const host_camera *camera,
                        const host_camera *previous, struct host_frame_gpu *frame)
 {
@@ -292,6 +351,7 @@ static void fill_frame(const host_renderer *r, const host_target *target, const 
     frame->environment[0] = r->environment->rotation / 6.28318531f;
     host_skylight_frame(&r->skylight, camera->position_m, frame);
     fill_irradiance(r->environment->sh, frame->irradiance);
+    fill_ground(&r->ground, camera, frame);
     for (uint32_t i = 0; i < r->light_count; i++)
         fill_light(&r->lights[i], camera, &frame->lights[i]);
 }

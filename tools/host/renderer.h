@@ -2,6 +2,7 @@
 #ifndef VIRGA_HOST_RENDERER_H
 #define VIRGA_HOST_RENDERER_H
 
+#include <virga/ground.h>
 #include <virga/rain.h>
 
 #include "camera.h"
@@ -25,6 +26,10 @@ bool host_renderer_set_environment(host_renderer *renderer, const host_environme
 
 /* Takes up to 16 lights, as the rain does; more are not used. */
 void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights, uint32_t count);
+
+/* Takes the maps of a wet ground, which are read where the meshes are drawn; NULL for none. The device must be idle when
+ * the images change; where they lie may change every frame. */
+void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *maps);
 
 /* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. */
 void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,

@@ -25,14 +25,15 @@ typedef struct host_entry { /* a mesh that was added */
 
 struct host_renderer {
     host_device *device;
-    VkSampler mesh_sampler, sky_sampler, volume_sampler;
+    VkSampler mesh_sampler, sky_sampler, volume_sampler, point_sampler;
     VkDescriptorSetLayout frame_layout, material_layout;
     VkPipelineLayout layout;
     VkPipeline pipelines[HOST_PIPELINE_COUNT][2]; /* [1]: two-sided */
     VkDescriptorPool frame_pool;
     VkDescriptorSet frame_set;
     host_buffer frame_buffer;
-    host_image white;
+    host_image white, blank_spots;
+    virga_ground_maps ground; /* cells 0: none */
     host_skylight skylight;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];

@@ -11,6 +11,7 @@ static const struct {
     [HOST_COLOR] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate color"},
     [HOST_NORMAL] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate normal"},
     [HOST_VELOCITY] = {VK_FORMAT_R32G32_SFLOAT, 2, "plate velocity"},
+    [HOST_WATER] = {VK_FORMAT_R32G32_SFLOAT, 2, "plate water"},
     [HOST_ID] = {VK_FORMAT_R32_UINT, 1, "plate id"},
     [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
     [HOST_LAYER] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "rain layer"},

@@ -10,19 +10,20 @@ typedef enum host_output {
     HOST_COLOR,    /* RGBA float: linear radiance, alpha 1 */
     HOST_NORMAL,   /* RGBA float: world normal, alpha 1; the sky is all zero */
     HOST_VELOCITY, /* XY float: pixels moved since a frame ago, right and down */
+    HOST_WATER,    /* XY float: wetness, depth of water (m) */
     HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
     HOST_DEPTH,    /* one float: 0 near to 1 far */
     HOST_LAYER,    /* RGBA float: premultiplied layer over the plate */
     HOST_OUTPUT_COUNT,
 } host_output;
 
-#define HOST_PLATE_COLORS 4 /* color attachments of the plate pass: the first four outputs */
+#define HOST_PLATE_COLORS 5 /* color attachments of the plate pass: the first five outputs */
 
 typedef struct host_target {
     uint32_t width, height;
     host_image images[HOST_OUTPUT_COUNT];
     host_buffer copies[HOST_OUTPUT_COUNT];
-    VkRenderPass plate_pass; /* clears and draws color, normal, velocity, id and depth */
+    VkRenderPass plate_pass; /* clears and draws color, normal, velocity, water, id and depth */
     VkRenderPass layer_pass; /* clears the layer; the plate's depth may be sampled */
     VkFramebuffer plate_framebuffer, layer_framebuffer;
 } host_target;

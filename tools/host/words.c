@@ -4,9 +4,10 @@
 #include <ctype.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 static const char *const names[] = {"default", "asphalt", "concrete", "stone", "brick",  "grass", "sand",   "soil",
-                                    "wood",    "metal",   "glass",    "water", "leaves", "cloth", "plastic"};
+                                    "wood",    "metal",   "glass",    "water", "leaves", "cloth", "plastic", "tile", "drain"};
 
 /* More telling words come first: "grass-road" is grass. */
 static const struct {
@@ -22,7 +23,7 @@ static const struct {
     {"steel", 9},    {"iron", 9},     {"lamp", 9},     {"truck", 9},     {"pylon", 9},    {"concrete", 2},
     {"pavement", 2}, {"sidewalk", 2}, {"curb", 2},     {"kerb", 2},      {"plaster", 2},  {"wall", 2},
     {"barr", 2},     {"building", 2}, {"house", 2},    {"roof", 2},      {"bridge", 2},   {"road", 1},
-    {"street", 1},
+    {"street", 1},   {"tile", 15},    {"gully", 16},    {"drain", 16},
 };
 
 static bool contains(const char *text, const char *word)
@@ -43,6 +44,26 @@ uint32_t host_material_word(const char *name)
         if (contains(name, words[i].word))
             return words[i].material;
     return 0;
+}
+
+bool host_material_find(const char *name, uint32_t *material)
+{
+    for (uint32_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(names[i], name)) {
+            *material = i;
+            return true;
+        }
+    return false;
+}
+
+bool host_name_contains(const char *name, const char *word)
+{
+    return contains(name, word);
+}
+
+bool host_material_is_ground(uint32_t material)
+{
+    return material <= 9 || material >= 15; /* not glass, water, leaves, cloth and plastic */
 }
 
 const char *host_material_name(uint32_t material)

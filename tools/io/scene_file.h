@@ -99,6 +99,23 @@ typedef struct scene_rain {
     uint32_t key_count;
 } scene_rain;
 
+typedef struct scene_ground_rule {
+    char *match;       /* in the name of a mesh or its material, in any case */
+    char *material;    /* as asphalt, concrete, ... */
+    bool walkable;     /* false: no cells on it */
+} scene_ground_rule;
+
+typedef struct scene_ground {
+    bool on;
+    uint32_t cells;
+    double cell_m;
+    uint32_t kept_tiles;
+    double evaporation_mm_h;
+    double start_wetness, start_water_mm;
+    scene_ground_rule *materials; /* the first that matches counts; none: words in names decide */
+    uint32_t material_count;
+} scene_ground;
+
 typedef struct scene_file {
     uint32_t version;
     scene_mesh *meshes;
@@ -110,6 +127,7 @@ typedef struct scene_file {
     scene_frames frames;
     scene_preview preview;
     scene_rain rain;
+    scene_ground ground;
     uint64_t hash; /* of the file's bytes and the overrides */
 } scene_file;
 

@@ -130,6 +130,26 @@ static const cyaml_schema_field_t rain_fields[] = {
     CYAML_FIELD_END,
 };
 
+static const cyaml_schema_field_t ground_rule_fields[] = {
+    CYAML_FIELD_STRING_PTR("match", CYAML_FLAG_POINTER, scene_ground_rule, match, 1, 200),
+    CYAML_FIELD_STRING_PTR("material", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, scene_ground_rule, material, 1, 40),
+    CYAML_FIELD_BOOL("walkable", D, scene_ground_rule, walkable),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t ground_rule = {CYAML_VALUE_MAPPING(D, scene_ground_rule, ground_rule_fields)};
+
+static const cyaml_schema_field_t ground_fields[] = {
+    CYAML_FIELD_BOOL("on", D, scene_ground, on),
+    WHOLE(scene_ground, cells),
+    NUMBER(scene_ground, cell_m),
+    WHOLE(scene_ground, kept_tiles),
+    NUMBER(scene_ground, evaporation_mm_h),
+    NUMBER(scene_ground, start_wetness),
+    NUMBER(scene_ground, start_water_mm),
+    LIST("materials", scene_ground, materials, material_count, &ground_rule, 0, 256),
+    CYAML_FIELD_END,
+};
+
 static const cyaml_schema_field_t scene_fields[] = {
     CYAML_FIELD_UINT("virga", D, scene_file, version),
     LIST("meshes", scene_file, meshes, mesh_count, &mesh, 0, 1024),
@@ -139,6 +159,7 @@ static const cyaml_schema_field_t scene_fields[] = {
     GROUP(scene_file, frames, frames_fields),
     GROUP(scene_file, preview, preview_fields),
     GROUP(scene_file, rain, rain_fields),
+    GROUP(scene_file, ground, ground_fields),
     CYAML_FIELD_END,
 };
 const cyaml_schema_value_t scene_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, scene_file, scene_fields)};
@@ -223,6 +244,20 @@ static const scene_rule rules[] = {
     {"rain.keys[].time_s", -ANY_M, ANY_M, NULL},
     {"rain.keys[].rate_mm_h", 0, 200, "@rain.rate_mm_h"},
     {"rain.keys[].wind_m_s", -60, 60, "@rain.wind_m_s"},
+
+    /* Ranges and defaults of the ground are the library's own: virga/ground.h. */
+    {"ground", 0, 0, "{}"},
+    {"ground.on", 0, 0, "false"},
+    {"ground.cells", 128, 4096, "1024"},
+    {"ground.cell_m", 0.01, 0.1, "0.05"},
+    {"ground.kept_tiles", 0, 65536, "1024"},
+    {"ground.evaporation_mm_h", 0, 100, "0.2"},
+    {"ground.start_wetness", 0, 1, "0"},
+    {"ground.start_water_mm", 0, 50, "0"},
+    {"ground.materials", 0, 0, "[]"},
+    {"ground.materials[].match", 0, 0, NULL},
+    {"ground.materials[].material", 0, 0, NULL},
+    {"ground.materials[].walkable", 0, 0, "true"},
 };
 
 const scene_rule *scene_rules(size_t *count)

@@ -21,7 +21,7 @@ static const option_row rows[] = {
     {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
     {"--samples", 0, "N", "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
                           "Default 1; 16 for film", false},
-    {"--layers", 0, "A,B", "of beauty, depth, rain, velocity, normal, id. Default: all", false},
+    {"--layers", 0, "A,B", "of beauty, depth, rain, velocity, normal, id, wetness, waterdepth. Default: all", false},
     {"--points", 0, NULL, "also write rain.%04d.ply, a point cache of the drops", false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
@@ -100,7 +100,9 @@ static bool load_scene(render_job *job)
         fprintf(stderr, "%s\n", job->error);
         return false;
     }
-    return true;
+    if (!job->scene->ground.on)
+        job->layers &= ~(uint32_t)(LAYER_WETNESS | LAYER_DEPTHS);
+    return job->layers || options_complain("render", "--layers: the scene has no ground; expected ground.on: true");
 }
 
 static bool read_ranges(render_job *job)
@@ -121,6 +123,7 @@ static bool read_ranges(render_job *job)
     job->how.height = size[1];
     job->how.draw = true;
     job->how.points = job->points;
+    job->how.stats = job->stats;
     job->how.device = options_value(&job->parsed, "--device");
     return true;
 }

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const layer_names[] = {"beauty", "depth", "rain", "velocity", "normal", "id"};
+static const char *const layer_names[] = {"beauty", "depth", "rain", "velocity", "normal", "id",
+                                         "wetness", "waterdepth"};
 
 #define LAYER_COUNT (sizeof layer_names / sizeof layer_names[0])
 
@@ -29,7 +30,7 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
         if (i == LAYER_COUNT) {
             const char *near = suggest_nearest(word, layer_names, LAYER_COUNT);
             return options_complain("render", "--layers: no layer '%s'%s%s; there are beauty, depth, rain, velocity, "
-                                              "normal, id", word, near ? "; did you mean " : "", near ? near : "");
+                                              "normal, id, wetness, waterdepth", word, near ? "; did you mean " : "", near ? near : "");
         }
         *layers |= 1u << i;
         list += length + (list[length] == ',');
@@ -39,7 +40,8 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
 
 uint32_t frame_layers_in(const char *channels)
 {
-    static const char *const first[LAYER_COUNT] = {",R,", ",Z,", ",rain.R,", ",velocity.X,", ",normal.X,", ",id.Y,"};
+    static const char *const first[LAYER_COUNT] = {",R,", ",Z,", ",rain.R,", ",velocity.X,", ",normal.X,", ",id.Y,",
+                                                    ",wetness.Y,", ",waterdepth.Y,"};
     uint32_t layers = 0;
     for (size_t i = 0; i < LAYER_COUNT; i++)
         if (strstr(channels, first[i]))
@@ -82,6 +84,10 @@ static void collect(const shot *s, uint32_t layers, const float *beauty, const f
             add(parts, rain[i], EXR_SAMPLE_HALF, s->frame.layer, 4, i);
         if (layers & LAYER_NORMAL && i < 3)
             add(parts, normal[i], EXR_SAMPLE_HALF, s->frame.normal, 4, i);
+        if (layers & LAYER_WETNESS && s->ground && i < 1)
+            add(parts, "wetness.Y", EXR_SAMPLE_HALF, s->frame.water, 2, 0);
+        if (layers & LAYER_DEPTHS && s->ground && i < 1)
+            add(parts, "waterdepth.Y", EXR_SAMPLE_FLOAT, s->frame.water, 2, 1);
         if (layers & LAYER_VELOCITY && i < 2)
             add(parts, velocity[i], EXR_SAMPLE_HALF, s->frame.velocity, 2, i);
     }
@@ -202,6 +208,37 @@ bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *er
     return written;
 }
 
+/* The budget: start + rained_total = elsewhere + absorbed + film + puddle + run_off + evaporated + kept + forgotten, to
+ * the last nanolitre. */
+static void write_water(shot *s, jsonl *stats, const virga_rain_stats *rain)
+{
+    static const char *const states[VIRGA_GROUND_STATES] = {"none", "dry", "wet", "puddle_3mm", "puddle_5mm",
+                                                            "puddle_10mm"};
+    virga_ground_stats g;
+    virga_ground_stats_get(s->ground, &g);
+    jsonl_begin_object(stats, "water_ul");
+    jsonl_number(stats, "rained", (double)rain->impact_water_nl * 1e-3);
+    jsonl_number(stats, "rained_total", (double)rain->total_water_nl * 1e-3);
+    if (s->ground) {
+        jsonl_number(stats, "start", (double)g.start_nl * 1e-3);
+        jsonl_number(stats, "elsewhere", (double)g.elsewhere_nl * 1e-3);
+        jsonl_number(stats, "absorbed", (double)(g.held_nl + g.infiltrated_nl) * 1e-3);
+        jsonl_number(stats, "film", (double)g.film_nl * 1e-3);
+        jsonl_number(stats, "puddle", (double)g.puddles_nl * 1e-3);
+        jsonl_number(stats, "run_off", (double)g.run_off_nl * 1e-3);
+        jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
+        jsonl_number(stats, "kept", (double)g.kept_nl * 1e-3);
+        jsonl_number(stats, "forgotten", (double)g.forgotten_nl * 1e-3);
+    }
+    jsonl_end(stats);
+    if (!s->ground)
+        return;
+    jsonl_begin_object(stats, "cells");
+    for (uint32_t i = 0; i < VIRGA_GROUND_STATES; i++)
+        jsonl_uint64(stats, states[i], g.cells[i]);
+    jsonl_end(stats);
+}
+
 bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_t error_size)
 {
     virga_rain_stats rain;
@@ -225,10 +262,7 @@ bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_
         jsonl_number(stats, NULL, (double)rain.wind_m_s[axis]);
     jsonl_end(stats);
     jsonl_end(stats);
-    jsonl_begin_object(stats, "water_ul");
-    jsonl_number(stats, "rained", (double)rain.impact_water_nl * 1e-3);
-    jsonl_number(stats, "rained_total", (double)rain.total_water_nl * 1e-3);
-    jsonl_end(stats);
+    write_water(s, stats, &rain);
     jsonl_begin_object(stats, "milliseconds");
     for (uint32_t i = 0; i < passes; i++)
         jsonl_number(stats, times[i].name, times[i].milliseconds);

@@ -13,7 +13,9 @@ enum {
     LAYER_VELOCITY = 1 << 3, /* velocity.X Y */
     LAYER_NORMAL = 1 << 4,   /* normal.X Y Z */
     LAYER_ID = 1 << 5,       /* id.Y */
-    LAYER_ALL = (1 << 6) - 1,
+    LAYER_WETNESS = 1 << 6,  /* wetness.Y */
+    LAYER_DEPTHS = 1 << 7,   /* waterdepth.Y */
+    LAYER_ALL = (1 << 8) - 1,
 };
 
 /* Bits of a list such as "beauty,rain"; NULL: all. Says one line and returns false for a wrong name. */

@@ -88,6 +88,28 @@ static void place_mesh(const scene_mesh *mesh, float out[12])
     }
 }
 
+/* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
+static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *occluders, uint32_t count, char *error,
+                        size_t error_size)
+{
+    const scene_ground *ground = &s->scene->ground;
+    for (uint32_t i = 0; i < count; i++) {
+        const host_primitive *primitive = &mesh->primitives[i];
+        const scene_ground_rule *rule = ground->materials, *end = rule + ground->material_count;
+        while (rule < end && !host_name_contains(primitive->name, rule->match) &&
+               !host_name_contains(mesh->materials[primitive->material].name, rule->match))
+            rule++;
+        if (rule == end)
+            continue;
+        if (rule->material && !host_material_find(rule->material, &occluders[i].material))
+            return host_fail(error, error_size, "ground.materials: no material '%s'; there are default, asphalt, "
+                                                "concrete, stone, brick, grass, sand, soil, wood, metal, glass, water, "
+                                                "leaves, cloth, plastic, tile and drain", rule->material);
+        occluders[i].ground = rule->walkable;
+    }
+    return true;
+}
+
 static bool load_meshes(shot *s, char *error, size_t error_size)
 {
     s->meshes = calloc(s->scene->mesh_count ? s->scene->mesh_count : 1, sizeof *s->meshes);
@@ -103,7 +125,10 @@ static bool load_meshes(shot *s, char *error, size_t error_size)
         s->meshes_loaded++;
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
         const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
-        s->occluder_count += more < room ? more : room;
+        const uint32_t taken = more < room ? more : room;
+        if (!apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken, error, error_size))
+            return false;
+        s->occluder_count += taken;
         if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
             return false;
     }
@@ -221,6 +246,16 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     return check(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
 }
 
+static bool set_ground(shot *s, char *error, size_t error_size)
+{
+    virga_ground_settings settings = virga_default_ground_settings();
+    settings.evaporation_mm_h = (float)s->scene->ground.evaporation_mm_h;
+    settings.start_wetness = (float)s->scene->ground.start_wetness;
+    settings.start_water_mm = (float)s->scene->ground.start_water_mm;
+    settings.measure = s->options.stats;
+    return !s->ground || check(s, virga_ground_set(s->ground, &settings), "setting the ground", error, error_size);
+}
+
 static bool open_rain(shot *s, char *error, size_t error_size)
 {
     const scene_rain *from = &s->scene->rain;
@@ -233,13 +268,20 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     def.rain.occlusion_slants = from->occlusion_slants;
     def.rain.max_ticks_per_step = 64;
     def.rain.points = s->options.points;
+    def.with_ground = s->scene->ground.on;
+    def.ground.cells = s->scene->ground.cells;
+    def.ground.cell_m = (float)s->scene->ground.cell_m;
+    def.ground.kept_tiles = s->scene->ground.kept_tiles;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
     if (!check(s, virga_scene_create(s->context, &def, &s->rain_scene), "making the rain", error, error_size))
         return false;
     s->rain = virga_scene_rain(s->rain_scene);
+    s->ground = virga_scene_ground(s->rain_scene);
     s->settings = virga_default_rain_settings();
+    if (!set_ground(s, error, error_size))
+        return false;
     fill_lights(s);
     if (!s->options.draw)
         return true;
@@ -441,6 +483,11 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
     if (!begin(s, &cmd, error, error_size))
         return false;
     const virga_result prepared = virga_rain_prepare(s->rain, cmd, &view, rain_s);
+    if (s->ground) {
+        virga_ground_maps maps;
+        virga_ground_maps_get(s->ground, &maps);
+        host_renderer_set_ground(s->renderer, &maps);
+    }
     host_renderer_plate(s->renderer, cmd, &s->target, &now, &frame_ago);
     host_target_begin_layer(&s->target, cmd);
     const virga_result drawn = prepared < 0 ? prepared : virga_scene_draw(s->rain_scene, cmd, s->layer);

@@ -15,6 +15,7 @@ typedef struct shot_options {
     uint32_t width, height;
     uint32_t samples;     /* sub-frames averaged, at least 1 */
     bool draw;            /* false: simulation only */
+    bool stats;  /* sums of water are wanted */
     bool points;          /* the drops of each stepped frame are read back */
 } shot_options;
 
@@ -38,6 +39,7 @@ typedef struct shot {
     virga_context *context;
     virga_scene *rain_scene;
     virga_rain *rain;
+    virga_ground *ground; /* NULL: none */
     virga_target *layer;
     virga_rain_settings settings;
     host_buffer points_read; /* of the drops, made on first use */

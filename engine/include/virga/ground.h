@@ -92,6 +92,8 @@ typedef struct virga_ground_settings {
                               * window; the rest is live */
     float evaporation_mm_h; /* [0; 100] from a free surface. 0.1 in rain, 0.5 on a mild day, 5 in sun and wind.
                               * Default 0.2 */
+    float start_wetness;    /* [0; 1] share of their capacity that pores of cells never seen before hold. Default 0 */
+    float start_water_mm;   /* [0; 50] rain of that depth has gathered in the hollows of their bumps. Default 0 */
     bool measure;           /* sums the water of all cells in each step, for the statistics: one pass over all cells.
                               * Default true */
 } virga_ground_settings;
@@ -131,12 +133,12 @@ VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer c
 /* Surveys all of the window anew in the next step: after meshes were changed. Water stays. */
 VIRGA_API void virga_ground_survey(virga_ground *ground);
 
-/* What materials read. Both images are cells x cells (spots: twice as wide), one array layer, and wrap around: the
+/* What materials read. Both images are cells x cells (spots: twice as wide), and wrap around: the
  * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL. */
 typedef struct virga_ground_maps {
-    VkImageView wet;   /* 2D array, R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
+    VkImageView wet;   /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m) */
-    VkImageView spots; /* 2D array, R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
+    VkImageView spots; /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
     uint32_t cells;
     float cell_m;
     float base_m;
@@ -150,9 +152,10 @@ VIRGA_API void virga_ground_landings(const virga_ground *ground, VkBuffer *buffe
 
 /* Newest statistics of completed frames. Water in nanolitres since creation. While `measure` is on, and nothing is
  * dropped by rain for want of room:
- *     landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
+ *     start + landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
 typedef struct virga_ground_stats {
     uint64_t frame_index;             /* 0: none yet */
+    uint64_t start_nl;                /* that cells came with, see start_wetness */
     uint64_t landed_nl, elsewhere_nl; /* on cells; on what is not ground, or outside of the window */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, forgotten_nl;
     uint64_t film_nl, puddles_nl, held_nl, kept_nl;

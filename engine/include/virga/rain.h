@@ -110,7 +110,8 @@ VIRGA_API virga_rain_settings virga_default_rain_settings(void);
 /* Creates a field. Allocates, builds pipelines (see virga_target_create). Errors as virga_context_create. */
 VIRGA_API virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain);
 
-/* Destroys it and sets *rain to NULL; accepts NULL. All device work recorded with it must be complete. */
+/* Destroys it and sets *rain to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they
+ * have completed. */
 VIRGA_API void virga_rain_destroy(virga_rain **rain);
 
 /* Takes new settings, at once or eased. Out of range: clamped and logged, and the call returns VIRGA_DEGRADED. NaN,

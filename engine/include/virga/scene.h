@@ -1,11 +1,12 @@
 /* virga/scene.h - the effects of one place, wired along their events, in the order that a frame needs.
  *
  * A host that wants all of it calls scene functions; one that wants a single effect uses that effect's header alone.
- * Today a scene holds rain. What reads impacts is called here between the step and the picture.
+ * A scene holds rain and, where asked for, the ground that it wets.
  */
 #ifndef VIRGA_SCENE_H
 #define VIRGA_SCENE_H
 
+#include <virga/ground.h>
 #include <virga/rain.h>
 
 #ifdef __cplusplus
@@ -17,6 +18,8 @@ typedef struct virga_scene virga_scene; /* opaque */
 typedef struct virga_scene_def {
     uint32_t size, cookie;
     virga_rain_def rain;
+    bool with_ground;        /* default false */
+    virga_ground_def ground; /* seed, ticks, impacts and strides are taken from `rain` */
 } virga_scene_def;
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
@@ -30,6 +33,9 @@ VIRGA_API void virga_scene_destroy(virga_scene **scene);
 /* The rain of the scene, for its settings, buffers and statistics. Never NULL; owned by the scene. */
 VIRGA_API virga_rain *virga_scene_rain(virga_scene *scene);
 
+/* The ground of the scene; NULL without one. Owned by the scene. */
+VIRGA_API virga_ground *virga_scene_ground(virga_scene *scene);
+
 /* What a frame needs outside rendering. */
 typedef struct virga_scene_frame {
     double dt_s;                      /* [0; 10] host time since the last frame */
@@ -39,7 +45,7 @@ typedef struct virga_scene_frame {
     const virga_view *view;           /* (optional) the view to prepare; NULL: the scene is stepped only */
 } virga_scene_frame;
 
-/* Occlusion, step and prepare, in that order. The worst of their results is returned. */
+/* Occlusion, rain, ground and prepare, in that order. The worst of their results is returned. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Builds the pipelines of all effects for a target, see virga_rain_attach. */

@@ -3,7 +3,8 @@
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec2 out_velocity;
-layout(location = 3) out uint out_id;
+layout(location = 3) out vec2 out_water; // wetness, depth of water (m)
+layout(location = 4) out uint out_id;
 
 // Of a point relative to the camera of a frame ago (w 1) or of a direction (w 0). Behind that camera it did not move.
 vec2 velocity_of(vec4 then)

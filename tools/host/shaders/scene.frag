@@ -15,6 +15,7 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 
 #include "outputs.glsl"
+#include "water.glsl"
 
 const float PI = 3.14159265;
 
@@ -101,6 +102,18 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
     return sum;
 }
 
+// A level mirror of water over a colour.
+vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
+{
+    const vec3 up = vec3(0.0, 1.0, 0.0), f0 = vec3(0.0204);
+    float n_v = clamp(v.y, 1e-3, 1.0);
+    float c = 1.0 - n_v, c2 = c * c;
+    float fresnel = f0.x + (1.0 - f0.x) * c2 * c2 * c;
+    vec3 r = vec3(-v.x, abs(v.y), -v.z);
+    vec3 mirror = fresnel * reflected_light(r, water.roughness) * sky_share(moments, r);
+    return color * (1.0 - fresnel) + mirror + lit(vec3(0.0), f0, max(water.roughness, 0.08), up, v, n_v);
+}
+
 void main()
 {
     vec4 base = surface.base_color;
@@ -121,11 +134,14 @@ void main()
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
     vec3 albedo = base.rgb * (1.0 - metallic);
+    Water water = water_at(in_relative, n);
+    wet_material(water, metallic, albedo, roughness, f0);
     vec4 moments = sky_moments(n);
     vec3 r = reflect(-v, n);
     vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
     vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
+    color = mix(color, under_water(color, v, moments, water), water.puddle);
 
     float alpha = 1.0;
     if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it
@@ -135,5 +151,6 @@ void main()
     out_color = vec4(color, alpha);
     out_normal = vec4(n, 1.0);
     out_velocity = velocity_of(vec4(in_relative + frame.moved.xyz, 1.0));
+    out_water = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
     out_id = uint(surface.traits.z);
 }

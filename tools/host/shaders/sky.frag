@@ -21,5 +21,6 @@ void main()
     out_color = vec4(textureLod(sky_texture, vec2(u, v), 0.0).rgb, 1.0);
     out_normal = vec4(0.0);
     out_velocity = velocity_of(vec4(d, 0.0));
+    out_water = vec2(0.0);
     out_id = 0;
 }

@@ -1,0 +1,69 @@
+// ground_map.glsl - how a host's material reads Virga's ground maps (virga/ground.h, virga_ground_maps). For GLSL hosts:
+// include it, or write the same.
+//
+// `at` is the place in cells from the window's low corner: (world.xz - low_m) / cell_m, worked out on the CPU for the
+// camera and added to here, so that it stays exact far from the origin. `low_cell` is the number of that corner's cell,
+// floor(low_m / cell_m), modulo `cells`.
+
+struct virga_ground_wetness {
+    float wet;         // [0; 1] how far pores are filled, or a film covers the place
+    float depth_mm;    // of water
+    float slope2;      // variance of the slope of ripples
+    float spot;        // [0; 1] dark spots of first drops
+};
+
+vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell)
+{
+    return texelFetch(wet_map, (low_cell + cell) & (cells - 1), 0);
+}
+
+// One of the 8 x 8 bits of a cell's spots; `bit` counts from the window's low corner.
+float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit)
+{
+    const ivec2 texel = (low_cell + (bit >> 3)) & (cells - 1);
+    const ivec2 inside = bit & 7;
+    const uint word = texelFetch(spot_map, ivec2(2 * texel.x + (inside.y >> 2), texel.y), 0).r;
+    return float((word >> uint((inside.y & 3) * 8 + inside.x)) & 1u);
+}
+
+// Spots with soft edges, or their share of the cell where a pixel is wider than a bit (`pixel_cells`: pixels in cells).
+float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells)
+{
+    const vec2 bit = at * 8.0 - 0.5;
+    const ivec2 low = ivec2(floor(bit));
+    const vec2 t = smoothstep(0.15, 0.85, bit - vec2(low));
+    const float near = mix(mix(virga_ground_spot_bit(spot_map, low_cell, cells, low),
+                               virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(1, 0)), t.x),
+                           mix(virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(0, 1)),
+                               virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(1, 1)), t.x), t.y);
+    const ivec2 texel = (low_cell + ivec2(floor(at))) & (cells - 1);
+    const int bits = bitCount(texelFetch(spot_map, ivec2(2 * texel.x, texel.y), 0).r) +
+                     bitCount(texelFetch(spot_map, ivec2(2 * texel.x + 1, texel.y), 0).r);
+    return mix(near, float(bits) / 64.0, clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
+}
+
+// What a place shows. `height_m` is its height above the maps' base_m: a wall's foot, a car or a bridge over the ground
+// is not wet because the ground is.
+virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ivec2 low_cell, int cells, vec2 at,
+                                     float height_m, float pixel_cells)
+{
+    virga_ground_wetness found = virga_ground_wetness(0.0, 0.0, 0.0, 0.0);
+    const vec2 middle = at - 0.5;
+    const ivec2 low = ivec2(floor(middle));
+    const vec2 t = middle - vec2(low);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; i++) {
+        const ivec2 corner = ivec2(i & 1, i >> 1);
+        const vec4 texel = virga_ground_texel(wet_map, low_cell, cells, low + corner);
+        const vec2 share = mix(1.0 - t, t, vec2(corner));
+        const float same = float(abs(texel.a - height_m) < 0.2);
+        sum += texel.xyz * (share.x * share.y * same);
+    }
+    const bool inside = min(low.x, low.y) >= 0 && max(low.x, low.y) < cells - 1;
+    if (inside) {
+        const float own = float(abs(virga_ground_texel(wet_map, low_cell, cells, ivec2(floor(at))).a - height_m) < 0.2);
+        found = virga_ground_wetness(sum.x, sum.y, sum.z,
+                                     own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells));
+    }
+    return found;
+}

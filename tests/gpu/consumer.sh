@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# Somebody else's programs: the library is built as a release, installed below a temporary prefix, and used from outside
+# the tree by C and by C++ through pkg-config; then used as a Meson subproject. No device is needed.
+# Usage: consumer.sh SOURCE_ROOT "CC" "CXX" VERSION
+set -eu
+source=$(cd "$1" && pwd) cc=$2 cxx=$3 version=$4
+for tool in meson pkg-config ninja "${cc%% *}" "${cxx%% *}"; do
+    command -v "$tool" >/dev/null || { echo "skipped: there is no $tool"; exit 77; }
+done
+work=$(mktemp -d "${TMPDIR:-/tmp}/virga-consumer-XXXXXX")
+trap 'rm -rf "$work"' EXIT
+unset DESTDIR MESON_BUILD_ROOT MESON_SOURCE_ROOT MESON_SUBDIR CFLAGS CXXFLAGS LDFLAGS || true
+quietly() { # says what a command said only where it fails
+    "$@" >"$work/log" 2>&1 || { cat "$work/log"; echo "failed: $*"; exit 1; }
+}
+expect() { # got wanted what
+    [ "$1" = "$2" ] || { echo "$3: got '$1', expected '$2'"; exit 1; }
+}
+
+# What a consumer does before it has a device: asks for the version, drops a drop, forgets to fill a definition.
+cat >"$work/consumer.c" <<'SOURCE'
+#include <virga/virga.h>
+#include <virga/shared/drop.h>
+
+#include <stdio.h>
+#include <string.h>
+
+static int lines;
+
+static void count_line(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    (void)user;
+    (void)text;
+    lines += level == VIRGA_LOG_ERROR && id == VIRGA_LOG_COOKIE;
+}
+
+int main(void)
+{
+    virga_context_def def;
+    virga_context *context = NULL;
+    VkPhysicalDeviceVulkan12Features features12;
+    VkPhysicalDeviceFeatures2 features;
+    memset(&def, 0, sizeof def);
+    def.log = count_line;
+    memset(&features12, 0, sizeof features12);
+    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    memset(&features, 0, sizeof features);
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features12;
+    if (virga_context_create(&def, &context) != VIRGA_ERROR_INVALID || context || lines != 1)
+        return 2; /* not checked, in a release build */
+    if (virga_enable_features(&features) != VIRGA_OK || !features12.scalarBlockLayout)
+        return 3;
+    if (sizeof(virga_drop_gpu) != 16 || virga_default_rain_def().size != sizeof(virga_rain_def))
+        return 4;
+    printf("%s %.2f\n", virga_version(), virga_drop_terminal_speed(0.002, 0));
+    return 0;
+}
+SOURCE
+cp "$work/consumer.c" "$work/consumer.cpp"
+
+# ---- installed
+quietly meson setup "$work/build" "$source" --prefix "$work/prefix" --libdir lib --buildtype release -Db_ndebug=true \
+    -Dtools=disabled -Dtests=disabled
+quietly nice ninja -j2 -C "$work/build"
+quietly meson install -C "$work/build" --no-rebuild
+export PKG_CONFIG_PATH="$work/prefix/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
+expect "$(pkg-config --modversion virga)" "$version" "version of the pkg-config file"
+flags=$(pkg-config --cflags --libs virga)
+case $flags in *"$source"* | *"$work/build"*) echo "pkg-config names the tree: $flags"; exit 1 ;; esac
+mkdir "$work/outside"
+cd "$work/outside"
+warnings="-Wall -Wextra -Wpedantic -Werror"
+# shellcheck disable=SC2086 # flags are words
+quietly $cc -std=c11 $warnings "$work/consumer.c" -o in_c $flags
+# shellcheck disable=SC2086
+quietly $cxx -std=c++17 $warnings "$work/consumer.cpp" -o in_cpp $flags
+export LD_LIBRARY_PATH="$work/prefix/lib"
+expect "$(./in_c)" "$version 6.49" "consumer in C"
+expect "$(./in_cpp)" "$version 6.49" "consumer in C++"
+unset LD_LIBRARY_PATH
+
+# Every header is there, none of the internal ones is, and nothing else was installed.
+installed=$(cd "$work/prefix" && find . -type f -o -type l | sort | tr '\n' ' ')
+for header in "$source"/engine/include/virga/*.h; do
+    [ -f "$work/prefix/include/virga/${header##*/}" ] || { echo "not installed: ${header##*/}"; exit 1; }
+done
+stray=$(cd "$work/prefix" && find . \( -type f -o -type l \) ! -path './include/virga/*.h' ! -path './include/virga/shared/*.glsl' \
+    ! -path './lib/libvirga.so*' ! -path './lib/pkgconfig/virga.pc')
+[ -z "$stray" ] || { echo "installed what nobody asked for: $stray"; exit 1; }
+
+# ---- as a subproject
+mkdir -p "$work/host/subprojects"
+ln -s "$source" "$work/host/subprojects/virga"
+cp "$work/consumer.c" "$work/host/"
+cat >"$work/host/meson.build" <<'SOURCE'
+project('host', 'c', version: '1', default_options: ['c_std=c11', 'warning_level=3'])
+virga = subproject('virga')
+executable('consumer', 'consumer.c', dependencies: dependency('virga'))
+SOURCE
+quietly meson setup "$work/host/build" "$work/host" --wrap-mode nofallback
+# The program and its libraries are not a host's business.
+if grep -qiE "dependency (openexr|assimp|cmocka|libcyaml) found" "$work/log"; then
+    cat "$work/log"
+    echo "as a subproject it looks for what only the program and the tests need"
+    exit 1
+fi
+quietly nice ninja -j2 -C "$work/host/build"
+expect "$("$work/host/build/consumer")" "$version 6.49" "consumer of a subproject"
+echo "installed: $installed"

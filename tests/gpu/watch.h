@@ -1,0 +1,316 @@
+/* watch.h - a vkGetInstanceProcAddr that stands between Virga and the loader: it counts what is made and destroyed,
+ * fails the call that a test names, and lies about the device where a test wants it to. One for a process. */
+#ifndef VIRGA_TESTS_GPU_WATCH_H
+#define VIRGA_TESTS_GPU_WATCH_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <vulkan/vulkan.h>
+
+/* Kinds of object that are made by vkCreate(device, info, allocator, object). */
+#define WATCH_CREATED(X)   \
+    X(Buffer)              \
+    X(Image)               \
+    X(ImageView)           \
+    X(Sampler)             \
+    X(ShaderModule)        \
+    X(DescriptorSetLayout) \
+    X(DescriptorPool)      \
+    X(PipelineLayout)      \
+    X(PipelineCache)       \
+    X(RenderPass)          \
+    X(Framebuffer)         \
+    X(QueryPool)
+
+#define WATCH_KIND(name) WATCH_##name,
+typedef enum watch_kind { WATCH_CREATED(WATCH_KIND) WATCH_Pipeline, WATCH_Memory, WATCH_KINDS } watch_kind;
+#undef WATCH_KIND
+
+static const char *const watch_names[WATCH_KINDS] = {
+#define WATCH_NAME(name) #name,
+    WATCH_CREATED(WATCH_NAME) "Pipeline", "Memory"
+#undef WATCH_NAME
+};
+
+enum { WATCH_MOST_MEMORIES = 4096 };
+
+/* All zero: nothing has been counted, nothing fails, nothing is lied about. */
+static struct watch {
+    uint32_t live[WATCH_KINDS], made[WATCH_KINDS], destroyed[WATCH_KINDS];
+    VkDeviceSize bytes, most_bytes; /* of device memory, now and at most */
+    struct {
+        VkDeviceMemory memory;
+        VkDeviceSize size;
+    } memories[WATCH_MOST_MEMORIES];
+
+    uint32_t calls;   /* that can fail, since watch_fail */
+    uint32_t fail_at; /* the call to fail, from 1; 0: none */
+    bool failed;      /* it came to that */
+    const char *failed_call;
+    VkResult failure;
+
+    const void *cache_data; /* what the newest pipeline cache was made of */
+    size_t cache_size;
+
+    const char *hidden; /* a function that the instance does not know */
+    void (*lie_properties)(VkPhysicalDeviceProperties *properties);
+    void (*lie_features)(VkPhysicalDeviceFeatures2 *features);
+    void (*lie_format)(VkFormat format, VkFormatProperties *properties);
+} watch;
+
+static inline uint32_t watch_sum(const uint32_t counts[WATCH_KINDS])
+{
+    uint32_t sum = 0;
+    for (int i = 0; i < WATCH_KINDS; i++)
+        sum += counts[i];
+    return sum;
+}
+
+/* Starts to count calls that can fail, and fails the one of that number. */
+static inline void watch_fail(uint32_t number, VkResult failure)
+{
+    watch.calls = 0;
+    watch.fail_at = number;
+    watch.failed = false;
+    watch.failure = failure;
+}
+
+static inline bool watch_fails(const char *call)
+{
+    if (++watch.calls != watch.fail_at)
+        return false;
+    watch.failed = true;
+    watch.failed_call = call;
+    return true;
+}
+
+static inline void watch_count(watch_kind kind, VkResult result)
+{
+    if (result == VK_SUCCESS) {
+        watch.live[kind]++;
+        watch.made[kind]++;
+    }
+}
+
+static inline void watch_uncount(watch_kind kind, bool object)
+{
+    if (object) {
+        watch.live[kind]--;
+        watch.destroyed[kind]++;
+    }
+}
+
+/* ---- functions of the device */
+
+#define WATCH_WRAP(name)                                                                                             \
+    static VKAPI_ATTR VkResult VKAPI_CALL watch_Create##name(VkDevice device, const Vk##name##CreateInfo *info,      \
+                                                             const VkAllocationCallbacks *allocator, Vk##name *made) \
+    {                                                                                                                \
+        if (watch_fails("vkCreate" #name))                                                                           \
+            return watch.failure;                                                                                    \
+        watch_see_##name(info);                                                                                      \
+        const VkResult result = vkCreate##name(device, info, allocator, made);                                       \
+        watch_count(WATCH_##name, result);                                                                           \
+        return result;                                                                                               \
+    }                                                                                                                \
+    static VKAPI_ATTR void VKAPI_CALL watch_Destroy##name(VkDevice device, Vk##name object,                          \
+                                                          const VkAllocationCallbacks *allocator)                    \
+    {                                                                                                                \
+        watch_uncount(WATCH_##name, object != VK_NULL_HANDLE);                                                       \
+        vkDestroy##name(device, object, allocator);                                                                  \
+    }
+
+#define watch_see_Buffer(info)
+#define watch_see_Image(info)
+#define watch_see_ImageView(info)
+#define watch_see_Sampler(info)
+#define watch_see_ShaderModule(info)
+#define watch_see_DescriptorSetLayout(info)
+#define watch_see_DescriptorPool(info)
+#define watch_see_PipelineLayout(info)
+#define watch_see_RenderPass(info)
+#define watch_see_Framebuffer(info)
+#define watch_see_QueryPool(info)
+#define watch_see_PipelineCache(info) \
+    (watch.cache_data = (info)->pInitialData, watch.cache_size = (info)->initialDataSize)
+
+WATCH_CREATED(WATCH_WRAP)
+#undef WATCH_WRAP
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice device, VkPipelineCache cache,
+                                                                   uint32_t count,
+                                                                   const VkComputePipelineCreateInfo *infos,
+                                                                   const VkAllocationCallbacks *allocator,
+                                                                   VkPipeline *pipelines)
+{
+    memset(pipelines, 0, count * sizeof *pipelines); /* as Vulkan has it where one fails */
+    if (watch_fails("vkCreateComputePipelines"))
+        return watch.failure;
+    const VkResult result = vkCreateComputePipelines(device, cache, count, infos, allocator, pipelines);
+    for (uint32_t i = 0; i < count; i++)
+        watch_count(WATCH_Pipeline, result);
+    return result;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateGraphicsPipelines(VkDevice device, VkPipelineCache cache,
+                                                                    uint32_t count,
+                                                                    const VkGraphicsPipelineCreateInfo *infos,
+                                                                    const VkAllocationCallbacks *allocator,
+                                                                    VkPipeline *pipelines)
+{
+    memset(pipelines, 0, count * sizeof *pipelines);
+    if (watch_fails("vkCreateGraphicsPipelines"))
+        return watch.failure;
+    const VkResult result = vkCreateGraphicsPipelines(device, cache, count, infos, allocator, pipelines);
+    for (uint32_t i = 0; i < count; i++)
+        watch_count(WATCH_Pipeline, result);
+    return result;
+}
+
+static VKAPI_ATTR void VKAPI_CALL watch_DestroyPipeline(VkDevice device, VkPipeline pipeline,
+                                                        const VkAllocationCallbacks *allocator)
+{
+    watch_uncount(WATCH_Pipeline, pipeline != VK_NULL_HANDLE);
+    vkDestroyPipeline(device, pipeline, allocator);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_AllocateMemory(VkDevice device, const VkMemoryAllocateInfo *info,
+                                                           const VkAllocationCallbacks *allocator,
+                                                           VkDeviceMemory *memory)
+{
+    if (watch_fails("vkAllocateMemory"))
+        return watch.failure;
+    const VkResult result = vkAllocateMemory(device, info, allocator, memory);
+    watch_count(WATCH_Memory, result);
+    if (result != VK_SUCCESS)
+        return result;
+    watch.bytes += info->allocationSize;
+    watch.most_bytes = watch.bytes > watch.most_bytes ? watch.bytes : watch.most_bytes;
+    for (uint32_t i = 0; i < WATCH_MOST_MEMORIES; i++)
+        if (!watch.memories[i].memory) {
+            watch.memories[i].memory = *memory;
+            watch.memories[i].size = info->allocationSize;
+            break;
+        }
+    return result;
+}
+
+static VKAPI_ATTR void VKAPI_CALL watch_FreeMemory(VkDevice device, VkDeviceMemory memory,
+                                                   const VkAllocationCallbacks *allocator)
+{
+    watch_uncount(WATCH_Memory, memory != VK_NULL_HANDLE);
+    for (uint32_t i = 0; memory && i < WATCH_MOST_MEMORIES; i++)
+        if (watch.memories[i].memory == memory) {
+            watch.bytes -= watch.memories[i].size;
+            watch.memories[i].memory = VK_NULL_HANDLE;
+            break;
+        }
+    vkFreeMemory(device, memory, allocator);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_MapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
+                                                      VkDeviceSize size, VkMemoryMapFlags flags, void **data)
+{
+    return watch_fails("vkMapMemory") ? watch.failure : vkMapMemory(device, memory, offset, size, flags, data);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_BindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory,
+                                                             VkDeviceSize offset)
+{
+    return watch_fails("vkBindBufferMemory") ? watch.failure : vkBindBufferMemory(device, buffer, memory, offset);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_BindImageMemory(VkDevice device, VkImage image, VkDeviceMemory memory,
+                                                            VkDeviceSize offset)
+{
+    return watch_fails("vkBindImageMemory") ? watch.failure : vkBindImageMemory(device, image, memory, offset);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_AllocateDescriptorSets(VkDevice device,
+                                                                   const VkDescriptorSetAllocateInfo *info,
+                                                                   VkDescriptorSet *sets)
+{
+    return watch_fails("vkAllocateDescriptorSets") ? watch.failure : vkAllocateDescriptorSets(device, info, sets);
+}
+
+/* ---- functions of the instance */
+
+static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceProperties(VkPhysicalDevice device,
+                                                                    VkPhysicalDeviceProperties *properties)
+{
+    vkGetPhysicalDeviceProperties(device, properties);
+    if (watch.lie_properties)
+        watch.lie_properties(properties);
+}
+
+static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceFeatures2(VkPhysicalDevice device,
+                                                                   VkPhysicalDeviceFeatures2 *features)
+{
+    vkGetPhysicalDeviceFeatures2(device, features);
+    if (watch.lie_features)
+        watch.lie_features(features);
+}
+
+static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceFormatProperties(VkPhysicalDevice device, VkFormat format,
+                                                                          VkFormatProperties *properties)
+{
+    vkGetPhysicalDeviceFormatProperties(device, format, properties);
+    if (watch.lie_format)
+        watch.lie_format(format, properties);
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_GetDeviceProcAddr(VkDevice device, const char *name);
+
+static inline PFN_vkVoidFunction watch_find(const char *name)
+{
+    static const struct {
+        const char *name;
+        PFN_vkVoidFunction function;
+    } wrapped[] = {
+#define WATCH_ENTRY(name) {"vk" #name, (PFN_vkVoidFunction)watch_##name},
+#define WATCH_PAIR(name)  WATCH_ENTRY(Create##name) WATCH_ENTRY(Destroy##name)
+        WATCH_CREATED(WATCH_PAIR) WATCH_ENTRY(CreateComputePipelines) WATCH_ENTRY(CreateGraphicsPipelines)
+            WATCH_ENTRY(DestroyPipeline) WATCH_ENTRY(AllocateMemory) WATCH_ENTRY(FreeMemory) WATCH_ENTRY(MapMemory)
+                WATCH_ENTRY(BindBufferMemory) WATCH_ENTRY(BindImageMemory) WATCH_ENTRY(AllocateDescriptorSets)
+                    WATCH_ENTRY(GetPhysicalDeviceProperties) WATCH_ENTRY(GetPhysicalDeviceFeatures2)
+                        WATCH_ENTRY(GetPhysicalDeviceFormatProperties) WATCH_ENTRY(GetDeviceProcAddr)
+#undef WATCH_PAIR
+#undef WATCH_ENTRY
+    };
+    for (size_t i = 0; i < sizeof wrapped / sizeof wrapped[0]; i++)
+        if (!strcmp(wrapped[i].name, name))
+            return wrapped[i].function;
+    return NULL;
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_GetDeviceProcAddr(VkDevice device, const char *name)
+{
+    const PFN_vkVoidFunction wrapped = watch_find(name);
+    return wrapped ? wrapped : vkGetDeviceProcAddr(device, name);
+}
+
+/* What goes into virga_context_def.get_instance_proc_addr. Hides a function with all its suffixed names. */
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_get_instance_proc_addr(VkInstance instance, const char *name)
+{
+    if (watch.hidden && !strncmp(name, watch.hidden, strlen(watch.hidden)))
+        return NULL;
+    const PFN_vkVoidFunction wrapped = watch_find(name);
+    return wrapped ? wrapped : vkGetInstanceProcAddr(instance, name);
+}
+
+/* "2 Buffer, 1 Memory": what is alive, for a message. */
+static inline const char *watch_alive(void)
+{
+    static char text[256];
+    size_t at = 0;
+    text[0] = 0;
+    for (int i = 0; i < WATCH_KINDS && at < sizeof text; i++)
+        if (watch.live[i])
+            at +=
+                (size_t)snprintf(text + at, sizeof text - at, "%s%u %s", at ? ", " : "", watch.live[i], watch_names[i]);
+    return text;
+}
+
+#endif

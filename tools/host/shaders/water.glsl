@@ -1,0 +1,47 @@
+// water.glsl - a material that is damp, wet or under water.
+//
+// Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes it
+// glossier; a puddle is a mirror of its own over it, with the reflectance of water (0.0204 at right angles) and the
+// level normal.
+#include "shared/ground_map.glsl"
+
+layout(set = 0, binding = 4) uniform sampler2D wet_map;
+layout(set = 0, binding = 5) uniform usampler2D spot_map;
+
+struct Water {
+    float damp;     // [0; 1] of the pores
+    float film;     // [0; 1] share of the surface that is a film
+    float puddle;   // [0; 1] share that is a mirror
+    float depth_mm;
+    float roughness; // of the mirror
+};
+
+Water water_at(vec3 relative, vec3 n)
+{
+    const float inv_cell = frame.ground_low.w;
+    const vec2 at = (relative.xz - frame.ground_low.xz) * inv_cell;
+    const float pixel = max(length(dFdx(at)), length(dFdy(at)));
+    const virga_ground_wetness wet =
+        virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy), max(int(frame.ground_wrap.z), 1), at,
+                        relative.y - frame.ground_low.y, pixel);
+    const float level = inv_cell > 0.0 ? smoothstep(0.3, 0.6, n.y) : 0.0;
+    Water water;
+    water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
+    water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
+    water.puddle = level * smoothstep(0.5, 1.6, wet.depth_mm);
+    water.depth_mm = level * wet.depth_mm;
+    water.roughness = clamp(sqrt(sqrt(0.0004 + 2.0 * wet.slope2)), 0.03, 0.5);
+    return water;
+}
+
+float porosity(float roughness) { return clamp((roughness - 0.5) / 0.4, 0.0, 1.0); }
+
+// What lies under the water, wet: darker where it is porous, glossier under a film.
+void wet_material(Water water, float metallic, inout vec3 albedo, inout float roughness, inout vec3 f0)
+{
+    const float dark = mix(1.0, mix(1.0, 0.2, porosity(roughness)), water.damp * (1.0 - metallic));
+    // Saturated colours darken more: light bounces in the pores more often before it comes out.
+    albedo = mix(albedo * dark, albedo * albedo * dark / max(dot(albedo, vec3(1.0 / 3.0)), 1e-3), 0.35 * water.damp);
+    roughness = mix(roughness, max(0.3 * roughness, 0.12), max(water.film, 0.35 * water.damp));
+    f0 = mix(f0, max(f0, vec3(0.02)), water.film);
+}
