@@ -54,11 +54,12 @@ void main()
         const virga_soil_gpu soil = tick.soils[material];
         const float bump_um = bumps_um(cell, soil);
         made = virga_floor_gpu(int(round(height_m * 1e6 + bump_um)), material);
-        // Rain that fell before has left the humps and stands in the hollows.
+        // Rain that fell before stands in the hollows; on the humps is only what their roughness holds.
         const float hump_um = max(bump_um + 0.5 * soil.bumps_um, 0.0);
         const float depth_um = soil.drain != 0u ? 0.0 : max(tick.start_water_um - hump_um, 0.0);
-        start.free_nl = uint(depth_um * float(tick.nl_per_um));
-        start.held_nl = depth_um > 0.0 ? soil.capacity_nl : uint(float(soil.capacity_nl) * tick.start_wetness);
+        const bool wet = tick.start_water_um > 0.0 && soil.drain == 0u;
+        start.free_nl = wet ? max(uint(depth_um * float(tick.nl_per_um)), soil.retention_nl / 2u) : 0u;
+        start.held_nl = wet ? soil.capacity_nl : uint(float(soil.capacity_nl) * tick.start_wetness);
     }
     floors[place] = made;
     if ((entry & NEVER_SEEN) == 0u)

@@ -232,7 +232,7 @@ uint32_t host_mesh_occluders(const host_mesh *mesh, virga_occluder *occluders, u
             .index_count = primitive->index_count,
             .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
             .material = primitive->surface,
-            .ground = host_material_is_ground(primitive->surface),
+            .ground = host_is_ground(primitive->name, primitive->surface),
             .cover = primitive->cover > 0.01f ? primitive->cover : 0.01f, /* 0 would mean 1 */
         };
     }

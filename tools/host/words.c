@@ -61,9 +61,18 @@ bool host_name_contains(const char *name, const char *word)
     return contains(name, word);
 }
 
-bool host_material_is_ground(uint32_t material)
+bool host_is_ground(const char *name, uint32_t material)
 {
-    return material <= 9 || material >= 15; /* not glass, water, leaves, cloth and plastic */
+    static const char *const others[] = {"house", "building", "church", "wall",  "roof",    "window", "door",   "shutter",
+                                         "car",   "truck",    "bin",    "lamp",  "lantern", "bench",  "crate",  "bollard",
+                                         "bar",   "balcony",  "tree_",  "pole",  "pylon",   "tire",   "fence",  "sign",
+                                         "box",   "awning",   "poutre", "border"};
+    if (material >= 10 && material <= 14) /* glass, water, leaves, cloth and plastic */
+        return false;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (contains(name, others[i]))
+            return contains(name, "pit"); /* of a tree */
+    return true;
 }
 
 const char *host_material_name(uint32_t material)

@@ -15,8 +15,8 @@ bool host_material_find(const char *name, uint32_t *material);
 /* Whether `name` has `word` (lower case) in it, in any case. */
 bool host_name_contains(const char *name, const char *word);
 
-/* Whether people walk and rain gathers on it. */
-bool host_material_is_ground(uint32_t material);
+/* Whether people walk on it: neither furniture, houses and cars nor what is not solid ground. */
+bool host_is_ground(const char *name, uint32_t material);
 
 /* Name of such a number; "default" for 0 and for numbers that are not used. */
 const char *host_material_name(uint32_t material);

@@ -93,7 +93,8 @@ typedef struct virga_ground_settings {
     float evaporation_mm_h; /* [0; 100] from a free surface. 0.1 in rain, 0.5 on a mild day, 5 in sun and wind.
                               * Default 0.2 */
     float start_wetness;    /* [0; 1] share of their capacity that pores of cells never seen before hold. Default 0 */
-    float start_water_mm;   /* [0; 50] rain of that depth has gathered in the hollows of their bumps. Default 0 */
+    float start_water_mm;   /* [0; 50] rain of that depth has gathered in the hollows of their bumps, all pores are full
+                             * and half of what roughness holds back is on the humps. Default 0: dry */
     bool measure;           /* sums the water of all cells in each step, for the statistics: one pass over all cells.
                               * Default true */
 } virga_ground_settings;
