@@ -52,6 +52,9 @@ typedef struct ground_window {
  * half of its middle. */
 void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2]);
 
+/* One more than the highest place among the kept that is in use. */
+uint32_t ground_window_kept_end(const ground_window *window);
+
 /* Moves the window and tells what that takes. */
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move);
 

@@ -300,7 +300,7 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
     transfer_barrier(ground, cmd);
     const uint32_t window = ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP;
-    dispatch(ground, cmd, ground->measure, window + ground->window.kept_capacity * TILE_GROUPS);
+    dispatch(ground, cmd, ground->measure, window + ground_window_kept_end(&ground->window) * TILE_GROUPS);
     virga_pass_end(context, cmd, scope);
 }
 

@@ -100,3 +100,11 @@ void ground_window_move(ground_window *window, const int32_t low[2], ground_move
     window->low[1] = low[1];
     window->placed = true;
 }
+
+uint32_t ground_window_kept_end(const ground_window *window)
+{
+    uint32_t end = window->kept_count ? window->kept_capacity : 0;
+    while (end && !window->kept[end - 1].since)
+        end--;
+    return end;
+}
