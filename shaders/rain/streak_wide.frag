@@ -30,18 +30,13 @@ vec3 through_drop(vec2 uv, vec3 d)
     return mix(refraction, reflection, fresnel);
 }
 
-// The same averaged over the part of the drop that passes a pixel of a streak.
+// What passes a pixel of a streak shows all of the drop's height there; above and below its middle the world is bent by as
+// much to either side, so the middle stands for the mean.
 vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 {
     const vec2 side = vec2(-direction.y, direction.x);
-    const float chord = sqrt(max(1.0 - u * u, 0.0));
-    vec3 sum = vec3(0.0);
-    for (int i = -1; i <= 1; i++) {
-        const float v = shape.z > shape.y ? 0.7 * float(i) * chord : along;
-        const vec2 screen = side * u + direction * v;
-        sum += through_drop(vec2(screen.x, -screen.y), d); // screen y is down
-    }
-    return sum / 3.0;
+    const vec2 screen = side * u + direction * (shape.z > shape.y ? 0.0 : along);
+    return through_drop(vec2(screen.x, -screen.y), d); // screen y is down
 }
 
 void main()
