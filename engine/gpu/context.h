@@ -188,7 +188,7 @@ typedef struct virga_graphics_def {
     const void *next;       /* chain for dynamic rendering */
     uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
     uint32_t color_count;   /* those beyond the first are not written */
-    bool blend_premultiplied;
+    bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
     uint32_t constant; /* specialisation constant 0 of the fragment shader, where it has one */
     VkSampleCountFlagBits samples;

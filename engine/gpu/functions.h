@@ -76,6 +76,7 @@
     X(CmdSetScissor)                \
     X(CmdBeginRenderPass)           \
     X(CmdEndRenderPass)             \
+    X(CmdCopyBufferToImage)                                                                                            \
     X(CmdCopyBuffer)                \
     X(CmdFillBuffer)
 

@@ -82,12 +82,12 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
 {
     memset(state->attachments, 0, sizeof state->attachments);
     state->attachments[0] =
-        (VkPipelineColorBlendAttachmentState){.blendEnable = def->blend_premultiplied,
+        (VkPipelineColorBlendAttachmentState){.blendEnable = def->blend_premultiplied || def->blend_add,
                                               .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-                                              .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                              .dstColorBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                               .colorBlendOp = VK_BLEND_OP_ADD,
                                               .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-                                              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                              .dstAlphaBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                               .alphaBlendOp = VK_BLEND_OP_ADD,
                                               .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                                                 VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};

@@ -7,6 +7,7 @@
 #include "shaders/ground_land_comp.spv.h"
 #include "shaders/ground_map_comp.spv.h"
 #include "shaders/ground_measure_comp.spv.h"
+#include "shaders/ground_ring_comp.spv.h"
 #include "shaders/ground_share_comp.spv.h"
 #include "shaders/ground_soak_comp.spv.h"
 
@@ -28,6 +29,8 @@ virga_ground_def virga_default_ground_def(void)
                               .kept_tiles = 1024,
                               .tick_s = 1.0 / 60,
                               .flow_ticks = 4,
+                              .ripple_texels = 1024,
+                              .ripple_texel_m = 0.008f,
                               .max_impacts = 65536,
                               .max_ticks_per_step = 16,
                               .occluder_strides = {12, 32}};
@@ -58,6 +61,11 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 65536, NULL);
     const uint32_t tiles = def->cells / VIRGA_GROUND_TILE;
     def->kept_tiles = def->kept_tiles > 2 * tiles * tiles ? def->kept_tiles : 2 * tiles * tiles;
+    if (virga_settings_finite(log, "ground_def.ripple_texel_m", &def->ripple_texel_m, 1))
+        return VIRGA_ERROR_INVALID;
+    def->ripple_texels = virga_clamp_setting_u32(log, "ground_def.ripple_texels", def->ripple_texels, 64, 4096, NULL);
+    def->ripple_texel_m =
+        (float)virga_clamp_setting(log, "ground_def.ripple_texel_m", (double)def->ripple_texel_m, 0.002, 0.05, NULL);
     def->tick_s = virga_clamp_setting(log, "ground_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     def->flow_ticks = virga_clamp_setting_u32(log, "ground_def.flow_ticks", def->flow_ticks, 1, 60, NULL);
     def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
@@ -75,7 +83,8 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
     const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + 2 * sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
                                 8 /* spots */ + 16 /* maps */ + 8 /* survey */;
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
-           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) +
+           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) + (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 +
+           VIRGA_RINGS * sizeof(virga_ring_gpu) + 4ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
 }
@@ -107,6 +116,8 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->counts, sizeof(ground_readback), storage, VIRGA_HEAP_DEVICE, "ground.counts"},
         {&ground->landings, ground->def.max_impacts * sizeof(virga_landing_gpu), storage, VIRGA_HEAP_DEVICE,
          "ground.landings"},
+        {&ground->rings, sizeof(virga_rings_gpu) + VIRGA_RINGS * sizeof(virga_ring_gpu), storage, VIRGA_HEAP_DEVICE,
+         "ground.rings"},
         {&ground->tick_ring, (VkDeviceSize)frames * (ground->def.max_ticks_per_step + 1) * ground_tick_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "ground.ticks"},
         {&ground->list_ring, (VkDeviceSize)frames * ground_list_bytes(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -141,7 +152,7 @@ error:
 
 /* As in shaders/ground: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE}, /* 0 tick */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 tick */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE}, /* 1 lists of tiles */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 2 impacts */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 3 floors */
@@ -156,6 +167,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE}, /* 12 survey: surface */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 13 wet map */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 14 spot map */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 15 rings */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 waves */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -185,7 +198,9 @@ void ground_write_sets(virga_ground *ground)
             {.sampler = nearest, .view = ground->survey->depth->view, .image_layout = read_only},
             {.sampler = nearest, .view = ground->survey->surface->view, .image_layout = read_only},
             {.view = ground->wet_map->view, .image_layout = general},
-            {.view = ground->spot_map->view, .image_layout = general}};
+            {.view = ground->spot_map->view, .image_layout = general},
+            whole(ground->rings),
+            {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only}};
         ground->sets[parity] = virga_bindings_write(ground->context, ground->bindings, parity, bound);
     }
 }
@@ -204,6 +219,7 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->share, VIRGA_SPIRV(ground_share_comp), "ground.share"},
         {&ground->soak, VIRGA_SPIRV(ground_soak_comp), "ground.soak"},
         {&ground->flow, VIRGA_SPIRV(ground_flow_comp), "ground.flow"},
+        {&ground->ring, VIRGA_SPIRV(ground_ring_comp), "ground.ring"},
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
     };
@@ -226,6 +242,7 @@ static virga_result init(virga_ground *ground)
     TRY(create_buffers(ground));
     TRY(create_images(ground));
     TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2, 0, &ground->bindings));
+    TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, ground->bindings->layout, &ground->ripples));
     TRY(create_pipelines(ground));
 error:
     return result;
@@ -269,17 +286,18 @@ void virga_ground_destroy(virga_ground **ground)
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
     virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget, &dying->land,    &dying->share,
-                                    &dying->soak,  &dying->flow,   &dying->measure, &dying->map};
+                                    &dying->soak,  &dying->flow,   &dying->measure, &dying->map, &dying->ring};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
     virga_buffer **buffers[] = {&dying->floors,   &dying->cells[0],   &dying->cells[1],   &dying->arrivals,
                                 &dying->spots,    &dying->kept_cells, &dying->kept_spots, &dying->counts,
-                                &dying->landings, &dying->tick_ring,  &dying->list_ring,  &dying->readback_ring};
+                                &dying->landings, &dying->rings, &dying->tick_ring,  &dying->list_ring,  &dying->readback_ring};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);
     VIRGA_RETIRE(context, dying->spot_map);
     virga_mesh_map_retire(context, &dying->survey);
+    ground_ripples_retire(context, &dying->ripples);
     VIRGA_RETIRE(context, dying->bindings);
     virga_free(&context->heap, dying->window.kept);
     context->effects--;
@@ -326,7 +344,11 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
                                 .cells = ground->def.cells,
                                 .cell_m = ground->def.cell_m,
                                 .base_m = (float)ground->base_m};
+    maps->ripples = ground->ripples->map->layer_views[0];
+    maps->ripple_texels = ground->def.ripple_texels;
+    maps->ripple_texel_m = ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++) {
+        maps->ripple_low_m[axis] = ground->ripple_low_m[axis];
         maps->low_m[axis] = ground->window.low[axis] * tile_m;
         maps->high_m[axis] = (ground->window.low[axis] + (int32_t)ground->window.tiles) * tile_m;
     }

@@ -3,6 +3,8 @@
  *   ground.c          create, destroy, settings, what others read
  *   materials.c       what materials do with water
  *   ground_window.c   which tiles are in the window, kept or forgotten
+ *   ring_table.c      waves on shallow water
+ *   ground_rings.c    the map of rings on puddles
  *   ground_step.c     ticks: passes in their order
  */
 #ifndef VIRGA_GROUND_INTERNAL_H
@@ -58,6 +60,24 @@ uint32_t ground_window_kept_end(const ground_window *window);
 /* Moves the window and tells what that takes. */
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move);
 
+/* ---- ground_rings.c */
+typedef struct ground_ripples {
+    virga_resource resource; /* first */
+    virga_image_2d *map, *waves;
+    virga_buffer *upload; /* of the waves; NULL once recorded */
+    VkRenderPass pass;
+    VkFramebuffer framebuffer;
+    virga_pipeline *pipeline;
+} ground_ripples;
+
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, VkPipelineLayout layout,
+                                   ground_ripples **ripples);
+void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
+void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
+
+/* Draws all living rings; ground's set must be bound for graphics. Leaves the map in GENERAL. */
+void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples);
+
 /* ---- the object */
 
 /* What the statistics ring reads back for one frame. */
@@ -80,12 +100,15 @@ struct virga_ground {
     uint32_t parity; /* which of the two cell buffers is current */
     uint64_t ticks;  /* run since creation */
 
-    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings;
+    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map;
     virga_mesh_map *survey;
+    ground_ripples *ripples;
+    double ripple_low_m[2]; /* in the world */
+    uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *adopt, *forget, *land, *share, *soak, *flow, *measure, *map;
+    virga_pipeline *adopt, *forget, *land, *share, *soak, *flow, *measure, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
     uint64_t ring_frame;

@@ -109,6 +109,13 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->survey_top_m = (float)(ground->base_m + SURVEY_TOP_M);
     out->survey_height_m = (float)SURVEY_DEEP_M;
     out->base_m = (float)ground->base_m;
+    const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
+    for (int axis = 0; axis < 2; axis++)
+        out->ripple_low_m[axis] = (float)(ground->ripple_low_m[axis] -
+                                          ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell);
+    out->ripple_side_m = (float)side_m;
+    out->tick_s = (float)ground->def.tick_s;
+    out->last_tick = tick ? tick : ground->last_tick;
     out->start_wetness = ground->settings.start_wetness;
     out->start_water_um = ground->settings.start_water_mm * 1e3f;
     out->tiles_entering = ground->move.entering_count;
@@ -277,6 +284,7 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     bind(ground, cmd);
     virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.land");
     over_impacts(ground, cmd, ground->land);
+    dispatch(ground, cmd, ground->ring, 1);
     over_impacts(ground, cmd, ground->share);
     over_impacts(ground, cmd, ground->soak);
     virga_pass_end(ground->context, cmd, scope);
@@ -304,6 +312,27 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
+/* The ripple map lies on multiples of its texels, so that waves do not crawl while the camera moves. */
+static void place_ripples(virga_ground *ground, const double camera_m[3])
+{
+    const double texel = (double)ground->def.ripple_texel_m;
+    for (int axis = 0; axis < 2; axis++)
+        ground->ripple_low_m[axis] = (floor(camera_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
+}
+
+static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
+{
+    virga_context *context = ground->context;
+    const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.ripples");
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,
+                                      &ground->sets[ground->parity], 2, offsets);
+    ground_ripples_draw(context, cmd, ground->ripples);
+    virga_pass_end(context, cmd, scope);
+}
+
 static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.map");
@@ -326,7 +355,8 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, ground->wet_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
-    virga_buffer *const zero[] = {ground->cells[0], ground->cells[1],   ground->arrivals, ground->spots,
+    ground_ripples_upload(context, cmd, ground->ripples);
+    virga_buffer *const zero[] = {ground->rings, ground->cells[0], ground->cells[1],   ground->arrivals, ground->spots,
                                   ground->counts,   ground->kept_cells, ground->landings};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
@@ -380,6 +410,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         first_contents(ground, cmd);
         ground->started = true;
     }
+    place_ripples(ground, info->camera_m);
     follow(ground, cmd, info);
     if (!info->ticks) {
         push_tick(ground, 0);
@@ -387,6 +418,9 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     }
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(ground, cmd, info->first_tick + i);
+    if (info->ticks)
+        ground->last_tick = info->first_tick + info->ticks - 1;
+    write_ripples(ground, cmd);
     if (ground->settings.measure)
         measure(ground, cmd);
     write_maps(ground, cmd);

@@ -15,6 +15,8 @@ typedef struct virga_arrivals_gpu virga_arrivals_gpu;
 typedef struct virga_soil_gpu virga_soil_gpu;
 typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
 typedef struct virga_ground_count_gpu virga_ground_count_gpu;
+typedef struct virga_ring_gpu virga_ring_gpu;
+typedef struct virga_rings_gpu virga_rings_gpu;
 #endif
 
 #define VIRGA_GROUND_GROUP 256
@@ -68,9 +70,31 @@ struct virga_ground_tick_gpu {
     float base_m;       /* that heights in the map count from */
     uint tiles_entering;
     uint tiles_forgotten;
+    float ripple_low_m[2];   /* low corner of the ripple map from the window's, and its side */
+    float ripple_side_m;
+    float tick_s;
+    uint rings;              /* 0: no ripple map */
+    uint last_tick;          /* the newest tick */
     float start_wetness;
     float start_water_um;
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+};
+
+/* A ring on a puddle, 36 bytes. */
+struct virga_ring_gpu {
+    int cell[2];         /* of the world, where the drop fell */
+    float in_cell[2];    /* [0; 1) */
+    uint tick;           /* in which it fell, and what share of it had passed */
+    float share;
+    float crater_m;      /* depth of the crater; 0: none has been here yet */
+    float depth_m;       /* of the water */
+    uint id;             /* of the drop */
+};
+
+/* Head of the rings: a ring buffer in the other sense too. */
+struct virga_rings_gpu {
+    uint total;          /* that ever were; the newest lies at (total - 1) modulo VIRGA_RINGS */
+    uint pad[3];
 };
 
 /* A count of water, 64 bits. */
@@ -100,7 +124,9 @@ VIRGA_ASSERT_SIZE(virga_floor_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_cell_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 96 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
+VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 120 + 32 * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

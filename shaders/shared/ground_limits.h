@@ -9,6 +9,15 @@
 #define VIRGA_GROUND_SPOTS      8    /* a cell's dark spots are this many bits along its side */
 #define VIRGA_GROUND_SCATTER    8    /* pieces at most that an impact which stands for many drops is scattered in */
 
+/* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
+#define VIRGA_RING_DEPTHS   8     /* of water: a ring takes the nearest of them */
+#define VIRGA_RING_DEPTH_LIST {0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05} /* m */
+#define VIRGA_RING_TIMES    320
+#define VIRGA_RING_TIME_S   0.8   /* a ring is forgotten then */
+#define VIRGA_RING_RADII    160
+#define VIRGA_RING_RADIUS_M 0.32
+#define VIRGA_RINGS         4096  /* live at once; of more that fall, some are taken by lot */
+
 /* The states of a cell, as section 2.1 and 4.6 of Mizukami et al. have them. */
 #define VIRGA_GROUND_NONE       0 /* no ground there */
 #define VIRGA_GROUND_DRY        1 /* takes up what falls on it; also while it is damp */

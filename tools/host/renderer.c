@@ -53,7 +53,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
 {
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 6},
     };
     VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
@@ -81,6 +81,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
     write_image(r, r->frame_set, 3, r->volume_sampler, &r->skylight.volume);
     write_image(r, r->frame_set, 4, r->point_sampler, &r->white);
     write_image(r, r->frame_set, 5, r->point_sampler, &r->blank_spots);
+    write_image(r, r->frame_set, 6, r->volume_sampler, &r->white);
     return true;
 }
 
@@ -225,9 +226,9 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
     return true;
 }
 
-static void write_view(const host_renderer *r, uint32_t binding, VkImageView view)
+static void write_view(const host_renderer *r, uint32_t binding, VkSampler sampler, VkImageView view)
 {
-    VkDescriptorImageInfo info = {r->point_sampler, view, VK_IMAGE_LAYOUT_GENERAL};
+    VkDescriptorImageInfo info = {sampler, view, VK_IMAGE_LAYOUT_GENERAL};
     VkWriteDescriptorSet write = {
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
         .dstSet = r->frame_set,
@@ -244,8 +245,9 @@ void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
     const bool other = maps && maps->wet != r->ground.wet;
     r->ground = maps ? *maps : (virga_ground_maps){0};
     if (other) {
-        write_view(r, 4, maps->wet);
-        write_view(r, 5, maps->spots);
+        write_view(r, 4, r->point_sampler, maps->wet);
+        write_view(r, 5, r->point_sampler, maps->spots);
+        write_view(r, 6, r->volume_sampler, maps->ripples);
     }
 }
 
@@ -330,6 +332,11 @@ static void fill_ground(const virga_ground_maps *maps, const host_camera *camera
     frame->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
     frame->ground_low[3] = 1.0f / maps->cell_m;
     frame->ground_wrap[2] = (float)maps->cells;
+    const float side_m = (float)maps->ripple_texels * maps->ripple_texel_m;
+    for (int axis = 0; axis < 2; axis++)
+        frame->ripples[axis] = (float)(maps->ripple_low_m[axis] - camera->position_m[axis * 2]);
+    frame->ripples[2] = 1.0f / side_m;
+    frame->ripples[3] = side_m;
 }
 
 static void fill_frame(const host_renderer *r, const host_target *target, const host_camera *camera,

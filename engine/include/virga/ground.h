@@ -64,6 +64,8 @@ typedef struct virga_ground_def {
     float cell_m;         /* [0.01; 0.1] side of a cell. Default 0.05 */
     uint32_t kept_tiles;  /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
+    uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
+    float ripple_texel_m;   /* [0.002; 0.05] its texel; waves of three texels and longer show. Default 0.008 */
     double tick_s;        /* [1/1000; 1/20] the same as rain's. Default 1/60 */
     uint32_t flow_ticks;  /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
     uint32_t max_impacts; /* [256; 4194304] the same as rain's. Default 65536 */
@@ -140,6 +142,11 @@ typedef struct virga_ground_maps {
     VkImageView wet;   /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m) */
     VkImageView spots; /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
+    VkImageView ripples; /* R16G16_SFLOAT: slope of the water's surface in x and z at the newest tick, where there is
+                          * water (it goes on under what is dry: use it where the depth is not zero). Does not wrap */
+    uint32_t ripple_texels;
+    float ripple_texel_m;
+    double ripple_low_m[2]; /* its low corner in x and z */
     uint32_t cells;
     float cell_m;
     float base_m;

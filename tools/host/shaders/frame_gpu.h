@@ -39,6 +39,7 @@ struct host_frame_gpu {
     HOST_VEC4 ground_low;      /* low corner of the wet ground's window relative to the camera, y: height that its map
                                 * counts from; w: 1 / side of a cell, 0 for no ground */
     HOST_VEC4 ground_wrap;     /* number of the corner's cell modulo cells; z: cells */
+    HOST_VEC4 ripples;         /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
     HOST_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     HOST_LIGHT lights[HOST_MAX_LIGHTS];
 };

@@ -105,11 +105,12 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
 // A level mirror of water over a colour.
 vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
 {
-    const vec3 up = vec3(0.0, 1.0, 0.0), f0 = vec3(0.0204);
-    float n_v = clamp(v.y, 1e-3, 1.0);
+    const vec3 up = water.normal, f0 = vec3(0.0204);
+    float n_v = clamp(dot(up, v), 1e-3, 1.0);
     float c = 1.0 - n_v, c2 = c * c;
     float fresnel = f0.x + (1.0 - f0.x) * c2 * c2 * c;
-    vec3 r = vec3(-v.x, abs(v.y), -v.z);
+    vec3 r = reflect(-v, up);
+    r.y = abs(r.y);
     vec3 mirror = fresnel * reflected_light(r, water.roughness) * sky_share(moments, r);
     return color * (1.0 - fresnel) + mirror + lit(vec3(0.0), f0, max(water.roughness, 0.08), up, v, n_v);
 }

@@ -7,6 +7,7 @@
 
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
 layout(set = 0, binding = 5) uniform usampler2D spot_map;
+layout(set = 0, binding = 6) uniform sampler2D ripple_map;
 
 struct Water {
     float damp;     // [0; 1] of the pores
@@ -14,7 +15,20 @@ struct Water {
     float puddle;   // [0; 1] share that is a mirror
     float depth_mm;
     float roughness; // of the mirror
+    vec3 normal;     // of the mirror
 };
+
+// Slope of the rings around the camera, faded out towards the end of their map, where only their variance is left.
+vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
+{
+    const vec2 at = (relative.xz - frame.ripples.xy) * frame.ripples.z;
+    const vec2 inside = min(at, 1.0 - at);
+    drawn = frame.ripples.w > 0.0 ? smoothstep(0.0, 0.12, min(inside.x, inside.y)) : 0.0;
+    // Waves of about 2 cm can not be seen where a pixel is as wide.
+    drawn *= 1.0 - smoothstep(0.006, 0.03, pixel_m);
+    const vec2 slope = textureLod(ripple_map, at, 0.0).xy * drawn;
+    return normalize(vec3(-slope.x, 1.0, -slope.y));
+}
 
 Water water_at(vec3 relative, vec3 n)
 {
@@ -30,7 +44,9 @@ Water water_at(vec3 relative, vec3 n)
     water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
     water.puddle = level * smoothstep(0.5, 1.6, wet.depth_mm);
     water.depth_mm = level * wet.depth_mm;
-    water.roughness = clamp(sqrt(sqrt(0.0004 + 2.0 * wet.slope2)), 0.03, 0.5);
+    float drawn;
+    water.normal = water_normal(relative, pixel / max(inv_cell, 1e-6), drawn);
+    water.roughness = clamp(sqrt(sqrt(2.0 * wet.slope2 * (1.0 - 0.7 * drawn))), 0.03, 0.5);
     return water;
 }
 

@@ -1,0 +1,42 @@
+/* ground/ring_table.h - the wave that a drop sends out over a puddle, as a table that a pass samples. Internal.
+ *
+ * Linear waves of small slope on water of depth h, gravity and surface tension both:
+ *
+ *     w^2 = (g k + sigma k^3 / rho) tanh(k h)                                                       (dispersion)
+ *
+ * from a crater with a rim, of no volume in all, at rest at t = 0:
+ *
+ *     eta0(r) = (1 - r^2 / a^2) exp(-r^2 / a^2),  whose Hankel transform is  S(k) = (a^4 k^2 / 8) exp(-a^2 k^2 / 4)
+ *     eta(r, t) = int S(k) cos(w t) exp(-gamma t) J0(k r) k dk
+ *     slope(r, t) = d eta / d r = -int S(k) cos(w t) exp(-gamma t) J1(k r) k^2 dk
+ *
+ * (Cauchy and Poisson's problem; the transform follows from int r exp(-r^2/a^2) J0(k r) dr = a^2/2 exp(-a^2 k^2/4) and
+ * its derivative with respect to 1/a^2.) Viscosity takes energy in the water (2 nu k^2, Lamb 1932, par. 348) and in the
+ * boundary layer on the floor of a shallow puddle:
+ *
+ *     gamma = 2 nu k^2 + sqrt(nu w / 2) k / sinh(2 k h)
+ *
+ * (the dissipation per area of an oscillating layer, rho U^2 sqrt(nu w / 8), U = w A / sinh(k h), over twice the wave's
+ * energy rho w^2 A^2 / (2 k tanh(k h)); Landau and Lifshitz, par. 25). A crater is 1 m deep in the table: multiply by
+ * the real one's depth. */
+#ifndef VIRGA_GROUND_RING_TABLE_H
+#define VIRGA_GROUND_RING_TABLE_H
+
+#include <virga/shared/ground_limits.h>
+
+#define RING_CRATER_M 0.004 /* a: what a drop of 2 to 3 mm opens in a puddle (2 to 4 of its radii) */
+
+/* Angular frequency (rad/s) of waves of number k (rad/m) on water of depth h (m). */
+double ring_omega(double k, double h);
+
+/* Damping (1/s) of their amplitude. */
+double ring_gamma(double k, double h);
+
+/* Depth of water (m) of layer `layer` of the table: see VIRGA_RING_DEPTH_LIST. */
+double ring_depth(int layer);
+
+/* Fills `slope` [VIRGA_RING_DEPTHS][VIRGA_RING_TIMES][VIRGA_RING_RADII]: the slope at radius i * VIRGA_RING_RADIUS_M /
+ * (VIRGA_RING_RADII - 1) at time j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1). Takes about 0.1 s. */
+void ring_table_fill(float *slope);
+
+#endif

@@ -1,0 +1,36 @@
+// ring.vert - a square around each living ring in the ripple map, as wide as its fastest waves have come.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+#include "rings.glsl"
+
+layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
+layout(location = 1) flat out vec3 moment;            // age (s), layer of the table, crater (m)
+
+#define FASTEST_M_S 0.45 // short capillary waves, as groups
+
+float layer_of(float depth_m)
+{
+    const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05);
+    float layer = 0.0;
+    for (int i = 1; i < VIRGA_RING_DEPTHS; i++)
+        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? float(i) : layer; // nearest by ratio
+    return layer;
+}
+
+void main()
+{
+    const uint place = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
+    const virga_ring_gpu ring = rings[place];
+    const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
+    const float radius = min(0.02 + FASTEST_M_S * age, VIRGA_RING_RADIUS_M);
+    const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
+    const vec2 cell = vec2(ivec2(ring.cell[0], ring.cell[1]) -
+                           ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) + vec2(ring.in_cell[0], ring.in_cell[1]);
+    offset_m = side * radius;
+    const vec2 at = (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
+    moment = vec3(age, layer_of(ring.depth_m), ring.crater_m);
+    const bool lives = ring.crater_m > 0.0 && age < VIRGA_RING_TIME_S;
+    gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}

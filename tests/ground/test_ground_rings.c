@@ -1,0 +1,170 @@
+/* Rings on puddles: each drop starts one at its instant, and the map shows the waves of the table. */
+#include "ground_fixture.h"
+
+#include "ground/ring_table.h"
+
+#include <virga/shared/random.h>
+
+#include <math.h>
+
+static ground_fixture f;
+static host_buffer picture, records;
+
+/* A level floor under `mm` of water everywhere. */
+static void begin(double mm)
+{
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.kept_tiles = 0;
+    def.max_impacts = MOST_DROPS;
+    def.ripple_texels = 256;
+    def.ripple_texel_m = 0.004f;
+    ground_fixture_open(&f);
+    ground_fixture_floor(&f, VIRGA_MATERIAL_OWN);
+    ground_fixture_ground(&f, &def);
+    ground_fixture_step(&f, 0);
+    virga_cell_gpu *cells = f.upload.mapped;
+    for (uint32_t i = 0; i < 128 * 128; i++)
+        cells[i] = (virga_cell_gpu){(uint32_t)(mm * 2.5e6), 0};
+    ground_fixture_put(&f);
+    REQUIRE(host_buffer_create(&f.gpu.device, 256 * 256 * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
+                               "ripples", &picture, f.gpu.error, sizeof f.gpu.error));
+    REQUIRE(host_buffer_create(&f.gpu.device, f.ground->rings->size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                               HOST_BUFFER_READBACK, "rings", &records, f.gpu.error, sizeof f.gpu.error));
+}
+
+static void end(void)
+{
+    host_buffer_destroy(&f.gpu.device, &picture);
+    host_buffer_destroy(&f.gpu.device, &records);
+    ground_fixture_close(&f);
+}
+
+static void read_back(void)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f.gpu.device, &cmd, f.gpu.error, sizeof f.gpu.error));
+    REQUIRE(virga_frame_begin(f.context, f.gpu.device.frame, f.gpu.device.completed) == VIRGA_OK);
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                    .imageExtent = {256, 256, 1}};
+    vkCmdCopyImageToBuffer(cmd, f.ground->ripples->map->image, VK_IMAGE_LAYOUT_GENERAL, picture.buffer, 1, &copy);
+    ground_fixture_copy(cmd, f.ground->rings->buffer, 0, records.buffer, 0, f.ground->rings->size);
+    ground_fixture_submit(&f);
+    host_buffer_invalidate(&f.gpu.device, &picture);
+    host_buffer_invalidate(&f.gpu.device, &records);
+}
+
+static float half_to_float(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const double value = exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24);
+    return (float)(half & 0x8000 ? -value : value);
+}
+
+/* Slope away from a place, at a texel. */
+static double radial(int x, int y, double from_x, double from_z)
+{
+    const uint16_t *texel = (const uint16_t *)picture.mapped + (y * 256 + x) * 2;
+    const double dx = (x + 0.5 - 128) * 0.004 - from_x, dz = (y + 0.5 - 128) * 0.004 - from_z;
+    const double r = hypot(dx, dz);
+    return (half_to_float(texel[0]) * dx + half_to_float(texel[1]) * dz) / r;
+}
+
+static void test_the_map_shows_the_waves_of_the_table(void **state)
+{
+    (void)state;
+    float *table = malloc(sizeof(float) * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
+    ring_table_fill(table);
+    begin(5);
+    virga_impact_gpu *drop = ground_fixture_drop(&f, 0, 0, 0, 4000);
+    drop->position[0] = drop->position[2] = 0;
+    drop->time_s = 0.5f / 60; /* in the middle of its tick */
+    drop->diameter_m = 2.5e-3f;
+    ground_fixture_step(&f, 12);
+    read_back();
+    const double age = 11.5 / 60, crater = 0.5 * 2.5e-3, at = age / VIRGA_RING_TIME_S * (VIRGA_RING_TIMES - 1);
+    const float *row = table + ((size_t)3 * VIRGA_RING_TIMES + (size_t)at) * VIRGA_RING_RADII; /* 5 mm */
+    double worst = 0, highest = 0;
+    for (int x = 132; x < 150; x++) { /* up to 9 cm */
+        const double r = hypot((x + 0.5 - 128) * 0.004, 0.002);
+        const double j = r / VIRGA_RING_RADIUS_M * (VIRGA_RING_RADII - 1), t = at - floor(at), u = j - floor(j);
+        const float *low = row + (int)j, *high = low + VIRGA_RING_RADII;
+        const double expected = crater * ((1 - t) * ((1 - u) * (double)low[0] + u * (double)low[1]) +
+                                          t * ((1 - u) * (double)high[0] + u * (double)high[1]));
+        worst = fmax(worst, fabs(radial(x, 128, 0, 0) - expected));
+        highest = fmax(highest, fabs(expected));
+    }
+    assert_true(highest > 0.002);
+    if (worst > 0.02 * highest)
+        fail_msg("off by %g where waves are %g", worst, highest);
+    free(table);
+    end();
+}
+
+static void test_a_ring_is_of_its_drop_and_its_instant(void **state)
+{
+    (void)state;
+    begin(3);
+    virga_impact_gpu *drop = ground_fixture_drop(&f, 3, -4, 0, 4000);
+    drop->id = 0xabcdef01u;
+    drop->time_s = 0.25f / 60;
+    const uint32_t tick = f.tick;
+    ground_fixture_step(&f, 1);
+    read_back();
+    const virga_rings_gpu *head = records.mapped;
+    const virga_ring_gpu *ring = (const virga_ring_gpu *)(head + 1);
+    assert_int_equal(head->total, 1);
+    assert_int_equal(ring->id, 0xabcdef01u);
+    assert_int_equal(ring->tick, tick);
+    assert_float_equal(ring->share, 0.25, 1e-3);
+    assert_int_equal(ring->cell[0], 3);
+    assert_int_equal(ring->cell[1], -4);
+    assert_float_equal(ring->depth_m, 3e-3, 1e-6);
+    end();
+}
+
+static void test_there_are_no_rings_on_a_film_or_beside_the_water(void **state)
+{
+    (void)state;
+    begin(0.5);
+    for (int i = 0; i < 10; i++)
+        ground_fixture_drop(&f, i, 0, 0, 4000);
+    ground_fixture_step(&f, 1);
+    read_back();
+    assert_int_equal(((const virga_rings_gpu *)records.mapped)->total, 0);
+    end();
+}
+
+static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state)
+{
+    (void)state;
+    begin(5);
+    for (int step = 0; step < 60; step++) {
+        for (uint32_t i = 0; i < 3000; i++) {
+            const uint32_t h = virga_hash3(77, (uint32_t)step, i);
+            ground_fixture_drop(&f, (int)(h & 15) - 8, (int)(h >> 4 & 15) - 8, 0, 100)->id = h;
+        }
+        ground_fixture_step(&f, 1);
+    }
+    read_back();
+    const virga_rings_gpu *head = records.mapped;
+    const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
+    const double in_a_life = head->total * (VIRGA_RING_TIME_S * 60) / 60;
+    assert_true(in_a_life <= VIRGA_RINGS && in_a_life > 0.8 * VIRGA_RINGS);
+    /* In the order of time: the place after the newest holds the oldest. */
+    for (uint32_t i = 1; i < head->total && i < VIRGA_RINGS; i++)
+        assert_true(rings[(head->total - i) % VIRGA_RINGS].tick >= rings[(head->total - i - 1) % VIRGA_RINGS].tick ||
+                    head->total < VIRGA_RINGS);
+    end();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_map_shows_the_waves_of_the_table),
+        cmocka_unit_test(test_a_ring_is_of_its_drop_and_its_instant),
+        cmocka_unit_test(test_there_are_no_rings_on_a_film_or_beside_the_water),
+        cmocka_unit_test(test_a_cloudburst_never_lives_longer_than_there_is_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
