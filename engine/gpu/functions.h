@@ -76,7 +76,7 @@
     X(CmdSetScissor)                \
     X(CmdBeginRenderPass)           \
     X(CmdEndRenderPass)             \
-    X(CmdCopyBufferToImage)                                                                                            \
+    X(CmdCopyBufferToImage)         \
     X(CmdCopyBuffer)                \
     X(CmdFillBuffer)
 

@@ -81,16 +81,16 @@ typedef struct graphics_state {
 static void describe_blend(const virga_graphics_def *def, graphics_state *state)
 {
     memset(state->attachments, 0, sizeof state->attachments);
-    state->attachments[0] =
-        (VkPipelineColorBlendAttachmentState){.blendEnable = def->blend_premultiplied || def->blend_add,
-                                              .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-                                              .dstColorBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                              .colorBlendOp = VK_BLEND_OP_ADD,
-                                              .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-                                              .dstAlphaBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                              .alphaBlendOp = VK_BLEND_OP_ADD,
-                                              .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+    state->attachments[0] = (VkPipelineColorBlendAttachmentState){
+        .blendEnable = def->blend_premultiplied || def->blend_add,
+        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstColorBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .colorBlendOp = VK_BLEND_OP_ADD,
+        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor = def->blend_add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .alphaBlendOp = VK_BLEND_OP_ADD,
+        .colorWriteMask =
+            VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
     /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
     state->blend =
         (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,

@@ -81,10 +81,11 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
         return 0;
     const VkDeviceSize cells = (VkDeviceSize)def.cells * def.cells;
     const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + 2 * sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
-                                8 /* spots */ + 16 /* maps */ + 8 /* survey */;
+                                8 /* spots */ + 4 /* stirs */ + 16 /* maps */ + 8 /* survey */;
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
-           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) + (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 +
-           VIRGA_RINGS * sizeof(virga_ring_gpu) + 4ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
+           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) +
+           (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 + VIRGA_RINGS * sizeof(virga_ring_gpu) +
+           4ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
 }
@@ -110,6 +111,7 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->cells[0], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells0"},
         {&ground->cells[1], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells1"},
         {&ground->arrivals, cells * sizeof(virga_arrivals_gpu), storage, VIRGA_HEAP_DEVICE, "ground.arrivals"},
+        {&ground->stirs, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.stirs"},
         {&ground->spots, cells * 8, storage, VIRGA_HEAP_DEVICE, "ground.spots"},
         {&ground->kept_cells, kept * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.kept_cells"},
         {&ground->kept_spots, kept * 8, storage, VIRGA_HEAP_DEVICE, "ground.kept_spots"},
@@ -152,23 +154,24 @@ error:
 
 /* As in shaders/ground: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 tick */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE}, /* 1 lists of tiles */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 2 impacts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 3 floors */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 4 cells */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 5 cells after flow */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 6 arrivals */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 7 spots */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 8 kept cells */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 9 counts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 10 landings */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE}, /* 11 survey: depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE}, /* 12 survey: surface */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 13 wet map */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},          /* 14 spot map */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 tick */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE},                      /* 1 lists of tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 2 impacts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 floors */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 4 cells */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 cells after flow */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 arrivals */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 spots */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 kept cells */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 counts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 landings */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 11 survey: depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 12 survey: surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 wet map */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 14 spot map */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 15 rings */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 waves */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 stirs */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -200,7 +203,8 @@ void ground_write_sets(virga_ground *ground)
             {.view = ground->wet_map->view, .image_layout = general},
             {.view = ground->spot_map->view, .image_layout = general},
             whole(ground->rings),
-            {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only}};
+            {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
+            whole(ground->stirs)};
         ground->sets[parity] = virga_bindings_write(ground->context, ground->bindings, parity, bound);
     }
 }
@@ -285,13 +289,14 @@ void virga_ground_destroy(virga_ground **ground)
         return;
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
-    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget, &dying->land,    &dying->share,
-                                    &dying->soak,  &dying->flow,   &dying->measure, &dying->map, &dying->ring};
+    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,  &dying->land, &dying->share, &dying->soak,
+                                    &dying->flow,  &dying->measure, &dying->map,  &dying->ring};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->floors,   &dying->cells[0],   &dying->cells[1],   &dying->arrivals,
-                                &dying->spots,    &dying->kept_cells, &dying->kept_spots, &dying->counts,
-                                &dying->landings, &dying->rings, &dying->tick_ring,  &dying->list_ring,  &dying->readback_ring};
+    virga_buffer **buffers[] = {&dying->floors,    &dying->cells[0],     &dying->cells[1],   &dying->arrivals,
+                                &dying->spots,     &dying->kept_cells,   &dying->kept_spots, &dying->counts,
+                                &dying->landings,  &dying->rings,        &dying->stirs,      &dying->tick_ring,
+                                &dying->list_ring, &dying->readback_ring};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);

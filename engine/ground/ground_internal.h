@@ -100,7 +100,7 @@ struct virga_ground {
     uint32_t parity; /* which of the two cell buffers is current */
     uint64_t ticks;  /* run since creation */
 
-    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings;
+    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map;
     virga_mesh_map *survey;

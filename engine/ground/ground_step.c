@@ -111,8 +111,8 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->base_m = (float)ground->base_m;
     const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
-        out->ripple_low_m[axis] = (float)(ground->ripple_low_m[axis] -
-                                          ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell);
+        out->ripple_low_m[axis] =
+            (float)(ground->ripple_low_m[axis] - ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell);
     out->ripple_side_m = (float)side_m;
     out->tick_s = (float)ground->def.tick_s;
     out->last_tick = tick ? tick : ground->last_tick;
@@ -228,8 +228,7 @@ static void write_lists(virga_ground *ground)
     char *mapped = ground->list_ring->memory.block.mapped;
     ground_lists *lists = (ground_lists *)(mapped + ground->list_offset);
     for (uint32_t i = 0; i < ground->move.entering_count; i++)
-        lists->entering[i] =
-            ground->move.entering[i] | (ground->move.entering_from[i] == GROUND_NEW ? NEVER_SEEN : 0);
+        lists->entering[i] = ground->move.entering[i] | (ground->move.entering_from[i] == GROUND_NEW ? NEVER_SEEN : 0);
     memcpy(lists->forgotten, ground->move.forgotten, ground->move.forgotten_count * sizeof lists->forgotten[0]);
     virga_buffer_flush(ground->context, ground->list_ring, ground->list_offset, ground_list_bytes());
 }
@@ -313,11 +312,11 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
 }
 
 /* The ripple map lies on multiples of its texels, so that waves do not crawl while the camera moves. */
-static void place_ripples(virga_ground *ground, const double camera_m[3])
+static void place_ripples(virga_ground *ground, const double focus_m[3])
 {
     const double texel = (double)ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
-        ground->ripple_low_m[axis] = (floor(camera_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
+        ground->ripple_low_m[axis] = (floor(focus_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
 }
 
 static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
@@ -356,8 +355,8 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     ground_ripples_upload(context, cmd, ground->ripples);
-    virga_buffer *const zero[] = {ground->rings, ground->cells[0], ground->cells[1],   ground->arrivals, ground->spots,
-                                  ground->counts,   ground->kept_cells, ground->landings};
+    virga_buffer *const zero[] = {ground->rings, ground->stirs,  ground->cells[0],   ground->cells[1], ground->arrivals,
+                                  ground->spots, ground->counts, ground->kept_cells, ground->landings};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     transfer_barrier(ground, cmd);
@@ -379,7 +378,8 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
     if (info->ticks > ground->def.max_ticks_per_step)
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
                                     ground->def.max_ticks_per_step, info->ticks);
-    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3))
+    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
+        virga_settings_finite_double(log, "step_info.focus_m", info->focus_m, 3))
         return VIRGA_ERROR_INVALID;
     return virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
 }
@@ -410,7 +410,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         first_contents(ground, cmd);
         ground->started = true;
     }
-    place_ripples(ground, info->camera_m);
+    place_ripples(ground, info->focus_m);
     follow(ground, cmd, info);
     if (!info->ticks) {
         push_tick(ground, 0);

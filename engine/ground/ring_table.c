@@ -6,7 +6,7 @@
 #define GRAVITY   9.80665
 #define TENSION   (0.0728 / 998.2) /* sigma / rho */
 #define VISCOSITY 1.004e-6
-#define NUMBERS   160   /* of waves: k from 0 to K_MOST */
+#define NUMBERS   160    /* of waves: k from 0 to K_MOST */
 #define K_MOST    1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
 
 double ring_omega(double k, double h)

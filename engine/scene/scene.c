@@ -13,8 +13,10 @@ struct virga_scene {
 
 virga_scene_def virga_default_scene_def(void)
 {
-    return (virga_scene_def){
-        .size = sizeof(virga_scene_def), .cookie = SCENE_COOKIE, .rain = virga_default_rain_def(), .ground = virga_default_ground_def()};
+    return (virga_scene_def){.size = sizeof(virga_scene_def),
+                             .cookie = SCENE_COOKIE,
+                             .rain = virga_default_rain_def(),
+                             .ground = virga_default_ground_def()};
 }
 
 /* What must be the same as the rain's is taken from it. */
@@ -87,8 +89,10 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
                                    .mesh_count = frame->occluder_count,
                                    .impacts = impacts.buffer,
                                    .impacts_offset = impacts.offset};
-    for (int axis = 0; axis < 3; axis++)
+    for (int axis = 0; axis < 3; axis++) {
         info.camera_m[axis] = frame->camera_m[axis];
+        info.focus_m[axis] = frame->focus_m[axis];
+    }
     virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
     return virga_ground_step(scene->ground, cmd, &info);
 }

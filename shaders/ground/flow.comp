@@ -9,6 +9,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "rings.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 5) writeonly buffer Next { virga_cell_gpu next_cells[]; };
@@ -87,6 +88,7 @@ void main()
             count_water(VIRGA_GROUND_RUN_OFF, drained);
     }
     next_cells[place] = cell;
+    stirs[place] = uint(float(stirs[place]) * exp(-tick.flow_s / CALM_S));
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         if (group_sunk > 0u)

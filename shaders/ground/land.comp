@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "pieces.glsl"
+#include "rings.glsl"
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
@@ -66,6 +67,11 @@ void main()
         }
         here += piece.water_nl;
         atomicAdd(arrivals[piece.place].landed_nl, piece.water_nl);
+        const float water_m = float(cells[piece.place].free_nl) * tick.m_per_nl;
+        if (water_m >= LEAST_WATER_M) {
+            const float drops = impact.weight / float(n);
+            atomicAdd(stirs[piece.place], uint(drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6));
+        }
         leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
     }
     if (here > 0u)

@@ -1,4 +1,5 @@
-// rings.glsl - rings on puddles: where their records lie, and how deep a crater a drop opens.
+// rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets.
+layout(scalar, set = 0, binding = 17) buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
 layout(scalar, set = 0, binding = 15) buffer Rings
 {
     virga_rings_gpu rings_head;
@@ -13,3 +14,10 @@ float crater_depth(float diameter_m, float water_m)
 {
     return min(0.5 * diameter_m * diameter_m / 0.0025, 0.5 * water_m);
 }
+
+// Variance of slope that a drop's waves give a cell: the square of the crater's slope over its area, 4 pi (3 / 8) of its
+// depth squared whatever its width (see ring_table.h: slope^2 = (2 r / a^2 (2 - x))^2 exp(-2 x), x = r^2 / a^2), over the
+// cell's area. Waves carry it to the cells around as much as theirs come here.
+float crater_variance(float crater_m) { return 4.71239 * crater_m * crater_m * tick.inv_cell_m * tick.inv_cell_m; }
+
+#define CALM_S 0.2 // in which viscosity calms such waves: 1 / (2 gamma) of 14 mm waves on 3 mm of water

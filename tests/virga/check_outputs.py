@@ -16,7 +16,8 @@ TARGET = (-0.5, 2.2, -12.0)
 
 HALF = ["A", "B", "G", "R", "normal.X", "normal.Y", "normal.Z", "rain.A", "rain.B", "rain.G", "rain.R", "velocity.X",
         "velocity.Y"]
-CHANNELS = dict([(name, "half") for name in HALF] + [("Z", "float"), ("id.Y", "uint")])
+CHANNELS = dict([(name, "half") for name in HALF + ["wetness.Y"]] +
+                [("Z", "float"), ("id.Y", "uint"), ("waterdepth.Y", "float")])
 
 # Terminal speed by diameter, Gunn and Kinzer 1949 (mm: m/s).
 SPEEDS = [(0.2, 0.72), (0.3, 1.17), (0.4, 1.62), (0.5, 2.06), (0.6, 2.47), (0.8, 3.27), (1.0, 4.03), (1.2, 4.64),
@@ -197,6 +198,9 @@ def check_stats(paths):
         expect(rain["impacts_dropped"] == 0, f"impacts dropped {rain['impacts_dropped']}")
         expect((rain["impacts"] > 0) == (water["rained"] > 0) == (i > 0), f"impacts {rain['impacts']}, {water}")
         expect(near(water["rained_total"], total, 1e-6 * (1 + total)), f"rained {total}, told {water['rained_total']}")
+        left = sum(water[name] for name in ("elsewhere", "absorbed", "film", "puddle", "run_off", "evaporated", "kept",
+                                            "forgotten"))
+        expect(near(water["start"] + water["rained_total"], left, 0.0015), f"the budget of water is off: {water}")
         for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.streaks", "rain.points"):
             expect(0 <= times.get(name, -1) < 60000, f"milliseconds of {name}: {times.get(name)}")
         expect(line["device_bytes"] > 0, "no device memory")

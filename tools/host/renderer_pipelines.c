@@ -67,8 +67,8 @@ static const struct {
 /* Glass changes the colour alone: normal, velocity, id and depth stay those of what is behind it. */
 static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
 {
-    const VkColorComponentFlags all = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                                      VK_COLOR_COMPONENT_A_BIT;
+    const VkColorComponentFlags all =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     memset(states, 0, HOST_PLATE_COLORS * sizeof *states);
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
         if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend))
@@ -164,8 +164,8 @@ static bool create_pipeline(host_renderer *r, VkRenderPass pass, const VkShaderM
         .layout = r->layout,
         .renderPass = pass,
     };
-    HOST_TRY(vkCreateGraphicsPipelines(r->device->device, VK_NULL_HANDLE, 1, &info, NULL,
-                                       &r->pipelines[kind][two_sided]));
+    HOST_TRY(
+        vkCreateGraphicsPipelines(r->device->device, VK_NULL_HANDLE, 1, &info, NULL, &r->pipelines[kind][two_sided]));
     return true;
 }
 

@@ -102,9 +102,11 @@ static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *oc
         if (rule == end)
             continue;
         if (rule->material && !host_material_find(rule->material, &occluders[i].material))
-            return host_fail(error, error_size, "ground.materials: no material '%s'; there are default, asphalt, "
-                                                "concrete, stone, brick, grass, sand, soil, wood, metal, glass, water, "
-                                                "leaves, cloth, plastic, tile and drain", rule->material);
+            return host_fail(error, error_size,
+                             "ground.materials: no material '%s'; there are default, asphalt, "
+                             "concrete, stone, brick, grass, sand, soil, wood, metal, glass, water, "
+                             "leaves, cloth, plastic, tile and drain",
+                             rule->material);
         occluders[i].ground = rule->walkable;
     }
     return true;
@@ -158,8 +160,7 @@ static bool load_environment(shot *s, char *error, size_t error_size)
     }
     const bool made = host_environment_create(&s->device, &def, &s->environment, error, error_size);
     free(pixels);
-    return made && (!s->renderer ||
-                    host_renderer_set_environment(s->renderer, &s->environment, error, error_size));
+    return made && (!s->renderer || host_renderer_set_environment(s->renderer, &s->environment, error, error_size));
 }
 
 static void load_camera(shot *s)
@@ -272,6 +273,7 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     def.ground.cells = s->scene->ground.cells;
     def.ground.cell_m = (float)s->scene->ground.cell_m;
     def.ground.kept_tiles = s->scene->ground.kept_tiles;
+    def.ground.ripple_texel_m = 0.01f;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
@@ -397,7 +399,8 @@ static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t erro
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0,
                          NULL);
     vkCmdCopyBuffer(cmd, points.buffer, s->points_read.buffer, 1, &copy);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0, NULL);
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0,
+                         NULL);
     return true;
 }
 
@@ -429,6 +432,16 @@ bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, siz
     return true;
 }
 
+/* Where ripples are worth drawing: ahead of the camera, from its feet on. */
+static void place_focus(const host_camera *camera, double focus_m[3])
+{
+    const float *m = camera->view_from_world; /* its third row points back */
+    const double back[2] = {(double)m[2], (double)m[10]}, length = hypot(back[0], back[1]);
+    memcpy(focus_m, camera->position_m, 3 * sizeof focus_m[0]);
+    for (int axis = 0; axis < 2 && length > 1e-3; axis++)
+        focus_m[axis * 2] -= back[axis] / length * SHOT_RIPPLES_AHEAD_M;
+}
+
 /* Time passes to the frame: occlusion around its camera, and the ticks of one frame. */
 static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
 {
@@ -436,10 +449,10 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
     const double time_s = shot_time(s, frame);
     host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, &camera);
     const bool first = s->frame_index + 1 == s->scene->frames.first;
-    virga_scene_frame info = {.dt_s = first ? 0 : 1 / s->scene->frames.fps,
-                              .occluders = s->occluders,
-                              .occluder_count = s->occluder_count};
+    virga_scene_frame info = {
+        .dt_s = first ? 0 : 1 / s->scene->frames.fps, .occluders = s->occluders, .occluder_count = s->occluder_count};
     memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
+    place_focus(&camera, info.focus_m);
     if (!set_rain(s, time_s, error, error_size) ||
         !check(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size))
         return false;

@@ -8,15 +8,16 @@
 #include <virga/shared/drop.h>
 #include <virga/virga.h>
 
-#define SHOT_MAX_OCCLUDERS 4096
+#define SHOT_RIPPLES_AHEAD_M 6.0 /* of the middle of the map of ripples, which is 10 m wide */
+#define SHOT_MAX_OCCLUDERS   4096
 
 typedef struct shot_options {
-    const char *device;   /* NULL: the best */
+    const char *device; /* NULL: the best */
     uint32_t width, height;
-    uint32_t samples;     /* sub-frames averaged, at least 1 */
-    bool draw;            /* false: simulation only */
-    bool stats;  /* sums of water are wanted */
-    bool points;          /* the drops of each stepped frame are read back */
+    uint32_t samples; /* sub-frames averaged, at least 1 */
+    bool draw;        /* false: simulation only */
+    bool stats;       /* sums of water are wanted */
+    bool points;      /* the drops of each stepped frame are read back */
 } shot_options;
 
 typedef struct shot {
@@ -45,10 +46,10 @@ typedef struct shot {
     host_buffer points_read; /* of the drops, made on first use */
     uint32_t point_count;
     double points_origin[3];
-    uint32_t frame_index;   /* scene frame that the simulation stands at; first - 1 before any */
-    double camera_time_s;   /* of the frame that the simulation stands at */
-    char warning[512];      /* newest line that the library logged as warning or error */
-    bool input_wrong;       /* shot_open failed because of what was asked for, not because of the machine */
+    uint32_t frame_index; /* scene frame that the simulation stands at; first - 1 before any */
+    double camera_time_s; /* of the frame that the simulation stands at */
+    char warning[512];    /* newest line that the library logged as warning or error */
+    bool input_wrong;     /* shot_open failed because of what was asked for, not because of the machine */
 } shot;
 
 /* One drop of the point cache. */

@@ -58,17 +58,17 @@ typedef enum virga_material {
 
 typedef struct virga_ground_def {
     uint32_t size, cookie;
-    uint32_t seed;        /* of what is left to chance: fractions of spots, of infiltration. Default 1 */
-    uint32_t cells;       /* [128; 4096] along the window's side, a power of two. About 44 bytes of device memory a
+    uint32_t seed;          /* of what is left to chance: fractions of spots, of infiltration. Default 1 */
+    uint32_t cells;         /* [128; 4096] along the window's side, a power of two. About 44 bytes of device memory a
                           * cell. Default 1024: 51 m at 5 cm */
-    float cell_m;         /* [0.01; 0.1] side of a cell. Default 0.05 */
-    uint32_t kept_tiles;  /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
+    float cell_m;           /* [0.01; 0.1] side of a cell. Default 0.05 */
+    uint32_t kept_tiles;    /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
     uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
     float ripple_texel_m;   /* [0.002; 0.05] its texel; waves of three texels and longer show. Default 0.008 */
-    double tick_s;        /* [1/1000; 1/20] the same as rain's. Default 1/60 */
-    uint32_t flow_ticks;  /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
-    uint32_t max_impacts; /* [256; 4194304] the same as rain's. Default 65536 */
+    double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
+    uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
+    uint32_t max_impacts;   /* [256; 4194304] the same as rain's. Default 65536 */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     uint32_t occluder_strides[4]; /* vertex strides of meshes, see virga_rain_def. Default 12, 32, 0, 0 */
 } virga_ground_def;
@@ -121,6 +121,8 @@ VIRGA_API VkDeviceSize virga_ground_estimate(const virga_ground_def *def);
 /* One step. */
 typedef struct virga_ground_step_info {
     double camera_m[3];           /* middle of the window, which follows in whole tiles */
+    double focus_m[3];            /* middle of the map of ripples: on the ground some metres ahead of the camera, where
+                                   * they can be seen */
     const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
     uint32_t mesh_count;
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
@@ -139,9 +141,9 @@ VIRGA_API void virga_ground_survey(virga_ground *ground);
 /* What materials read. Both images are cells x cells (spots: twice as wide), and wrap around: the
  * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL. */
 typedef struct virga_ground_maps {
-    VkImageView wet;   /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
+    VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m) */
-    VkImageView spots; /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
+    VkImageView spots;   /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
     VkImageView ripples; /* R16G16_SFLOAT: slope of the water's surface in x and z at the newest tick, where there is
                           * water (it goes on under what is dry: use it where the depth is not zero). Does not wrap */
     uint32_t ripple_texels;

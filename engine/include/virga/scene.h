@@ -38,11 +38,12 @@ VIRGA_API virga_ground *virga_scene_ground(virga_scene *scene);
 
 /* What a frame needs outside rendering. */
 typedef struct virga_scene_frame {
-    double dt_s;                      /* [0; 10] host time since the last frame */
+    double dt_s; /* [0; 10] host time since the last frame */
     double camera_m[3];
-    const virga_occluder *occluders;  /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
+    double focus_m[3];               /* middle of what is near enough for ripples, see virga_ground_step_info */
+    const virga_occluder *occluders; /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
     uint32_t occluder_count;
-    const virga_view *view;           /* (optional) the view to prepare; NULL: the scene is stepped only */
+    const virga_view *view; /* (optional) the view to prepare; NULL: the scene is stepped only */
 } virga_scene_frame;
 
 /* Occlusion, rain, ground and prepare, in that order. The worst of their results is returned. */

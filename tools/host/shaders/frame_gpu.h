@@ -3,14 +3,14 @@
 #define HOST_FRAME_GPU_H
 
 #ifdef VULKAN /* glslang defines it */
-#define HOST_VEC4 vec4
-#define HOST_MAT4 mat4
+#define HOST_VEC4  vec4
+#define HOST_MAT4  mat4
 #define HOST_LIGHT host_light_gpu
 #else
 typedef float host_vec4[4];
 typedef float host_mat4[16];
-#define HOST_VEC4 host_vec4
-#define HOST_MAT4 host_mat4
+#define HOST_VEC4  host_vec4
+#define HOST_MAT4  host_mat4
 #define HOST_LIGHT struct host_light_gpu
 #endif
 
@@ -26,20 +26,20 @@ struct host_light_gpu {
 struct host_frame_gpu {
     HOST_MAT4 clip_from_relative;     /* relative: world axes, camera at the origin; with jitter */
     HOST_MAT4 previous_from_relative; /* clip a frame ago, without jitter, of a point relative to the camera then */
-    HOST_VEC4 camera;        /* world position */
-    HOST_VEC4 moved;         /* camera now minus camera a frame ago; w: number of lights */
-    HOST_VEC4 screen;        /* width, height, jitter x and y in pixels */
-    HOST_VEC4 ray_x;         /* direction of a pixel: ray_z + x * ray_x + y * ray_y, x and y in clip space */
+    HOST_VEC4 camera;                 /* world position */
+    HOST_VEC4 moved;                  /* camera now minus camera a frame ago; w: number of lights */
+    HOST_VEC4 screen;                 /* width, height, jitter x and y in pixels */
+    HOST_VEC4 ray_x;                  /* direction of a pixel: ray_z + x * ray_x + y * ray_y, x and y in clip space */
     HOST_VEC4 ray_y;
     HOST_VEC4 ray_z;
-    HOST_VEC4 environment;   /* rotation as a part of a full turn */
+    HOST_VEC4 environment;    /* rotation as a part of a full turn */
     HOST_VEC4 skylight_low;   /* low corner of the skylight volume relative to the camera, side of a voxel (m) */
     HOST_VEC4 skylight_scale; /* 1 / size of the volume; w: 1 / distance over which it fades out, 0 for never */
     HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
-    HOST_VEC4 ground_low;      /* low corner of the wet ground's window relative to the camera, y: height that its map
+    HOST_VEC4 ground_low;     /* low corner of the wet ground's window relative to the camera, y: height that its map
                                 * counts from; w: 1 / side of a cell, 0 for no ground */
-    HOST_VEC4 ground_wrap;     /* number of the corner's cell modulo cells; z: cells */
-    HOST_VEC4 ripples;         /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
+    HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells */
+    HOST_VEC4 ripples; /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
     HOST_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     HOST_LIGHT lights[HOST_MAX_LIGHTS];
 };
@@ -53,14 +53,14 @@ struct host_surface_gpu { /* push constants */
 /* ---- skylight: how much of the sky each place around the camera sees ---------------------------------------- */
 
 #define HOST_SKYLIGHT_DIRECTIONS 40 /* over the upper half of all directions */
-#define HOST_SKYLIGHT_SIDE 96       /* voxels along x and z */
-#define HOST_SKYLIGHT_HEIGHT 32     /* and along y */
+#define HOST_SKYLIGHT_SIDE       96 /* voxels along x and z */
+#define HOST_SKYLIGHT_HEIGHT     32 /* and along y */
 
 struct host_skylight_gpu {
     HOST_MAT4 map_from_world[HOST_SKYLIGHT_DIRECTIONS];
     HOST_VEC4 direction[HOST_SKYLIGHT_DIRECTIONS]; /* towards the sky */
-    HOST_VEC4 low;   /* corner of the volume in the world; w: bias in depth */
-    HOST_VEC4 voxel; /* size of one */
+    HOST_VEC4 low;                                 /* corner of the volume in the world; w: bias in depth */
+    HOST_VEC4 voxel;                               /* size of one */
 };
 
 struct host_skylight_draw_gpu { /* push constants */
@@ -70,8 +70,8 @@ struct host_skylight_draw_gpu { /* push constants */
 
 /* ---- a draw ------------------------------------------------------------------------------------------------- */
 
-#define HOST_HAS_BASE_TEXTURE 1
+#define HOST_HAS_BASE_TEXTURE     1
 #define HOST_HAS_EMISSIVE_TEXTURE 2
-#define HOST_IS_GLASS 4
+#define HOST_IS_GLASS             4
 
 #endif
