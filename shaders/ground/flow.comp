@@ -18,34 +18,46 @@ shared uint group_sunk, group_dried; // a few thousand nl a cell at most
 
 const ivec2 sides[4] = ivec2[4](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
-// What flows through the side from the higher of two surfaces to the lower one.
-int flow_down(uint upper, int difference)
+struct Surface {
+    int height_um;
+    uint material, free_nl;
+};
+
+// Without branches: software Vulkan reads buffers faster outside of them. What is no cell reads as the cell itself.
+Surface surface_at(uint place)
 {
-    const virga_soil_gpu soil = tick.soils[floors[upper].material];
-    const uint free_nl = cells[upper].free_nl;
-    const int mobile = int(min(free_nl - min(free_nl, soil.retention_nl), 0x7fffffffu));
+    return Surface(floors[place].height_um, floors[place].material, cells[place].free_nl);
+}
+
+// What flows through the side from the higher of two surfaces to the lower one.
+int flow_down(Surface upper, int difference)
+{
+    const uint material = min(upper.material, uint(VIRGA_GROUND_MATERIALS - 1));
+    const uint retained = min(upper.free_nl, tick.soils[material].retention_nl);
+    const int mobile = int(min(upper.free_nl - retained, 0x7fffffffu));
     precise const float h = float(mobile) * tick.m_per_nl;
     precise const float slope = float(difference) * tick.m_per_nl * tick.inv_cell_m;
-    precise const float q = soil.inv_manning * h * pow(h, 2.0 / 3.0) * sqrt(slope);
+    precise const float q = tick.soils[material].inv_manning * h * pow(h, 2.0 / 3.0) * sqrt(slope);
     precise const float moved = min(q * tick.flow_s * tick.inv_cell_m / tick.m_per_nl, 1e9);
     return min(int(moved), min(mobile / 4, difference / 5));
 }
 
-int net_inflow(uint place, ivec2 cell)
+int net_inflow(uint place, Surface own, ivec2 cell)
 {
     int sum = 0;
-    const int floor_um = floors[place].height_um;
-    const int own = int(min(cells[place].free_nl, uint(MOST_STEP_NL)));
+    const int most_um = MOST_STEP_NL / tick.nl_per_um;
+    const int own_nl = int(min(own.free_nl, uint(MOST_STEP_NL)));
     for (int i = 0; i < 4; i++) {
-        const uint other = cell_place(cell + sides[i]);
-        if (!is_ground(other))
-            continue;
-        const int rise_um = clamp(floors[other].height_um - floor_um, -MOST_STEP_NL / tick.nl_per_um,
-                                  MOST_STEP_NL / tick.nl_per_um);
-        const int difference = rise_um * tick.nl_per_um + int(min(cells[other].free_nl, uint(MOST_STEP_NL))) - own;
+        const uint found = cell_place(cell + sides[i]);
+        const Surface other = surface_at(found == NO_CELL ? place : found);
+        const int rise_um = clamp(other.height_um - own.height_um, -most_um, most_um);
+        const int difference = rise_um * tick.nl_per_um + int(min(other.free_nl, uint(MOST_STEP_NL))) - own_nl;
         const bool comes = difference > 0;
-        const int flow = flow_down(comes ? other : place, abs(difference));
-        sum += comes ? flow : -flow;
+        Surface upper = own;
+        upper.material = comes ? other.material : own.material;
+        upper.free_nl = comes ? other.free_nl : own.free_nl;
+        const int flow = flow_down(upper, abs(difference));
+        sum += found == NO_CELL || other.material == NO_GROUND ? 0 : comes ? flow : -flow;
     }
     return sum;
 }
@@ -70,11 +82,13 @@ void main()
     barrier();
     const uint place = gl_GlobalInvocationID.x;
     virga_cell_gpu cell = cells[place];
-    if (is_ground(place)) {
-        const virga_soil_gpu soil = tick.soils[floors[place].material];
-        const ivec2 where = cell_at_place(place);
-        cell.free_nl = uint(int(cell.free_nl) + net_inflow(place, where));
-        const uint hash = virga_hash4(tick.seed, uint(where.x), uint(where.y), tick.tick);
+    const ivec2 where = cell_at_place(place);
+    const Surface own = surface_at(place);
+    const int inflow = net_inflow(place, own, where);
+    if (own.material != NO_GROUND) {
+        const virga_soil_gpu soil = tick.soils[own.material];
+        cell.free_nl = uint(int(cell.free_nl) + inflow);
+        const uint hash = virga_hash2(tick.seed + 0x9e3779b9u * tick.tick, uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
         const uint sunk = min(round_fairly(soil.sink_nl_s * tick.flow_s, hash), cell.free_nl);
         cell.free_nl -= sunk;
         const uint drained = soil.drain != 0u ? cell.free_nl : 0u;

@@ -12,11 +12,11 @@
 /* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
 #define VIRGA_RING_DEPTHS   8     /* of water: a ring takes the nearest of them */
 #define VIRGA_RING_DEPTH_LIST {0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05} /* m */
-#define VIRGA_RING_TIMES    320
-#define VIRGA_RING_TIME_S   0.8   /* a ring is forgotten then */
-#define VIRGA_RING_RADII    160
-#define VIRGA_RING_RADIUS_M 0.32
-#define VIRGA_RINGS         4096  /* live at once; of more that fall, some are taken by lot */
+#define VIRGA_RING_TIMES    200
+#define VIRGA_RING_TIME_S   0.5   /* a ring is forgotten then: others have run over it */
+#define VIRGA_RING_RADII    120
+#define VIRGA_RING_RADIUS_M 0.24
+#define VIRGA_RINGS         3072  /* live at once; of more that fall, some are taken by lot */
 
 /* The states of a cell, as section 2.1 and 4.6 of Mizukami et al. have them. */
 #define VIRGA_GROUND_NONE       0 /* no ground there */

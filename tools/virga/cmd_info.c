@@ -48,8 +48,7 @@ int info_run(int argc, char **argv)
         return EXIT_FAILED;
     }
     const uint32_t count = host_devices_list(&instance, infos, HOST_MAX_DEVICES);
-    const bool found =
-        host_device_pick(infos, count, options_value(&parsed, "--device"), &chosen, error, sizeof error);
+    const bool found = host_device_pick(infos, count, options_value(&parsed, "--device"), &chosen, error, sizeof error);
     for (uint32_t i = 0; i < count; i++) {
         const host_device_info *info = &infos[i];
         printf("%c %u  %s (%s), Vulkan %u.%u, %s, %.1f GiB\n", found && i == chosen ? '*' : ' ', i, info->name,

@@ -16,17 +16,23 @@
 
 static const option_row rows[] = {
     {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
-    {"--frames", 0, "A-B", "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
-                           "with camera and weather as at their last keys. Default: the scene's", false},
+    {"--frames", 0, "A-B",
+     "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
+     "with camera and weather as at their last keys. Default: the scene's",
+     false},
     {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
-    {"--samples", 0, "N", "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
-                          "Default 1; 16 for film", false},
+    {"--samples", 0, "N",
+     "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
+     "Default 1; 16 for film",
+     false},
     {"--layers", 0, "A,B", "of beauty, depth, rain, velocity, normal, id, wetness, waterdepth. Default: all", false},
     {"--points", 0, NULL, "also write rain.%04d.ply, a point cache of the drops", false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
-    {"--resume", 0, NULL, "render only what is not there yet; refuses a folder in which these frames are of another "
-                          "scene, seed, size, samples or layers", false},
+    {"--resume", 0, NULL,
+     "render only what is not there yet; refuses a folder in which these frames are of another "
+     "scene, seed, size, samples or layers",
+     false},
     {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
@@ -193,8 +199,8 @@ static bool open_stats(render_job *job)
     if (job->resume && !resume_trim_stats(&wish, job->there, job->error, sizeof job->error))
         return fail(job);
     snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
-    job->stats_open = jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error,
-                                 sizeof job->error);
+    job->stats_open =
+        jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error, sizeof job->error);
     return job->stats_open || fail(job);
 }
 

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const layer_names[] = {"beauty", "depth", "rain", "velocity", "normal", "id",
-                                         "wetness", "waterdepth"};
+static const char *const layer_names[] = {"beauty", "depth", "rain",    "velocity",
+                                          "normal", "id",    "wetness", "waterdepth"};
 
 #define LAYER_COUNT (sizeof layer_names / sizeof layer_names[0])
 
@@ -29,8 +29,10 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
             i++;
         if (i == LAYER_COUNT) {
             const char *near = suggest_nearest(word, layer_names, LAYER_COUNT);
-            return options_complain("render", "--layers: no layer '%s'%s%s; there are beauty, depth, rain, velocity, "
-                                              "normal, id, wetness, waterdepth", word, near ? "; did you mean " : "", near ? near : "");
+            return options_complain("render",
+                                    "--layers: no layer '%s'%s%s; there are beauty, depth, rain, velocity, "
+                                    "normal, id, wetness, waterdepth",
+                                    word, near ? "; did you mean " : "", near ? near : "");
         }
         *layers |= 1u << i;
         list += length + (list[length] == ',');
@@ -40,8 +42,8 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
 
 uint32_t frame_layers_in(const char *channels)
 {
-    static const char *const first[LAYER_COUNT] = {",R,", ",Z,", ",rain.R,", ",velocity.X,", ",normal.X,", ",id.Y,",
-                                                    ",wetness.Y,", ",waterdepth.Y,"};
+    static const char *const first[LAYER_COUNT] = {",R,",        ",Z,",    ",rain.R,",    ",velocity.X,",
+                                                   ",normal.X,", ",id.Y,", ",wetness.Y,", ",waterdepth.Y,"};
     uint32_t layers = 0;
     for (size_t i = 0; i < LAYER_COUNT; i++)
         if (strstr(channels, first[i]))
@@ -75,8 +77,8 @@ static void add(exr_parts *parts, const char *name, exr_sample type, const void 
 static void collect(const shot *s, uint32_t layers, const float *beauty, const float *distance, exr_parts *parts)
 {
     static const char *const rgba[4] = {"R", "G", "B", "A"}, *const rain[4] = {"rain.R", "rain.G", "rain.B", "rain.A"},
-                      *const normal[3] = {"normal.X", "normal.Y", "normal.Z"},
-                      *const velocity[2] = {"velocity.X", "velocity.Y"};
+                             *const normal[3] = {"normal.X", "normal.Y", "normal.Z"},
+                             *const velocity[2] = {"velocity.X", "velocity.Y"};
     for (uint32_t i = 0; i < 4; i++) {
         if (layers & LAYER_BEAUTY)
             add(parts, rgba[i], EXR_SAMPLE_HALF, beauty, 4, i);
@@ -120,9 +122,7 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
     out[n++] = (exr_attribute){.name = "virgaVersion", .kind = EXR_ATTRIBUTE_STRING, .string = virga_version()};
     out[n++] = (exr_attribute){.name = "device", .kind = EXR_ATTRIBUTE_STRING, .string = s->info.name};
     out[n++] = (exr_attribute){
-        .name = "framesPerSecond",
-        .kind = EXR_ATTRIBUTE_RATIONAL,
-        .rational = {(int32_t)lround(fps * 1000), 1000}};
+        .name = "framesPerSecond", .kind = EXR_ATTRIBUTE_RATIONAL, .rational = {(int32_t)lround(fps * 1000), 1000}};
     out[n] = (exr_attribute){.name = "worldToCamera", .kind = EXR_ATTRIBUTE_M44F};
     memcpy(out[n++].m44f, camera->view_from_world, sizeof camera->view_from_world);
     return n;
@@ -183,16 +183,11 @@ bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *e
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     static const ply_property properties[] = {
-        {"x", PLY_FLOAT, offsetof(shot_point, position)},
-        {"y", PLY_FLOAT, offsetof(shot_point, position) + 4},
-        {"z", PLY_FLOAT, offsetof(shot_point, position) + 8},
-        {"vx", PLY_FLOAT, offsetof(shot_point, velocity)},
-        {"vy", PLY_FLOAT, offsetof(shot_point, velocity) + 4},
-        {"vz", PLY_FLOAT, offsetof(shot_point, velocity) + 8},
-        {"radius", PLY_FLOAT, offsetof(shot_point, radius_m)},
-        {"id", PLY_UINT, offsetof(shot_point, id)},
-        {"age", PLY_FLOAT, offsetof(shot_point, age_s)},
-        {"weight", PLY_FLOAT, offsetof(shot_point, weight)},
+        {"x", PLY_FLOAT, offsetof(shot_point, position)},      {"y", PLY_FLOAT, offsetof(shot_point, position) + 4},
+        {"z", PLY_FLOAT, offsetof(shot_point, position) + 8},  {"vx", PLY_FLOAT, offsetof(shot_point, velocity)},
+        {"vy", PLY_FLOAT, offsetof(shot_point, velocity) + 4}, {"vz", PLY_FLOAT, offsetof(shot_point, velocity) + 8},
+        {"radius", PLY_FLOAT, offsetof(shot_point, radius_m)}, {"id", PLY_UINT, offsetof(shot_point, id)},
+        {"age", PLY_FLOAT, offsetof(shot_point, age_s)},       {"weight", PLY_FLOAT, offsetof(shot_point, weight)},
     };
     static const char *const comments[] = {"virga rain: metres, seconds; weight is the drops that a point stands for",
                                            NULL};
@@ -212,8 +207,8 @@ bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *er
  * the last nanolitre. */
 static void write_water(shot *s, jsonl *stats, const virga_rain_stats *rain)
 {
-    static const char *const states[VIRGA_GROUND_STATES] = {"none", "dry", "wet", "puddle_3mm", "puddle_5mm",
-                                                            "puddle_10mm"};
+    static const char *const states[VIRGA_GROUND_STATES] = {"none",       "dry",        "wet",
+                                                            "puddle_3mm", "puddle_5mm", "puddle_10mm"};
     virga_ground_stats g;
     virga_ground_stats_get(s->ground, &g);
     jsonl_begin_object(stats, "water_ul");

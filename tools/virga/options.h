@@ -25,7 +25,7 @@ typedef struct options {
     const char *values[OPTIONS_MAX]; /* of each row, or NULL; "" for a flag that is set */
     const char *repeated[256];       /* values of the row that repeats */
     size_t repeated_count;
-    const char *arguments[16];       /* what is no option */
+    const char *arguments[16]; /* what is no option */
     size_t argument_count;
 } options;
 

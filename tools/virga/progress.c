@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define BAR_WIDTH 32
+#define BAR_WIDTH    32
 #define LINE_EVERY_S 5.0 /* where there is no terminal */
 
 double progress_now(void)

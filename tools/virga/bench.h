@@ -1,0 +1,42 @@
+/* bench.h - what the benches of effects share: a device, a floor to rain on, pictures to draw into. */
+#ifndef VIRGA_TOOL_BENCH_H
+#define VIRGA_TOOL_BENCH_H
+
+#include "host.h"
+#include "machine_limits.h"
+
+#include <virga/virga.h>
+
+#define BENCH_SIZES 3
+
+extern const uint32_t bench_sizes[BENCH_SIZES][2];
+
+typedef struct bench {
+    host_instance instance;
+    host_device_info info;
+    host_device device;
+    host_target targets[BENCH_SIZES];
+    host_buffer vertices, indices;
+    virga_occluder floor;
+    virga_context *context;
+    virga_rain *rain;
+    virga_target *layer;
+    char error[512];
+} bench;
+
+bool bench_fail(bench *b, const char *what);
+
+/* Begins a frame, for the host and for Virga. */
+bool bench_begin(bench *b, VkCommandBuffer *cmd);
+
+/* Submits, waits, and tells how long that took. */
+bool bench_submit(bench *b, double *milliseconds);
+
+/* Time of a pass of the newest frame; 0 if it was not recorded. */
+double bench_pass_ms(const bench *b, const char *name);
+
+/* Measure and print. `only` 0: the usual sizes. */
+bool bench_rain(bench *b, uint32_t only);
+bool bench_ground(bench *b);
+
+#endif

@@ -1,0 +1,151 @@
+/* bench_rain.c - `virga bench rain`. */
+#include "bench.h"
+#include "options.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What one count of drops costs, in milliseconds. */
+typedef struct bench_result {
+    uint32_t slots;
+    double copy, bare, dispatch, step, impacts, occlusion, prepare[3], draw[3], fill[3];
+    uint32_t streaks[3];
+} bench_result;
+
+static bool open_rain(bench *b, uint32_t drops)
+{
+    virga_rain_def def = virga_default_rain_def();
+    def.max_drops = drops;
+    def.max_impacts = drops > 65536 ? drops : 65536;
+    virga_target_def target = virga_default_target_def();
+    host_target_describe_layer(&b->targets[0], &target);
+    if (virga_rain_create(b->context, &def, &b->rain) || virga_target_create(b->context, &target, &b->layer) ||
+        virga_rain_attach(b->rain, b->layer))
+        return options_complain("bench", "no rain of %u drops could be made", drops);
+    virga_rain_settings settings = virga_default_rain_settings();
+    settings.rate_mm_h = 25;
+    return virga_rain_set(b->rain, &settings) == VIRGA_OK;
+}
+
+/* One tick with occlusion. */
+static bool measure_step(bench *b, bench_result *result)
+{
+    double step[BENCH_RUNS], impacts[BENCH_RUNS], occlusion[BENCH_RUNS], whole;
+    const double camera[3] = {0, 1.7, 0};
+    for (int i = -2; i < BENCH_RUNS; i++) {
+        VkCommandBuffer cmd;
+        const virga_rain_step_info info = {.dt_s = 1.0 / 60, .camera_m = {0, 1.7, 0}};
+        if (!bench_begin(b, &cmd) || virga_rain_occlusion(b->rain, cmd, camera, &b->floor, 1) ||
+            virga_rain_step(b->rain, cmd, &info) || !bench_submit(b, &whole))
+            return options_complain("bench", "a step failed");
+        const int at = i < 0 ? 0 : i;
+        step[at] = bench_pass_ms(b, "rain.step");
+        impacts[at] = bench_pass_ms(b, "rain.impacts");
+        occlusion[at] = bench_pass_ms(b, "rain.occlusion");
+    }
+    result->step = bench_median(step, BENCH_RUNS);
+    result->impacts = bench_median(impacts, BENCH_RUNS);
+    result->occlusion = bench_median(occlusion, BENCH_RUNS);
+    return true;
+}
+
+static void fill_view(virga_view *view, uint32_t size)
+{
+    static const host_camera_key key = {.position_m = {0, 1.7, 0}, .look_at_m = {0, 2.2, -10}};
+    const host_camera_path path = {&key, 1, 50, 0.1, 1000};
+    host_camera camera;
+    host_camera_at(&path, 0, bench_sizes[size][0], bench_sizes[size][1], NULL, &camera);
+    *view = virga_default_view();
+    host_camera_view(&camera, &camera, 1.0 / 48, view);
+}
+
+/* Drawing is timed by whole submissions, with and without the draw: timestamps inside rendering mean little on
+ * software Vulkan. */
+static bool measure_draw(bench *b, uint32_t size, bench_result *result)
+{
+    double draw[BENCH_RUNS], prepare[BENCH_RUNS];
+    virga_view view;
+    fill_view(&view, size);
+    for (int i = -1; i < BENCH_RUNS; i++) {
+        double with[2];
+        for (int pass = 0; pass < 2; pass++) {
+            VkCommandBuffer cmd;
+            if (!bench_begin(b, &cmd) || virga_rain_prepare(b->rain, cmd, &view, virga_rain_time(b->rain)))
+                return options_complain("bench", "a prepare failed");
+            host_target_begin_layer(&b->targets[size], cmd);
+            if (pass && virga_rain_draw(b->rain, cmd, b->layer))
+                return options_complain("bench", "a draw failed");
+            host_target_end_layer(&b->targets[size], cmd);
+            if (!bench_submit(b, &with[pass]))
+                return false;
+        }
+        draw[i < 0 ? 0 : i] = with[1] - with[0];
+        prepare[i < 0 ? 0 : i] = bench_pass_ms(b, "rain.prepare");
+    }
+    virga_rain_stats stats;
+    virga_rain_stats_get(b->rain, &stats);
+    result->draw[size] = bench_median(draw, BENCH_RUNS);
+    result->prepare[size] = bench_median(prepare, BENCH_RUNS);
+    result->streaks[size] = stats.streaks;
+    result->slots = stats.slots;
+    return true;
+}
+
+static bool measure(bench *b, uint32_t drops, bench_result *result)
+{
+    limits *machine = NULL;
+    bool good = open_rain(b, drops) && measure_step(b, result);
+    for (uint32_t size = 0; size < 3 && good; size++)
+        good = measure_draw(b, size, result);
+    if (good && !limits_create(&b->device, &b->targets[0], result->slots, &machine, b->error, sizeof b->error))
+        good = bench_fail(b, "limits");
+    if (good) {
+        result->copy = limits_copy_ms(&b->device, machine);
+        result->bare = limits_bare_ms(&b->device, machine);
+        result->dispatch = limits_dispatch_ms(&b->device, machine);
+    }
+    limits_destroy(&b->device, &machine);
+    for (uint32_t size = 0; size < 3 && good; size++) {
+        good = limits_create(&b->device, &b->targets[size], 256, &machine, b->error, sizeof b->error);
+        if (good)
+            result->fill[size] = limits_fill_ms(&b->device, machine, &b->targets[size]);
+        limits_destroy(&b->device, &machine);
+    }
+    virga_target_destroy(&b->layer);
+    virga_rain_destroy(&b->rain);
+    return good;
+}
+
+static void print_result(const bench_result *r)
+{
+    const double bytes = r->slots * 32.0;
+    printf("%u drops\n", r->slots);
+    printf("  machine    copy %.3f ms (%.2f GB/s)  bare kernel %.3f ms  dispatch %.4f ms\n", r->copy,
+           bytes / (r->copy * 1e6), r->bare, r->dispatch);
+    printf("  step       %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->step, r->step / r->bare,
+           r->step * 1e6 / r->slots);
+    printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
+           r->impacts * 1e6 / r->slots);
+    printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)\n", r->occlusion);
+    for (int i = 0; i < 3; i++)
+        printf("  %4u x %-4u prepare %8.3f ms %6.2f ns a drop;  draw %8.3f ms, %u streaks, %.0f ns a streak;  fill of "
+               "the picture %.3f ms\n",
+               bench_sizes[i][0], bench_sizes[i][1], r->prepare[i], r->prepare[i] * 1e6 / r->slots, r->draw[i],
+               r->streaks[i], r->streaks[i] ? r->draw[i] * 1e6 / r->streaks[i] : 0, r->fill[i]);
+    fflush(stdout);
+}
+
+bool bench_rain(bench *b, uint32_t only)
+{
+    static const uint32_t usual[] = {1000, 10000, 100000, 1000000};
+    bool good = true;
+    for (size_t i = 0; good && !interrupt_asked() && i < (only ? 1 : sizeof usual / sizeof usual[0]); i++) {
+        bench_result result;
+        memset(&result, 0, sizeof result);
+        good = measure(b, only ? only : usual[i], &result);
+        if (good)
+            print_result(&result);
+    }
+    return good;
+}
