@@ -1,6 +1,6 @@
 // pieces.glsl - where the water of an impact comes to lie.
 //
-// An impact far from the camera stands for many drops. Its water is not poured on one cell but scattered in up to eight
+// An impact far from the camera stands for many drops. Its water is not poured on one cell but scattered in up to 32
 // pieces over the ground near it, or a distant pavement would be spotted like a leopard.
 layout(scalar, set = 0, binding = 2) readonly buffer Impacts
 {
@@ -55,7 +55,7 @@ Piece get_piece(virga_impact_gpu impact, uint i, uint n)
     Piece piece = own;
     if (i > 0u) {
         const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
-        const float radius = sqrt(virga_unit(h) * float(n)) * 0.12 * tick.inv_cell_m;
+        const float radius = sqrt(virga_unit(h) * float(n)) * 0.09 * tick.inv_cell_m;
         const float angle = 6.2831853 * virga_unit(virga_hash1(h));
         const Piece scattered = piece_at(at + radius * vec2(cos(angle), sin(angle)), height_m);
         if (scattered.place != NO_CELL && own.place != NO_CELL)

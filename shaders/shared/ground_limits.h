@@ -7,7 +7,7 @@
 #define VIRGA_GROUND_MAX_TILES  4096 /* in the window: 64 x 64, a window of 4096 x 4096 cells */
 #define VIRGA_GROUND_MATERIALS  32
 #define VIRGA_GROUND_SPOTS      8    /* a cell's dark spots are this many bits along its side */
-#define VIRGA_GROUND_SCATTER    8    /* pieces at most that an impact which stands for many drops is scattered in */
+#define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in */
 
 /* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
 #define VIRGA_RING_DEPTHS   8     /* of water: a ring takes the nearest of them */
