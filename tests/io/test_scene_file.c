@@ -193,6 +193,25 @@ static void overrides_change_values(void **state)
     scene_file_free(scene);
 }
 
+static uint64_t hash_with_mesh(const char *bytes)
+{
+    static const char text[] = "virga: 1\n"
+                               "meshes: [{file: hashed.glb}]\n"
+                               "camera: {keys: [{position_m: [0, 2, 8], look_at_m: [0, 2, 0]}]}\n";
+    put_text("hashed.glb", bytes);
+    scene_file *scene = loaded(text, NULL, 0);
+    const uint64_t hash = scene_file_hash(scene);
+    scene_file_free(scene);
+    return hash;
+}
+
+static void hash_is_of_the_meshes_bytes_too(void **state)
+{
+    (void)state;
+    assert_true(hash_with_mesh("one") == hash_with_mesh("one"));
+    assert_true(hash_with_mesh("one") != hash_with_mesh("two"));
+}
+
 static void hash_is_of_bytes_and_overrides(void **state)
 {
     (void)state;
@@ -414,6 +433,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(weather_is_linear_between_keys, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(empty_groups_and_lists_are_as_if_left_out, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(overrides_change_values, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(hash_is_of_the_meshes_bytes_too, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(hash_is_of_bytes_and_overrides, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(mistakes_are_one_line_with_file_line_and_key, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(wrong_overrides_name_themselves, make_folder, remove_folder),

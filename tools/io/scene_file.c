@@ -230,6 +230,27 @@ static uint64_t hash_of(const void *text, size_t size, const char *const *overri
     return hash;
 }
 
+/* A file that can not be read adds nothing: loading it says why, later. */
+static uint64_t hash_file(uint64_t hash, const char *path)
+{
+    unsigned char bytes[65536];
+    size_t got;
+    FILE *file = fopen(path, "rb");
+    while (file && (got = fread(bytes, 1, sizeof bytes, file)) > 0)
+        hash = fnv(hash, bytes, got);
+    if (file)
+        fclose(file);
+    return hash;
+}
+
+/* Another mesh or sky under the same name is another scene. */
+static uint64_t hash_files(uint64_t hash, const scene_file *scene)
+{
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        hash = hash_file(hash, scene->meshes[i].file);
+    return scene->environment.file ? hash_file(hash, scene->environment.file) : hash;
+}
+
 static bool load_document(scene_document *document, scene_file **scene, const char *const *overrides, size_t count)
 {
     if (!scene_document_override(document, overrides, count) || !scene_check(document) || !load_data(document, scene))
@@ -256,7 +277,7 @@ bool scene_file_load(const char *path, const char *const *overrides, size_t over
         scene_document_free(&document);
     }
     if (ok)
-        (*scene)->hash = hash_of(text, size, overrides, override_count);
+        (*scene)->hash = hash_files(hash_of(text, size, overrides, override_count), *scene);
     free(text);
     return ok;
 }

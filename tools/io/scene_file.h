@@ -128,7 +128,7 @@ typedef struct scene_file {
     scene_preview preview;
     scene_rain rain;
     scene_ground ground;
-    uint64_t hash; /* of the file's bytes and the overrides */
+    uint64_t hash; /* see scene_file_hash */
 } scene_file;
 
 /* Loads and checks a scene. `overrides` are texts like "rain.rate_mm_h=50", "frames.size=[640, 360]" or
@@ -140,7 +140,9 @@ bool scene_file_load(const char *path, const char *const *overrides, size_t over
 /* Accepts NULL. */
 void scene_file_free(scene_file *scene);
 
-/* 64-bit FNV-1a of the file's bytes and the overrides: the same for the same scene anywhere. */
+/* 64-bit FNV-1a of the file's bytes, the overrides and the bytes of the meshes and the environment that it names: the
+ * same for the same scene anywhere, another one where any of them was changed. Included files of a mesh (textures beside
+ * it) do not count. */
 uint64_t scene_file_hash(const scene_file *scene);
 
 /* Rate and wind at a time, from the rain's keys or without them. */
