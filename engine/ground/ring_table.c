@@ -2,12 +2,15 @@
 #include "ground/ring_table.h"
 
 #include <math.h>
+#include <string.h>
 
 #define GRAVITY   9.80665
 #define TENSION   (0.0728 / 998.2) /* sigma / rho */
 #define VISCOSITY 1.004e-6
 #define NUMBERS   160    /* of waves: k from 0 to K_MOST */
 #define K_MOST    1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
+#define J1_STEPS  64     /* of J1's table per unit: read linearly it is right to 2e-5 */
+#define J1_SIZE   25100  /* beyond K_MOST times the farthest radius */
 
 double ring_omega(double k, double h)
 {
@@ -24,7 +27,7 @@ double ring_gamma(double k, double h)
 
 double ring_depth(int layer)
 {
-    static const double depths_m[VIRGA_RING_DEPTHS] = VIRGA_RING_DEPTH_LIST;
+    static const double depths_m[VIRGA_RING_DEPTHS] = {VIRGA_RING_DEPTH_LIST};
     return depths_m[layer];
 }
 
@@ -34,32 +37,82 @@ static double spectrum(double k)
     return a * a * a * a * k * k / 8 * exp(-a * a * k * k / 4);
 }
 
-/* One time of one depth: the sum over all waves, for all radii. */
-static void fill_time(const double weights[NUMBERS], const float *bessel, float *slope)
+int ring_layer(double h)
 {
-    for (int r = 0; r < VIRGA_RING_RADII; r++) {
-        double sum = 0;
-        for (int i = 0; i < NUMBERS; i++)
-            sum -= weights[i] * (double)bessel[r * NUMBERS + i];
-        slope[r] = (float)sum;
+    int layer = 0;
+    while (layer + 1 < VIRGA_RING_DEPTHS && h * h > ring_depth(layer) * ring_depth(layer + 1))
+        layer++;
+    return layer;
+}
+
+double ring_reach(double t)
+{
+    return VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * t;
+}
+
+/* What each wave adds at time t, by depth: all depths share the waves, and so J1. */
+static void weigh(double t, float weights[NUMBERS][VIRGA_RING_DEPTHS])
+{
+    static const double step = K_MOST / NUMBERS;
+    for (int i = 0; i < NUMBERS; i++) {
+        const double k = (i + 0.5) * step, start = -spectrum(k) * k * k * step;
+        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
+            const double h = ring_depth(layer);
+            weights[i][layer] = (float)(start * cos(ring_omega(k, h) * t) * exp(-ring_gamma(k, h) * t));
+        }
+    }
+}
+
+static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double r,
+                      float sums[VIRGA_RING_DEPTHS])
+{
+    static const double step = K_MOST / NUMBERS * J1_STEPS;
+    memset(sums, 0, VIRGA_RING_DEPTHS * sizeof sums[0]);
+    for (int i = 0; i < NUMBERS; i++) {
+        const double x = (i + 0.5) * step * r;
+        const int left = (int)x;
+        const float value = bessel[left] + (float)(x - left) * (bessel[left + 1] - bessel[left]);
+        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+            sums[layer] += weights[i][layer] * value;
     }
 }
 
 void ring_table_fill(float *slope)
 {
-    static const double step = K_MOST / NUMBERS;
-    float bessel[VIRGA_RING_RADII * NUMBERS];
-    for (int r = 0; r < VIRGA_RING_RADII; r++)
-        for (int i = 0; i < NUMBERS; i++)
-            bessel[r * NUMBERS + i] = (float)j1((i + 0.5) * step * r * VIRGA_RING_RADIUS_M / (VIRGA_RING_RADII - 1));
-    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
-        for (int j = 0; j < VIRGA_RING_TIMES; j++) {
-            const double t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1), h = ring_depth(layer);
-            double weights[NUMBERS];
-            for (int i = 0; i < NUMBERS; i++) {
-                const double k = (i + 0.5) * step;
-                weights[i] = spectrum(k) * cos(ring_omega(k, h) * t) * exp(-ring_gamma(k, h) * t) * k * k * step;
-            }
-            fill_time(weights, bessel, slope + (layer * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII);
+    float bessel[J1_SIZE], weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
+    for (int i = 0; i < J1_SIZE; i++)
+        bessel[i] = (float)j1((double)i / J1_STEPS);
+    for (int j = 0; j < VIRGA_RING_TIMES; j++) {
+        const double t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1);
+        weigh(t, weights);
+        for (int r = 0; r < VIRGA_RING_RADII; r++) {
+            sum_waves(weights, bessel, r * ring_reach(t) / (VIRGA_RING_RADII - 1), sums);
+            for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+                slope[(layer * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + r] = sums[layer];
         }
+    }
+}
+
+double ring_table_slope(const float *slope, double h, double r, double t)
+{
+    double x = r / ring_reach(t) * (VIRGA_RING_RADII - 1), y = t / VIRGA_RING_TIME_S * (VIRGA_RING_TIMES - 1);
+    if (!(x >= 0 && x < VIRGA_RING_RADII - 1 && y >= 0 && y < VIRGA_RING_TIMES - 1))
+        return 0;
+    const int i = (int)x, j = (int)y;
+    x -= i;
+    y -= j;
+    const float *at = slope + (ring_layer(h) * VIRGA_RING_TIMES + j) * VIRGA_RING_RADII + i,
+                *next = at + VIRGA_RING_RADII;
+    return (1 - y) * ((1 - x) * at[0] + x * at[1]) + y * ((1 - x) * next[0] + x * next[1]);
+}
+
+double ring_calm_time(double h)
+{
+    double before = 0, held = 0;
+    for (int i = 0; i < NUMBERS; i++) {
+        const double k = (i + 0.5) * (K_MOST / NUMBERS), start = spectrum(k) * spectrum(k) * k * k * k;
+        before += start;
+        held += start / (4 * ring_gamma(k, h));
+    }
+    return held / before;
 }

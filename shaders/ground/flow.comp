@@ -102,7 +102,7 @@ void main()
             count_water(VIRGA_GROUND_RUN_OFF, drained);
     }
     next_cells[place] = cell;
-    stirs[place] = uint(float(stirs[place]) * exp(-tick.flow_s / CALM_S));
+    stirs[place] = uint(float(stirs[place]) * exp(-tick.flow_s / calm_time(float(cell.free_nl) * tick.m_per_nl)));
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         if (group_sunk > 0u)

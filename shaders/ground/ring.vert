@@ -8,11 +8,9 @@
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
 layout(location = 1) flat out vec3 moment;            // age (s), layer of the table, crater (m)
 
-#define FASTEST_M_S 0.45 // short capillary waves, as groups
-
 float layer_of(float depth_m)
 {
-    const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05);
+    const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](VIRGA_RING_DEPTH_LIST);
     float layer = 0.0;
     for (int i = 1; i < VIRGA_RING_DEPTHS; i++)
         layer = depth_m * depth_m > depths[i - 1] * depths[i] ? float(i) : layer; // nearest by ratio
@@ -24,7 +22,7 @@ void main()
     const uint place = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
     const virga_ring_gpu ring = rings[place];
     const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
-    const float radius = min(0.02 + FASTEST_M_S * age, VIRGA_RING_RADIUS_M);
+    const float radius = VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * age;
     const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
     const vec2 cell = vec2(ivec2(ring.cell[0], ring.cell[1]) -
                            ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) + vec2(ring.in_cell[0], ring.in_cell[1]);

@@ -1,4 +1,4 @@
-/* The table of rings: waves travel as the dispersion relation says. */
+/* The table of rings: its waves are those of the equations, and travel and fade as they say. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,13 +10,55 @@
 #include "ground/ring_table.h"
 
 #include <math.h>
-#include <string.h>
 
+static const double pi = 3.14159265358979323846;
 static float *table;
+
+/* The equations again, not as the engine has them: lengths of capillarity and gravity, the rim's shape in r. */
+static double omega(double k, double h)
+{
+    const double capillary_m2 = 0.0728 / (998.2 * 9.80665);
+    return sqrt(9.80665 * k * (1 + capillary_m2 * k * k) * tanh(k * h));
+}
+
+/* Energy lost in the layer on the floor, rho U^2 sqrt(nu w / 8) an area with U = w A / sinh(k h), over twice the energy
+ * rho (g + sigma k^2 / rho) A^2 / 2 of the wave. */
+static double gamma_of(double k, double h)
+{
+    const double nu = 1.004e-6, w = omega(k, h), u = k * h < 300 ? w / sinh(k * h) : 0;
+    return 2 * nu * k * k + u * u * sqrt(nu * w / 8) / (9.80665 + 0.0728 / 998.2 * k * k);
+}
+
+static double start_of(double k)
+{
+    return pow(RING_CRATER_M, 4) * k * k / 8 * exp(-pow(RING_CRATER_M * k, 2) / 4);
+}
+
+/* Finer and farther than the engine's sum: 4 rad/m apart to 2600. */
+static double exact_slope(double h, double r, double t)
+{
+    double sum = 0;
+    for (double k = 2; k < 2600; k += 4)
+        sum -= start_of(k) * cos(omega(k, h) * t) * exp(-gamma_of(k, h) * t) * j1(k * r) * k * k * 4;
+    return sum;
+}
+
+static double time_of(int j)
+{
+    return j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1);
+}
 
 static const float *row(int layer, int time)
 {
     return table + (layer * VIRGA_RING_TIMES + time) * VIRGA_RING_RADII;
+}
+
+static double highest(const float *slopes)
+{
+    double most = 0;
+    for (int i = 0; i < VIRGA_RING_RADII; i++)
+        most = fmax(most, fabs((double)slopes[i]));
+    return most;
 }
 
 static int set_up(void **state)
@@ -45,78 +87,209 @@ static void test_the_slowest_wave_of_deep_water(void **state)
             at = k;
         }
     assert_float_equal(least, 0.231, 0.001);
-    assert_float_equal(2 * 3.14159265 / at, 0.0171, 0.0003);
+    assert_float_equal(2 * pi / at, 0.0171, 0.0003);
     assert_float_equal(ring_omega(1, 2e-3), sqrt(9.80665 * 2e-3), 1e-4); /* long waves: sqrt(g h) */
 }
 
-/* The part of the table's wave with number k at a time: Hankel's transform, with J1, of the slopes at all radii. */
-static double amplitude(const float *slopes, double k)
+static void test_damping_is_of_the_water_and_of_the_floor(void **state)
 {
+    (void)state;
+    assert_float_equal(ring_gamma(500, 1), 2 * 1.004e-6 * 500 * 500, 1e-9);
+    for (double h = 1e-3; h < 0.1; h *= 1.5)
+        for (double k = 30; k < 1600; k *= 1.3)
+            assert_float_equal(ring_gamma(k, h) / gamma_of(k, h), 1, 1e-6);
+}
+
+static void test_entries_are_the_integral(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 300; n++) {
+        const int layer = n % VIRGA_RING_DEPTHS, j = n * 71 % VIRGA_RING_TIMES, i = n * 37 % VIRGA_RING_RADII;
+        const double r = i * ring_reach(time_of(j)) / (VIRGA_RING_RADII - 1);
+        const double exact = exact_slope(ring_depth(layer), r, time_of(j));
+        assert_float_equal(row(layer, j)[i], exact, 0.003 * highest(row(layer, j)));
+    }
+}
+
+/* Halfway between entries in both directions, where reading linearly is worst, and at uneven places. */
+static void test_reading_between_entries_is_within_6_percent(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 1500; n++) {
+        const int layer = n % VIRGA_RING_DEPTHS, j = n * 71 % (VIRGA_RING_TIMES - 1);
+        const double t = time_of(j) + time_of(1) * (n % 3 ? 0.5 : 0.27);
+        const double r =
+            (n * 37 % (VIRGA_RING_RADII - 1) + (n % 2 ? 0.5 : 0.81)) * ring_reach(t) / (VIRGA_RING_RADII - 1);
+        const double exact = exact_slope(ring_depth(layer), r, t);
+        assert_float_equal(ring_table_slope(table, ring_depth(layer), r, t), exact, 0.06 * highest(row(layer, j)));
+    }
+}
+
+/* The part of the table's wave with number k at a time: Hankel's transform, with J1, of the slopes at all radii. */
+static double amplitude(int layer, int time, double k)
+{
+    const double step = ring_reach(time_of(time)) / (VIRGA_RING_RADII - 1);
     double sum = 0;
-    const double step = VIRGA_RING_RADIUS_M / (VIRGA_RING_RADII - 1);
     for (int i = 0; i < VIRGA_RING_RADII; i++)
-        sum += (double)slopes[i] * j1(k * i * step) * i * step * step;
+        sum += (double)row(layer, time)[i] * j1(k * i * step) * i * step * step;
     return sum;
 }
 
 /* Phase speed from the time between two zero crossings of that part, which goes as cos(w t). */
 static double measured_speed(int layer, double k)
 {
-    double crossings[2];
+    double crossings[2] = {0, 0};
     int found = 0;
-    const double dt = VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1);
-    double before = amplitude(row(layer, 0), k);
+    double before = amplitude(layer, 0, k);
     for (int j = 1; j < VIRGA_RING_TIMES && found < 2; j++) {
-        const double now = amplitude(row(layer, j), k);
+        const double now = amplitude(layer, j, k);
         if ((now < 0) != (before < 0))
-            crossings[found++] = (j - now / (now - before)) * dt;
+            crossings[found++] = time_of(j) - now / (now - before) * time_of(1);
         before = now;
     }
     assert_int_equal(found, 2);
-    return 3.14159265 / (crossings[1] - crossings[0]) / k;
+    return pi / (crossings[1] - crossings[0]) / k;
 }
 
 static void test_phase_speeds_follow_the_dispersion_relation(void **state)
 {
     (void)state;
-    static const double lengths[3] = {0.008, 0.014, 0.03};
-    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+    static const double depths[4] = {0.001, 0.002, 0.005, 0.05}, lengths[3] = {0.008, 0.017, 0.04};
+    for (int d = 0; d < 4; d++)
         for (int i = 0; i < 3; i++) {
-            const double k = 2 * 3.14159265 / lengths[i], expected = ring_omega(k, ring_depth(layer)) / k;
-            const double speed = measured_speed(layer, k);
+            const double k = 2 * pi / lengths[i], expected = omega(k, depths[d]) / k;
+            const double speed = measured_speed(ring_layer(depths[d]), k);
             if (!(fabs(speed / expected - 1) < 0.05))
-                fail_msg("%g mm of water, waves of %g mm: %g m/s, expected %g", ring_depth(layer) * 1e3,
-                         lengths[i] * 1e3, speed, expected);
+                fail_msg("%g mm of water, waves of %g mm: %g m/s, expected %g", depths[d] * 1e3, lengths[i] * 1e3,
+                         speed, expected);
         }
 }
 
 static void test_it_starts_as_the_crater(void **state)
 {
     (void)state;
-    const double a = RING_CRATER_M, step = VIRGA_RING_RADIUS_M / (VIRGA_RING_RADII - 1);
-    for (int i = 0; i < 12; i++) {
-        const double r = i * step, x = r * r / (a * a);
+    const double a = RING_CRATER_M;
+    for (int i = 0; i < VIRGA_RING_RADII; i++) {
+        const double r = i * ring_reach(0) / (VIRGA_RING_RADII - 1), x = r * r / (a * a);
         /* d/dr of (1 - x) exp(-x) */
-        const double expected = -2 * r / (a * a) * (2 - x) * exp(-x);
-        assert_float_equal(row(2, 0)[i], expected, 0.01 * 2 / a);
+        assert_float_equal(row(2, 0)[i], -2 * r / (a * a) * (2 - x) * exp(-x), 0.003 / a);
     }
 }
 
-static void test_the_wave_only_loses_energy(void **state)
+/* The volume under a surface that ends at 0 is -pi int slope r^2 dr; here in parts of the crater's own. */
+static void test_it_has_no_volume(void **state)
 {
     (void)state;
-    const double step = VIRGA_RING_RADIUS_M / (VIRGA_RING_RADII - 1);
     for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
-        /* While all of it is inside the table. Slopes alone swing with the wave; their mean over 0.1 s only falls. */
-        double last = 1e9;
-        for (int j = 0; j + 40 < VIRGA_RING_TIMES / 2; j += 40) {
+        double sum = 0, size = 0;
+        for (int i = 0; i < VIRGA_RING_RADII; i++) {
+            sum += (double)row(layer, 0)[i] * i * i;
+            size += fabs((double)row(layer, 0)[i]) * i * i;
+        }
+        assert_float_equal(sum / size, 0, 0.002);
+    }
+}
+
+/* Parseval: int slope^2 r dr = int (S cos(w t) exp(-gamma t))^2 k^3 dk. All of the wave is in the table, and viscosity
+ * alone makes it fade. */
+static void test_energy_only_fades_as_viscosity_takes_it(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+        for (int j = 0; j < VIRGA_RING_TIMES; j += 9) {
+            const double t = time_of(j), h = ring_depth(layer), step = ring_reach(t) / (VIRGA_RING_RADII - 1);
+            double sum = 0, exact = 0;
+            for (int i = 0; i < VIRGA_RING_RADII; i++)
+                sum += (double)(row(layer, j)[i] * row(layer, j)[i]) * i * step * step;
+            for (double k = 2; k < 2600; k += 4)
+                exact += pow(start_of(k) * cos(omega(k, h) * t) * exp(-gamma_of(k, h) * t), 2) * k * k * k * 4;
+            if (!(fabs(sum / exact - 1) < 0.01))
+                fail_msg("%g mm of water at %g s: %g, expected %g", h * 1e3, t, sum, exact);
+        }
+}
+
+/* Swings between slope and speed average out over 0.1 s. */
+static void test_energy_never_grows(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
+        double last = INFINITY;
+        for (int j = 0; j + 40 <= VIRGA_RING_TIMES; j += 40) {
             double sum = 0;
             for (int t = j; t < j + 40; t++)
                 for (int i = 0; i < VIRGA_RING_RADII; i++)
-                    sum += (double)(row(layer, t)[i] * row(layer, t)[i]) * i * step;
-            assert_true(sum <= last * 1.001);
+                    sum += pow((double)row(layer, t)[i] * ring_reach(time_of(t)), 2) * i;
+            assert_true(sum < last);
             last = sum;
         }
+    }
+}
+
+static void test_nothing_is_outside(void **state)
+{
+    (void)state;
+    assert_float_equal(ring_table_slope(table, 0.005, ring_reach(0.1) * 1.01, 0.1), 0, 0);
+    assert_float_equal(ring_table_slope(table, 0.005, 0.01, VIRGA_RING_TIME_S * 1.01), 0, 0);
+}
+
+/* So that the last tenth can be softened away: it holds under 1 % of the square of the slope, its end under 2 % of the
+ * highest slope. */
+static void test_the_table_reaches_as_far_as_the_waves(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+        for (int j = 0; j < VIRGA_RING_TIMES; j++) {
+            double all = 0, end = 0;
+            for (int i = 0; i < VIRGA_RING_RADII; i++) {
+                const double part = (double)(row(layer, j)[i] * row(layer, j)[i]) * i;
+                all += part;
+                end += i > VIRGA_RING_RADII * 9 / 10 ? part : 0;
+            }
+            assert_true(end < 0.01 * all);
+            assert_float_equal(row(layer, j)[VIRGA_RING_RADII - 1], 0, 0.02 * highest(row(layer, j)));
+        }
+}
+
+static void test_water_takes_the_nearest_depth(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
+        assert_int_equal(ring_layer(ring_depth(layer)), layer);
+        assert_int_equal(ring_layer(ring_depth(layer) * 1.1), layer);
+        assert_int_equal(ring_layer(ring_depth(layer) * 0.9), layer);
+    }
+    assert_int_equal(ring_layer(0), 0);
+    assert_int_equal(ring_layer(5), VIRGA_RING_DEPTHS - 1);
+}
+
+/* What is left of the square of the slope after the table's end, summed over time, in parts of the first: there, waves
+ * have half of their energy in the slope. */
+static double later(double h)
+{
+    double first = 0, left = 0;
+    for (double k = 2; k < 2600; k += 4) {
+        const double part = pow(start_of(k), 2) * k * k * k, gamma = gamma_of(k, h);
+        first += part;
+        left += part / (4 * gamma) * exp(-2 * gamma * VIRGA_RING_TIME_S);
+    }
+    return left / first;
+}
+
+static void test_calm_time_is_the_table_summed_over_time(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
+        const double h = ring_depth(layer);
+        double held = 0, before = 0;
+        for (int j = 0; j < VIRGA_RING_TIMES; j++) {
+            double sum = 0;
+            for (int i = 0; i < VIRGA_RING_RADII; i++)
+                sum += pow((double)row(layer, j)[i] * ring_reach(time_of(j)), 2) * i;
+            before = j ? before : sum;
+            held += sum * time_of(1) * (j && j < VIRGA_RING_TIMES - 1 ? 1 : 0.5);
+        }
+        assert_float_equal((held / before + later(h)) / ring_calm_time(h), 1, 0.02);
+        assert_float_equal(0.333 * (1 - exp(-pow(h / 0.0029, 1.5))) / ring_calm_time(h), 1, 0.07); /* as said */
     }
 }
 
@@ -124,9 +297,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_slowest_wave_of_deep_water),
+        cmocka_unit_test(test_damping_is_of_the_water_and_of_the_floor),
+        cmocka_unit_test(test_entries_are_the_integral),
+        cmocka_unit_test(test_reading_between_entries_is_within_6_percent),
         cmocka_unit_test(test_phase_speeds_follow_the_dispersion_relation),
         cmocka_unit_test(test_it_starts_as_the_crater),
-        cmocka_unit_test(test_the_wave_only_loses_energy),
+        cmocka_unit_test(test_it_has_no_volume),
+        cmocka_unit_test(test_energy_only_fades_as_viscosity_takes_it),
+        cmocka_unit_test(test_energy_never_grows),
+        cmocka_unit_test(test_nothing_is_outside),
+        cmocka_unit_test(test_the_table_reaches_as_far_as_the_waves),
+        cmocka_unit_test(test_water_takes_the_nearest_depth),
+        cmocka_unit_test(test_calm_time_is_the_table_summed_over_time),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
