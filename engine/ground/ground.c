@@ -30,7 +30,7 @@ virga_ground_def virga_default_ground_def(void)
                               .tick_s = 1.0 / 60,
                               .flow_ticks = 4,
                               .ripple_texels = 1024,
-                              .ripple_texel_m = 0.008f,
+                              .ripple_texel_m = 0.005f,
                               .max_impacts = 65536,
                               .max_ticks_per_step = 16,
                               .occluder_strides = {12, 32}};
@@ -246,7 +246,8 @@ static virga_result init(virga_ground *ground)
     TRY(create_buffers(ground));
     TRY(create_images(ground));
     TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2, 0, &ground->bindings));
-    TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, ground->bindings->layout, &ground->ripples));
+    TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, (double)ground->def.ripple_texel_m,
+                              ground->bindings->layout, &ground->ripples));
     TRY(create_pipelines(ground));
 error:
     return result;

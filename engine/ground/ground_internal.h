@@ -70,7 +70,7 @@ typedef struct ground_ripples {
     virga_pipeline *pipeline;
 } ground_ripples;
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
                                    ground_ripples **ripples);
 void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);

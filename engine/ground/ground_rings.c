@@ -78,7 +78,7 @@ error:
     return result;
 }
 
-static virga_result create_waves(virga_context *context, ground_ripples *ripples)
+static virga_result create_waves(virga_context *context, double texel_m, ground_ripples *ripples)
 {
     virga_result result = VIRGA_OK;
     TRY(virga_image_create(context, VK_FORMAT_R32_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
@@ -86,13 +86,13 @@ static virga_result create_waves(virga_context *context, ground_ripples *ripples
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.waves", &ripples->waves));
     TRY(virga_buffer_create(context, WAVE_VALUES * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
                             "ground.waves_upload", &ripples->upload));
-    ring_table_fill(ripples->upload->memory.block.mapped);
+    ring_table_fill(ripples->upload->memory.block.mapped, 0.5 * texel_m);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
 error:
     return result;
 }
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
                                    ground_ripples **ripples)
 {
     virga_result result = VIRGA_OK;
@@ -104,7 +104,7 @@ virga_result ground_ripples_create(virga_context *context, uint32_t texels, VkPi
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.ripples", &made->map));
-    TRY(create_waves(context, made));
+    TRY(create_waves(context, texel_m, made));
     TRY(create_pass(context, made));
     const virga_graphics_def def = {.vertex = VIRGA_SPIRV(ground_ring_vert),
                                     .fragment = VIRGA_SPIRV(ground_ring_frag),

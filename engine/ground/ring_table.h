@@ -47,7 +47,9 @@ double ring_reach(double t);
  * grow with the front keep entries where the waves are, and ride along with their groups, so that little changes from
  * one time to the next: read linearly in both it is within 6 % of the highest slope of that time (120 even radii:
  * 28 %). Takes about 0.05 s, and 120 KiB of stack. */
-void ring_table_fill(float *slope);
+/* `blur_m` is the width (standard deviation) of a bell that the surface is smoothed with, so that waves which a map's
+ * texels can not carry do not turn up in it as longer ones: half of a texel. 0: none. */
+void ring_table_fill(float *slope, double blur_m);
 
 /* The table read as shaders/ground/ring.frag does, before it softens the ends: layer ring_layer(h), linear in
  * r / ring_reach(t) and in t. 0 outside. h, r in m, t in s, none negative. */

@@ -74,7 +74,7 @@ static void test_the_map_shows_the_waves_of_the_table(void **state)
 {
     (void)state;
     float *table = malloc(sizeof(float) * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
-    ring_table_fill(table);
+    ring_table_fill(table, 0.5 * 0.004);
     begin(5);
     virga_impact_gpu *drop = ground_fixture_drop(&f, 0, 0, 0, 4000);
     drop->position[0] = drop->position[2] = 0;

@@ -66,7 +66,7 @@ static int set_up(void **state)
     (void)state;
     table = malloc(sizeof(float) * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
     if (table)
-        ring_table_fill(table);
+        ring_table_fill(table, 0);
     return table ? 0 : -1;
 }
 

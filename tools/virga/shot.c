@@ -273,7 +273,7 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     def.ground.cells = s->scene->ground.cells;
     def.ground.cell_m = (float)s->scene->ground.cell_m;
     def.ground.kept_tiles = s->scene->ground.kept_tiles;
-    def.ground.ripple_texel_m = 0.01f;
+    def.ground.ripple_texel_m = 0.006f;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);

@@ -8,7 +8,7 @@
 #include <virga/shared/drop.h>
 #include <virga/virga.h>
 
-#define SHOT_RIPPLES_AHEAD_M 6.0 /* of the middle of the map of ripples, which is 10 m wide */
+#define SHOT_RIPPLES_AHEAD_M 4.6 /* of the middle of the map of ripples, which is 6 m wide */
 #define SHOT_MAX_OCCLUDERS   4096
 
 typedef struct shot_options {

@@ -65,7 +65,7 @@ typedef struct virga_ground_def {
     uint32_t kept_tiles;    /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
     uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
-    float ripple_texel_m;   /* [0.002; 0.05] its texel; waves of three texels and longer show. Default 0.008 */
+    float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default 0.005 */
     double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
     uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
     uint32_t max_impacts;   /* [256; 4194304] the same as rain's. Default 65536 */
