@@ -10,6 +10,8 @@
 #include "shaders/ground_ring_comp.spv.h"
 #include "shaders/ground_share_comp.spv.h"
 #include "shaders/ground_soak_comp.spv.h"
+#include "shaders/ground_spawn_find_comp.spv.h"
+#include "shaders/ground_spawn_scan_comp.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,6 +34,8 @@ virga_ground_def virga_default_ground_def(void)
                               .ripple_texels = 1024,
                               .ripple_texel_m = 0.005f,
                               .max_impacts = 65536,
+                              .max_spawns = 65536,
+                              .max_returns = 131072,
                               .max_ticks_per_step = 16,
                               .occluder_strides = {12, 32}};
 }
@@ -69,6 +73,8 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     def->tick_s = virga_clamp_setting(log, "ground_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     def->flow_ticks = virga_clamp_setting_u32(log, "ground_def.flow_ticks", def->flow_ticks, 1, 60, NULL);
     def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
+    def->max_spawns = virga_clamp_setting_u32(log, "ground_def.max_spawns", def->max_spawns, 0, 1048576, NULL);
+    def->max_returns = virga_clamp_setting_u32(log, "ground_def.max_returns", def->max_returns, 0, 4194304, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "ground_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
     return VIRGA_OK;
@@ -83,7 +89,8 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
     const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + 2 * sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
                                 8 /* spots */ + 4 /* stirs */ + 16 /* maps */ + 8 /* survey */;
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
-           (VkDeviceSize)def.max_impacts * sizeof(virga_landing_gpu) +
+           ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
+           (VkDeviceSize)def.max_spawns * sizeof(virga_spawn_gpu) + sizeof(virga_splash_rules_gpu) +
            (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 + VIRGA_RINGS * sizeof(virga_ring_gpu) +
            4ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
@@ -116,8 +123,14 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->kept_cells, kept * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.kept_cells"},
         {&ground->kept_spots, kept * 8, storage, VIRGA_HEAP_DEVICE, "ground.kept_spots"},
         {&ground->counts, sizeof(ground_readback), storage, VIRGA_HEAP_DEVICE, "ground.counts"},
-        {&ground->landings, ground->def.max_impacts * sizeof(virga_landing_gpu), storage, VIRGA_HEAP_DEVICE,
-         "ground.landings"},
+        {&ground->landings,
+         ((VkDeviceSize)ground->def.max_impacts + ground->def.max_returns) * sizeof(virga_landing_gpu), storage,
+         VIRGA_HEAP_DEVICE, "ground.landings"},
+        {&ground->spawns,
+         sizeof(virga_spawns_gpu) + (VkDeviceSize)ground->def.max_spawns * sizeof(virga_spawn_gpu),
+         storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "ground.spawns"},
+        {&ground->no_rules, sizeof(virga_splash_rules_gpu),
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_DEVICE, "ground.no_rules"},
         {&ground->rings, sizeof(virga_rings_gpu) + VIRGA_RINGS * sizeof(virga_ring_gpu), storage, VIRGA_HEAP_DEVICE,
          "ground.rings"},
         {&ground->tick_ring, (VkDeviceSize)frames * (ground->def.max_ticks_per_step + 1) * ground_tick_bytes(),
@@ -172,6 +185,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 15 rings */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 waves */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 stirs */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE},                              /* 18 rules of splashes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 spawns */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -181,31 +196,45 @@ static virga_bound whole(const virga_buffer *buffer)
     return (virga_bound){.buffer = buffer->buffer};
 }
 
-void ground_write_sets(virga_ground *ground)
+static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
 {
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
     const VkSampler nearest = ground->context->nearest;
+    const virga_ground_step_info *info = &ground->info;
+    const bool returns = source == GROUND_RETURNS;
+    const virga_bound rules = {.buffer = info->splash_rules, .offset = info->splash_rules_offset};
+    const virga_bound bound[BINDINGS] = {
+        {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
+        {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
+        {.buffer = returns ? info->returns : info->impacts,
+         .offset = returns ? info->returns_offset : info->impacts_offset},
+        whole(ground->floors),
+        whole(ground->cells[parity]),
+        whole(ground->cells[parity ^ 1]),
+        whole(ground->arrivals),
+        whole(ground->spots),
+        whole(ground->kept_cells),
+        whole(ground->counts),
+        whole(ground->landings),
+        {.sampler = nearest, .view = ground->survey->depth->view, .image_layout = read_only},
+        {.sampler = nearest, .view = ground->survey->surface->view, .image_layout = read_only},
+        {.view = ground->wet_map->view, .image_layout = general},
+        {.view = ground->spot_map->view, .image_layout = general},
+        whole(ground->rings),
+        {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
+        whole(ground->stirs),
+        info->splash_rules ? rules : whole(ground->no_rules),
+        whole(ground->spawns)};
+    ground->sets[parity][source] =
+        virga_bindings_write(ground->context, ground->bindings, parity * GROUND_SOURCES + source, bound);
+}
+
+void ground_write_sets(virga_ground *ground)
+{
     for (uint32_t parity = 0; parity < 2; parity++) {
-        const virga_bound bound[BINDINGS] = {
-            {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
-            {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
-            {.buffer = ground->impacts, .offset = ground->impacts_offset},
-            whole(ground->floors),
-            whole(ground->cells[parity]),
-            whole(ground->cells[parity ^ 1]),
-            whole(ground->arrivals),
-            whole(ground->spots),
-            whole(ground->kept_cells),
-            whole(ground->counts),
-            whole(ground->landings),
-            {.sampler = nearest, .view = ground->survey->depth->view, .image_layout = read_only},
-            {.sampler = nearest, .view = ground->survey->surface->view, .image_layout = read_only},
-            {.view = ground->wet_map->view, .image_layout = general},
-            {.view = ground->spot_map->view, .image_layout = general},
-            whole(ground->rings),
-            {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
-            whole(ground->stirs)};
-        ground->sets[parity] = virga_bindings_write(ground->context, ground->bindings, parity, bound);
+        write_set(ground, parity, GROUND_DROPS);
+        if (ground->info.returns)
+            write_set(ground, parity, GROUND_RETURNS);
     }
 }
 
@@ -219,6 +248,8 @@ static virga_result create_pipelines(virga_ground *ground)
     } passes[] = {
         {&ground->adopt, VIRGA_SPIRV(ground_adopt_comp), "ground.adopt"},
         {&ground->forget, VIRGA_SPIRV(ground_forget_comp), "ground.forget"},
+        {&ground->spawn_find, VIRGA_SPIRV(ground_spawn_find_comp), "ground.spawn_find"},
+        {&ground->spawn_scan, VIRGA_SPIRV(ground_spawn_scan_comp), "ground.spawn_scan"},
         {&ground->land, VIRGA_SPIRV(ground_land_comp), "ground.land"},
         {&ground->share, VIRGA_SPIRV(ground_share_comp), "ground.share"},
         {&ground->soak, VIRGA_SPIRV(ground_soak_comp), "ground.soak"},
@@ -245,7 +276,7 @@ static virga_result init(virga_ground *ground)
         return virga_out_of_host_memory(ground->context, "the tiles of the ground");
     TRY(create_buffers(ground));
     TRY(create_images(ground));
-    TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2, 0, &ground->bindings));
+    TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2 * GROUND_SOURCES, 0, &ground->bindings));
     TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, (double)ground->def.ripple_texel_m,
                               ground->bindings->layout, &ground->ripples));
     TRY(create_pipelines(ground));
@@ -291,13 +322,15 @@ void virga_ground_destroy(virga_ground **ground)
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
     virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,  &dying->land, &dying->share, &dying->soak,
-                                    &dying->flow,  &dying->measure, &dying->map,  &dying->ring};
+                                    &dying->flow,  &dying->measure, &dying->map,  &dying->ring,
+                                    &dying->spawn_find, &dying->spawn_scan};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
     virga_buffer **buffers[] = {&dying->floors,    &dying->cells[0],     &dying->cells[1],   &dying->arrivals,
                                 &dying->spots,     &dying->kept_cells,   &dying->kept_spots, &dying->counts,
                                 &dying->landings,  &dying->rings,        &dying->stirs,      &dying->tick_ring,
-                                &dying->list_ring, &dying->readback_ring};
+                                &dying->list_ring, &dying->readback_ring,
+                                &dying->spawns,    &dying->no_rules};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);
@@ -366,6 +399,14 @@ void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDevic
         *buffer = ground ? ground->landings->buffer : VK_NULL_HANDLE;
     if (size)
         *size = ground ? ground->landings->size : 0;
+}
+
+void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)
+{
+    if (buffer)
+        *buffer = ground ? ground->spawns->buffer : VK_NULL_HANDLE;
+    if (size)
+        *size = ground ? ground->spawns->size : 0;
 }
 
 void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats)

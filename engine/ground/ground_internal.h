@@ -80,6 +80,9 @@ void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const grou
 
 /* ---- the object */
 
+/* Where a tick's water comes from: rain's impacts, or what splashes gave back. */
+enum { GROUND_DROPS, GROUND_RETURNS, GROUND_SOURCES };
+
 /* What the statistics ring reads back for one frame. */
 typedef struct ground_readback {
     virga_ground_count_gpu counts[VIRGA_GROUND_COUNTS];
@@ -100,7 +103,8 @@ struct virga_ground {
     uint32_t parity; /* which of the two cell buffers is current */
     uint64_t ticks;  /* run since creation */
 
-    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs;
+    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs, *spawns,
+        *no_rules;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map;
     virga_mesh_map *survey;
@@ -108,14 +112,14 @@ struct virga_ground {
     double ripple_low_m[2]; /* in the world */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *adopt, *forget, *land, *share, *soak, *flow, *measure, *map, *ring;
+    virga_pipeline *adopt, *forget, *spawn_find, *spawn_scan, *land, *share, *soak, *flow, *measure, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
     uint64_t ring_frame;
     uint32_t ring_ticks, tick_offset, list_offset;
-    VkDescriptorSet sets[2]; /* of this frame, by parity */
-    VkBuffer impacts;        /* that the sets were written for */
-    VkDeviceSize impacts_offset;
+    VkDescriptorSet sets[2][GROUND_SOURCES]; /* of this frame, by parity and where water comes from */
+    virga_ground_step_info info;             /* of this frame's step; its meshes are the host's */
+    uint32_t tick_in_step;
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
     virga_ground_stats stats;
 };

@@ -39,6 +39,8 @@ static void take_counts(virga_ground *ground, uint32_t slot)
     memcpy(&read, (const char *)ground->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
     virga_ground_stats *stats = &ground->stats;
     stats->frame_index = ground->frame_of_slot[slot];
+    stats->flown_nl = count_of(&read, VIRGA_GROUND_FLOWN);
+    stats->returned_nl = count_of(&read, VIRGA_GROUND_RETURNED);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->elsewhere_nl = count_of(&read, VIRGA_GROUND_ELSEWHERE);
@@ -118,6 +120,11 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->last_tick = tick ? tick : ground->last_tick;
     out->start_wetness = ground->settings.start_wetness;
     out->start_water_um = ground->settings.start_water_mm * 1e3f;
+    out->max_spawns = ground->info.splash_rules ? ground->def.max_spawns : 0;
+    out->max_impacts = ground->def.max_impacts;
+    out->tick_in_step = ground->tick_in_step;
+    for (int axis = 0; axis < 3; axis++)
+        out->camera[axis] = (float)ground->info.camera_m[axis];
     out->tiles_entering = ground->move.entering_count;
     out->tiles_forgotten = ground->move.forgotten_count;
     ground_fill_soils(&ground->settings, cell, out->soils);
@@ -133,11 +140,16 @@ static void push_tick(virga_ground *ground, uint32_t tick)
     virga_buffer_flush(ground->context, ground->tick_ring, ground->tick_offset, ground_tick_bytes());
 }
 
-static void bind(virga_ground *ground, VkCommandBuffer cmd)
+static void bind_source(virga_ground *ground, VkCommandBuffer cmd, uint32_t source)
 {
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
     ground->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
-                                              &ground->sets[ground->parity], 2, offsets);
+                                              &ground->sets[ground->parity][source], 2, offsets);
+}
+
+static void bind(virga_ground *ground, VkCommandBuffer cmd)
+{
+    bind_source(ground, cmd, GROUND_DROPS);
 }
 
 static void dispatch(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
@@ -269,23 +281,50 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
 
 /* ---- ticks */
 
-static void over_impacts(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
+/* A pass over the drops of the tick and, in the first of a step, over what splashes gave back. */
+static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
 {
     const virga_functions *vk = &ground->context->vk;
+    const virga_ground_step_info *info = &ground->info;
+    const VkDeviceSize groups = offsetof(virga_impacts_gpu, group_count);
     vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    vk->CmdDispatchIndirect(cmd, ground->impacts, ground->impacts_offset + offsetof(virga_impacts_gpu, group_count));
+    bind_source(ground, cmd, GROUND_DROPS);
+    vk->CmdDispatchIndirect(cmd, info->impacts, info->impacts_offset + groups);
+    if (info->returns && ground->tick_in_step == 0) {
+        bind_source(ground, cmd, GROUND_RETURNS);
+        vk->CmdDispatchIndirect(cmd, info->returns, info->returns_offset + groups);
+    }
     virga_compute_barrier(ground->context, cmd);
+}
+
+/* Places for splashes, in the order of drops. */
+static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.spawn");
+    over_water(ground, cmd, ground->spawn_find);
+    bind_source(ground, cmd, GROUND_DROPS);
+    dispatch(ground, cmd, ground->spawn_scan, 1);
+    virga_compute_barrier(ground->context, cmd);
+    if (ground->info.returns && ground->tick_in_step == 0) {
+        bind_source(ground, cmd, GROUND_RETURNS);
+        dispatch(ground, cmd, ground->spawn_scan, 1);
+        virga_compute_barrier(ground->context, cmd);
+    }
+    virga_pass_end(ground->context, cmd, scope);
 }
 
 static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
 {
     push_tick(ground, tick);
-    bind(ground, cmd);
+    if (ground->info.splash_rules && ground->def.max_spawns)
+        find_spawns(ground, cmd);
     virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.land");
-    over_impacts(ground, cmd, ground->land);
+    over_water(ground, cmd, ground->land);
+    bind(ground, cmd);
     dispatch(ground, cmd, ground->ring, 1);
-    over_impacts(ground, cmd, ground->share);
-    over_impacts(ground, cmd, ground->soak);
+    over_water(ground, cmd, ground->share);
+    over_water(ground, cmd, ground->soak);
+    bind(ground, cmd);
     virga_pass_end(ground->context, cmd, scope);
     ground->ticks++;
     if (ground->ticks % ground->def.flow_ticks)
@@ -327,7 +366,7 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,
-                                      &ground->sets[ground->parity], 2, offsets);
+                                      &ground->sets[ground->parity][GROUND_DROPS], 2, offsets);
     ground_ripples_draw(context, cmd, ground->ripples);
     virga_pass_end(context, cmd, scope);
 }
@@ -356,9 +395,15 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     ground_ripples_upload(context, cmd, ground->ripples);
     virga_buffer *const zero[] = {ground->rings, ground->stirs,  ground->cells[0],   ground->cells[1], ground->arrivals,
-                                  ground->spots, ground->counts, ground->kept_cells, ground->landings};
+                                  ground->spots, ground->counts, ground->kept_cells, ground->landings,
+                                  ground->spawns, ground->no_rules};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
+    transfer_barrier(ground, cmd);
+    static const float first_near_m = 3;
+    uint32_t bits;
+    memcpy(&bits, &first_near_m, sizeof bits);
+    context->vk.CmdFillBuffer(cmd, ground->spawns->buffer, offsetof(virga_spawns_gpu, near_m), sizeof bits, bits);
     transfer_barrier(ground, cmd);
 }
 
@@ -394,8 +439,8 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     ground_take_statistics(ground);
     ground->ring_frame = context->frame_index;
     ground->ring_ticks = 0;
-    ground->impacts = info->impacts;
-    ground->impacts_offset = info->impacts_offset;
+    ground->info = *info;
+    ground->tick_in_step = 0;
     ground_write_sets(ground);
     /* What read maps, landings and cells in the frame before is done with them. */
     virga_barrier(context, cmd,
@@ -416,8 +461,8 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         push_tick(ground, 0);
         bind(ground, cmd);
     }
-    for (uint32_t i = 0; i < info->ticks; i++)
-        run_tick(ground, cmd, info->first_tick + i);
+    for (; ground->tick_in_step < info->ticks; ground->tick_in_step++)
+        run_tick(ground, cmd, info->first_tick + ground->tick_in_step);
     if (info->ticks)
         ground->last_tick = info->first_tick + info->ticks - 1;
     write_ripples(ground, cmd);

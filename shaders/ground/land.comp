@@ -7,11 +7,12 @@
 #include "cells.glsl"
 #include "pieces.glsl"
 #include "rings.glsl"
+#include "spawns.glsl"
 
 layout(local_size_x = 64) in;
 layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arrivals[]; };
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
-layout(scalar, set = 0, binding = 10) writeonly buffer Landings { virga_landing_gpu landings[]; };
+layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
 #define SPREAD 2.0 // diameter of the spot over that of the drop, on what is porous
 
@@ -38,44 +39,84 @@ void leave_spot(Piece piece, float diameter_m, uint hash)
         atomicOr(spots[piece.place].y, bits.y);
 }
 
-void record_landing(uint index, Piece piece, uint material)
+void record_landing(uint index, Piece piece, virga_impact_gpu impact)
 {
-    virga_landing_gpu landing = virga_landing_gpu(piece.place, VIRGA_GROUND_NONE, 0.0, material);
-    if (piece.place != NO_CELL) {
-        landing.material = floors[piece.place].material;
-        landing.state = cell_state(cells[piece.place], landing.material);
-        landing.depth_m = float(cells[piece.place].free_nl) * tick.m_per_nl;
-    }
-    landings[index] = landing;
+    landings[index].cell = piece.place;
+    landings[index].state = state_at(piece.place);
+    landings[index].depth_m = depth_at(piece.place);
+    landings[index].material = material_at(piece.place, impact);
+    if (tick.max_spawns == 0u)
+        landings[index].first_spawn = NO_SPAWN;
+}
+
+void write_spawn(uint index, virga_impact_gpu impact, Piece piece, Spawning plan, float drops)
+{
+    const uint state = state_at(piece.place);
+    virga_spawn_gpu spawn;
+    const vec3 moved = vec3(head.origin[0], head.origin[1], head.origin[2]) -
+                       vec3(spawns_head.origin[0], spawns_head.origin[1], spawns_head.origin[2]);
+    const vec3 position = plan.position + moved;
+    spawn.position = float[3](position.x, position.y, position.z);
+    spawn.share = fract(impact.time_s / tick.tick_s);
+    spawn.velocity = impact.velocity;
+    spawn.diameter_m = impact.diameter_m;
+    spawn.normal = impact.normal;
+    spawn.depth_m = depth_at(piece.place);
+    spawn.weight = drops / plan.keep;
+    spawn.drops = drops;
+    spawn.id = impact.id;
+    spawn.tick = tick.tick;
+    spawn.water_nl = plan.water_nl;
+    spawn.random = virga_hash2(plan.hash, 1u);
+    spawn.kind = state | material_at(piece.place, impact) << 8 | plan.model << 16;
+    spawns[index] = spawn;
+}
+
+// Water that stays, and its traces. Returns what came to a cell.
+uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, uint i)
+{
+    if (piece.place == NO_CELL)
+        return 0u;
+    atomicAdd(arrivals[piece.place].landed_nl, water_nl);
+    const float water_m = float(cells[piece.place].free_nl) * tick.m_per_nl;
+    if (water_m >= LEAST_WATER_M)
+        atomicAdd(stirs[piece.place], uint(drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6));
+    leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
+    return water_nl;
 }
 
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= head.count || impacts[index].tick != tick.tick)
+    if (!is_of_tick(index))
         return;
     const virga_impact_gpu impact = impacts[index];
-    const uint n = piece_count(impact);
-    uint here = 0u, elsewhere = 0u;
+    const uint n = piece_count(impact), landing = landing_index(index);
+    const float drops = impact.weight / float(n);
+    uint next = tick.max_spawns == 0u ? NO_SPAWN : landings[landing].first_spawn;
+    uint here = 0u, flown = 0u;
     for (uint i = 0u; i < n; i++) {
         const Piece piece = get_piece(impact, i, n);
         if (i == 0u)
-            record_landing(index, piece, impact.material);
-        if (piece.place == NO_CELL) {
-            elsewhere += piece.water_nl;
-            continue;
+            record_landing(landing, piece, impact);
+        uint water = piece.water_nl;
+        if (next != NO_SPAWN) {
+            const Spawning plan = plan_spawn(impact, piece, i);
+            if (plan.model != VIRGA_SPLASH_NONE) {
+                write_spawn(next++, impact, piece, plan, drops);
+                water -= plan.water_nl;
+                flown += plan.water_nl;
+            }
         }
-        here += piece.water_nl;
-        atomicAdd(arrivals[piece.place].landed_nl, piece.water_nl);
-        const float water_m = float(cells[piece.place].free_nl) * tick.m_per_nl;
-        if (water_m >= LEAST_WATER_M) {
-            const float drops = impact.weight / float(n);
-            atomicAdd(stirs[piece.place], uint(drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6));
-        }
-        leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
+        here += arrive(impact, piece, water, drops, i);
     }
+    const uint elsewhere = impact.water_nl - flown - here;
     if (here > 0u)
         count_water(VIRGA_GROUND_LANDED, here);
     if (elsewhere > 0u)
         count_water(VIRGA_GROUND_ELSEWHERE, elsewhere);
+    if (flown > 0u)
+        count_water(VIRGA_GROUND_FLOWN, flown);
+    if (head.is_return != 0u)
+        count_water(VIRGA_GROUND_RETURNED, impact.water_nl);
 }

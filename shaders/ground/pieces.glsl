@@ -12,13 +12,25 @@ layout(scalar, set = 0, binding = 2) readonly buffer Impacts
 
 struct Piece {
     uint place;      // NO_CELL: not on the ground
+    vec2 at;         // cells from the window's low corner
     ivec2 cell;
     vec2 in_cell;    // [0; 1)
     uint water_nl;
 };
 
+// Whether an impact belongs to this tick; water that splashes give back lands whenever it comes.
+bool is_of_tick(uint index)
+{
+    return index < head.count && (head.is_return != 0u || impacts[index].tick == tick.tick);
+}
+
+// Where an impact's landing is: those of returns lie behind those of drops.
+uint landing_index(uint index) { return index + head.is_return * tick.max_impacts; }
+
 uint piece_count(virga_impact_gpu impact)
 {
+    if (head.is_return != 0u)
+        return 1u;
     return uint(clamp(ceil(impact.weight - 1e-3), 1.0, float(VIRGA_GROUND_SCATTER)));
 }
 
@@ -34,6 +46,7 @@ vec2 in_window(virga_impact_gpu impact)
 Piece piece_at(vec2 cells_in_window, float height_m)
 {
     Piece piece;
+    piece.at = cells_in_window;
     const vec2 whole = floor(cells_in_window);
     piece.cell = ivec2(whole) + ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
     piece.in_cell = cells_in_window - whole;

@@ -14,7 +14,7 @@ shared uint eligible, sums[VIRGA_GROUND_GROUP];
 
 bool on_water(uint index)
 {
-    if (index >= head.count || impacts[index].tick != tick.tick)
+    if (!is_of_tick(index))
         return false;
     const vec2 at_m = in_window(impacts[index]) * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]);
     return landings[index].cell != NO_CELL && landings[index].depth_m >= LEAST_WATER_M && min(at_m.x, at_m.y) > 0.0 &&

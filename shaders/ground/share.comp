@@ -77,7 +77,7 @@ void share(ivec2 cell, uint own, int water)
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= head.count || impacts[index].tick != tick.tick)
+    if (!is_of_tick(index))
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);

@@ -26,6 +26,7 @@ void main()
         head.water_nl_low = 0u;
         head.water_nl_high = 0u;
         head.first_tick = tick.tick;
+        head.is_return = 0u;
     }
     head.count = count;
     head.dropped = dropped_before + (before + found - count);

@@ -77,6 +77,10 @@ struct virga_ground_tick_gpu {
     uint last_tick;          /* the newest tick */
     float start_wetness;
     float start_water_um;
+    uint max_spawns;         /* 0: nothing splashes */
+    uint max_impacts;        /* landings of returns lie behind so many */
+    float camera[3];         /* in the world */
+    uint tick_in_step;
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
 };
 
@@ -104,20 +108,22 @@ struct virga_ground_count_gpu {
 };
 
 /* Indices into the counts. First those that only grow, then those that measure.comp makes anew. */
-#define VIRGA_GROUND_LANDED      0
-#define VIRGA_GROUND_ELSEWHERE   1  /* on what is not ground, or outside of the window */
+#define VIRGA_GROUND_LANDED      0  /* and did not fly up again, or fell back */
+#define VIRGA_GROUND_ELSEWHERE   1  /* the same on what is not ground, or outside of the window */
 #define VIRGA_GROUND_INFILTRATED 2
 #define VIRGA_GROUND_RUN_OFF     3  /* into drains */
 #define VIRGA_GROUND_EVAPORATED  4
 #define VIRGA_GROUND_FORGOTTEN   5  /* with tiles that there was no room to keep */
 #define VIRGA_GROUND_STARTED     6  /* that cells came with */
-#define VIRGA_GROUND_FIRST_MEASURED 7
-#define VIRGA_GROUND_FILM        7  /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES     8  /* free water of puddles */
-#define VIRGA_GROUND_HELD        9
-#define VIRGA_GROUND_KEPT        10  /* all water of tiles outside of the window */
-#define VIRGA_GROUND_CELLS       11 /* cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS      17
+#define VIRGA_GROUND_FLOWN       7  /* up in splashes */
+#define VIRGA_GROUND_RETURNED    8  /* of that, fallen back */
+#define VIRGA_GROUND_FIRST_MEASURED 9
+#define VIRGA_GROUND_FILM        9  /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES     10 /* free water of puddles */
+#define VIRGA_GROUND_HELD        11
+#define VIRGA_GROUND_KEPT        12 /* all water of tiles outside of the window */
+#define VIRGA_GROUND_CELLS       13 /* cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS      19
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_floor_gpu, 8);
@@ -126,7 +132,7 @@ VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 120 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 144 + 32 * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

@@ -36,7 +36,9 @@ struct virga_impacts_gpu {
     float tick_s;
     uint ticks;         /* run in this step */
     uint first_tick;
-    uint pad[2];
+    uint is_return;     /* 1: water that splashes give back. It lands in whatever tick it is read, and does not splash
+                         * again but as a dot */
+    uint pad;
 };
 
 #ifndef VIRGA_GLSL

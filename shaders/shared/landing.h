@@ -10,16 +10,17 @@
 typedef struct virga_landing_gpu virga_landing_gpu;
 #endif
 
-/* The landing of the impact of the same index, 16 bytes. What was there before this tick's drops. */
+/* The landing of the impact of the same index, 20 bytes. What was there before this tick's drops. */
 struct virga_landing_gpu {
     uint cell;      /* its place in ground's buffers; 0xffffffff: not on the ground */
     uint state;     /* VIRGA_GROUND_NONE to VIRGA_GROUND_PUDDLE_10 */
     float depth_m;  /* of the water */
     uint material;  /* [0; 31] of the cell; of the impact where there is no ground */
+    uint first_spawn; /* where among the spawns its first splash is; 0xffffffff: none */
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_landing_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_landing_gpu, 20);
 #undef uint
 #endif
 

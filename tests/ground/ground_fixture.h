@@ -119,7 +119,8 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
                                HOST_BUFFER_UPLOAD, "cells up", &f->upload, error, size));
     REQUIRE(host_buffer_create(
         &f->gpu.device,
-        cells * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu)) + def.max_impacts * sizeof(virga_landing_gpu),
+        cells * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu)) +
+            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu),
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "cells down", &f->download, error, size));
 }
 

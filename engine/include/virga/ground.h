@@ -26,6 +26,8 @@
 #include <virga/shared/ground_limits.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/landing.h>
+#include <virga/shared/spawn.h>
+#include <virga/shared/splash_rule.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,6 +71,8 @@ typedef struct virga_ground_def {
     double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
     uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
     uint32_t max_impacts;   /* [256; 4194304] the same as rain's. Default 65536 */
+    uint32_t max_spawns;    /* [0; 1048576] drops of one step that may splash, 76 bytes each. Default 65536 */
+    uint32_t max_returns;   /* [0; 4194304] entries of the returns that a step may be given. Default 131072 */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     uint32_t occluder_strides[4]; /* vertex strides of meshes, see virga_rain_def. Default 12, 32, 0, 0 */
 } virga_ground_def;
@@ -128,6 +132,11 @@ typedef struct virga_ground_step_info {
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
     VkDeviceSize impacts_offset;
     uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks */
+    VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none do */
+    VkDeviceSize splash_rules_offset;
+    VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the
+                       * first tick of the step; give each return to one step with ticks only */
+    VkDeviceSize returns_offset;
 } virga_ground_step_info;
 
 /* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read
@@ -160,13 +169,19 @@ VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_ma
 /* What the impacts of the newest step met: virga_landing_gpu by index of impact. */
 VIRGA_API void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);
 
+/* The splashes of the newest step: a virga_spawns_gpu, then def.max_spawns x virga_spawn_gpu. Ready to be read by compute
+ * and as indirect arguments. */
+VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);
+
 /* Newest statistics of completed frames. Water in nanolitres since creation. While `measure` is on, and nothing is
  * dropped by rain for want of room:
  *     start + landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
 typedef struct virga_ground_stats {
     uint64_t frame_index;             /* 0: none yet */
     uint64_t start_nl;                /* that cells came with, see start_wetness */
-    uint64_t landed_nl, elsewhere_nl; /* on cells; on what is not ground, or outside of the window */
+    uint64_t landed_nl, elsewhere_nl; /* on cells; on what is not ground, or outside of the window. Without what flew up
+                                       * again and has not fallen back */
+    uint64_t flown_nl, returned_nl;   /* up in splashes; fallen back: flown - returned is in the air */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, forgotten_nl;
     uint64_t film_nl, puddles_nl, held_nl, kept_nl;
     uint32_t cells[VIRGA_GROUND_STATES]; /* by state */

@@ -1,0 +1,70 @@
+// spawn_scan.comp - hands out places among the spawns, in the order of impacts: one workgroup, each lane a run of them.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "cells.glsl"
+#include "pieces.glsl"
+#include "spawns.glsl"
+
+layout(local_size_x = VIRGA_GROUND_GROUP) in;
+layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
+
+#define LEAST_NEAR_M 0.25
+#define MOST_NEAR_M 1000.0
+
+shared uint sums[VIRGA_GROUND_GROUP], filled;
+
+// The radius within which all drops splash follows the quota; what is beyond grows with its square too.
+float next_near(float near_m, float found)
+{
+    const float wanted = near_m * sqrt(clamp(rules.quota / max(found, 1.0), 0.8, 1.1));
+    return clamp(wanted, LEAST_NEAR_M, MOST_NEAR_M);
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, run = (head.count + VIRGA_GROUND_GROUP - 1u) / VIRGA_GROUND_GROUP;
+    const uint begin = min(lane * run, head.count), end = min(begin + run, head.count);
+    uint sum = 0u;
+    for (uint i = begin; i < end; i++)
+        sum += is_of_tick(i) ? landings[landing_index(i)].first_spawn : 0u;
+    sums[lane] = sum;
+    if (lane == 0u)
+        filled = tick.max_spawns;
+    for (uint reach = 1u; reach < VIRGA_GROUND_GROUP; reach *= 2u) { // Hillis and Steele 1986
+        barrier();
+        const uint lower = lane >= reach ? sums[lane - reach] : 0u;
+        barrier();
+        sums[lane] += lower;
+    }
+    barrier();
+    const bool first = tick.tick_in_step == 0u && head.is_return == 0u;
+    const uint before = first ? 0u : spawns_head.count, found = sums[VIRGA_GROUND_GROUP - 1];
+    uint place = before + sums[lane] - sum;
+    for (uint i = begin; i < end; i++) {
+        if (!is_of_tick(i))
+            continue;
+        const uint count = landings[landing_index(i)].first_spawn;
+        const bool fits = place + count <= tick.max_spawns;
+        if (!fits)
+            atomicMin(filled, place); // the first that does not fit, and all after it, get none
+        landings[landing_index(i)].first_spawn = count > 0u && fits ? place : NO_SPAWN;
+        place += count;
+    }
+    barrier();
+    if (lane != 0u)
+        return;
+    const uint count = min(before + found, filled);
+    spawns_head.count = count;
+    spawns_head.dropped = (first ? 0u : spawns_head.dropped) + (before + found - count);
+    spawns_head.capacity = tick.max_spawns;
+    spawns_head.tick_s = tick.tick_s;
+    spawns_head.group_count = uint[3]((count + 63u) / 64u, 1u, 1u);
+    spawns_head.ticks = tick.tick_in_step + 1u;
+    if (first)
+        spawns_head.first_tick = tick.tick;
+    if (head.is_return == 0u) {
+        spawns_head.origin = head.origin;
+        spawns_head.near_m = next_near(spawns_head.near_m, float(found));
+    }
+}

@@ -1,0 +1,85 @@
+// spawns.glsl - which drops splash, where, and with how much of their water.
+#include "shared/splash_rule.h"
+#include "shared/spawn.h"
+#include "shared/splash_share.glsl"
+
+layout(scalar, set = 0, binding = 18) uniform Rules { virga_splash_rules_gpu rules; };
+layout(scalar, set = 0, binding = 19) buffer Spawns
+{
+    virga_spawns_gpu spawns_head;
+    virga_spawn_gpu spawns[];
+};
+
+#define NO_SPAWN 0xffffffffu
+#define FIRST_HASH 128u // of the numbers of hashes for a piece's splash
+
+struct Spawning {
+    uint model;      // VIRGA_SPLASH_NONE: nothing flies
+    uint water_nl;   // that flies up
+    uint hash;
+    float keep;      // chance that such a splash had to be shown
+    vec3 position;   // relative to the impacts' (or returns') origin
+};
+
+uint state_at(uint place) { return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cells[place], floors[place].material); }
+
+uint material_at(uint place, virga_impact_gpu impact)
+{
+    return place == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floors[place].material;
+}
+
+float depth_at(uint place) { return place == NO_CELL ? 0.0 : float(cells[place].free_nl) * tick.m_per_nl; }
+
+// The first piece lies where the drop met the mesh, the others on their cells' floors.
+vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
+{
+    const vec3 own = vec3(impact.position[0], impact.position[1], impact.position[2]);
+    if (i == 0u || piece.place == NO_CELL)
+        return own;
+    const vec2 moved = (piece.at - in_window(impact)) * tick.cell_m;
+    const float floor_m = float(floors[piece.place].height_um) * 1e-6 - head.origin[1];
+    return vec3(own.x + moved.x, floor_m, own.z + moved.y);
+}
+
+// A drop that splashes by its rule; a droplet that falls back on what is wet makes a dot.
+uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, float depth_m)
+{
+    if (head.is_return != 0u)
+        return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_diameter_m ? VIRGA_SPLASH_DOT : VIRGA_SPLASH_NONE;
+    const bool splashes = impact.diameter_m >= rule.least_diameter_m && depth_m >= rule.least_depth_m;
+    return splashes ? rule.model : VIRGA_SPLASH_NONE;
+}
+
+// Within the radius that the quota gives, all drops splash; beyond, as many as fall on a disc of that radius in each ring
+// of its width.
+float chance_to_show(float distance2) { return min(spawns_head.near_m * spawns_head.near_m / max(distance2, 1e-6), 1.0); }
+
+Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
+{
+    const uint state = state_at(piece.place);
+    const virga_splash_rule_gpu rule = rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state];
+    Spawning plan;
+    plan.model = tick.max_spawns == 0u ? VIRGA_SPLASH_NONE : model_of(impact, rule, state, depth_at(piece.place));
+    plan.water_nl = 0u;
+    if (plan.model == VIRGA_SPLASH_NONE)
+        return plan;
+    plan.position = piece_position(impact, piece, i);
+    plan.hash = virga_hash4(tick.seed, impact.id, impact.tick, FIRST_HASH + i);
+    const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
+                                      vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
+    const float distance2 = dot(way, way);
+    plan.keep = chance_to_show(distance2);
+    if (virga_unit(plan.hash) >= plan.keep) {
+        plan.model = VIRGA_SPLASH_NONE;
+        return plan;
+    }
+    const uint chance = virga_hash1(plan.hash);
+    const float near = clamp(4.0 - 4.0 * sqrt(distance2) / rules.droplets_m, 0.0, 1.0);
+    const bool flies = plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE;
+    if (flies && virga_unit(chance) < near) {
+        const float speed = length(vec3(impact.velocity[0], impact.velocity[1], impact.velocity[2]));
+        const float share = splash_share(rule, rules.mode, impact.diameter_m, speed, state != VIRGA_GROUND_DRY, virga_hash1(chance));
+        plan.water_nl = min(uint(share * float(piece.water_nl)), piece.water_nl);
+    }
+    return plan;
+}
