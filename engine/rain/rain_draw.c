@@ -74,9 +74,9 @@ static void fill_rays(const virga_view *view, virga_view_gpu *out)
 
 static void fill_lights(const virga_rain *rain, const double camera[3], virga_view_gpu *out)
 {
-    out->light_count = rain->settings.light_count;
+    out->light_count = rain->settings.lighting.light_count;
     for (uint32_t i = 0; i < out->light_count; i++) {
-        const virga_light *light = &rain->settings.lights[i];
+        const virga_light *light = &rain->settings.lighting.lights[i];
         virga_light_gpu *to = &out->lights[i];
         const float *d = light->direction;
         const float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -152,7 +152,7 @@ static void fill_look(const virga_rain *rain, virga_view_gpu *out)
     out->max_streaks = rain->def.max_streaks;
     for (int i = 0; i < 9; i++)
         for (int c = 0; c < 3; c++)
-            out->sh[i * 3 + c] = settings->environment_sh[i][c];
+            out->sh[i * 3 + c] = settings->lighting.environment_sh[i][c];
     double moments[3];
     virga_drop_phase_moments(moments);
     for (int i = 0; i < 3; i++)

@@ -2,6 +2,7 @@
 #ifndef VIRGA_SHARED_RAIN_GPU_H
 #define VIRGA_SHARED_RAIN_GPU_H
 
+#include "light_limits.h"
 #include "rain_limits.h"
 #include "types.h"
 
@@ -127,7 +128,7 @@ struct virga_view_gpu {
     float sh[27];                 /* environment, coefficient-major RGB */
     float phase_moment[3];
     float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
-    virga_light_gpu lights[VIRGA_RAIN_LIGHTS];
+    virga_light_gpu lights[VIRGA_MAX_LIGHTS];
 };
 
 /* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */

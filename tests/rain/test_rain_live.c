@@ -63,14 +63,14 @@ static void more_haze(virga_rain_settings *s)
 static void another_sky(virga_rain_settings *s)
 {
     for (int i = 0; i < 27; i++)
-        s->environment_sh[i / 3][i % 3] = 0.1f * (float)i;
+        s->lighting.environment_sh[i / 3][i % 3] = 0.1f * (float)i;
 }
 
 static void lamps_on(virga_rain_settings *s)
 {
-    s->light_count = 3;
+    s->lighting.light_count = 3;
     for (int i = 0; i < 3; i++)
-        s->lights[i] = (virga_light){.position_m = {i, 4, -5}, .intensity = {10, 20, 30}, .range_m = 20};
+        s->lighting.lights[i] = (virga_light){.position_m = {i, 4, -5}, .intensity = {10, 20, 30}, .range_m = 20};
     s->light_gain = 2;
 }
 
