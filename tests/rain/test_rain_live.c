@@ -420,9 +420,9 @@ static double haze_of_a_prepare(rain_fixture *f)
     const VkCommandBuffer cmd = rain_fixture_begin_frame(f);
     rain_fixture_record_step(f, cmd, tick_s);
     REQUIRE(virga_rain_prepare(f->rain, cmd, &view, virga_rain_time(f->rain)) == VIRGA_OK);
-    const virga_view_gpu *written =
+    const rain_view_block *written =
         (const void *)((const char *)f->rain->view_ring->memory.block.mapped + f->rain->view_offset);
-    const double extinction = (double)written->haze_per_m[f->rain->levels];
+    const double extinction = (double)written->look.haze_per_m[f->rain->levels];
     rain_fixture_end_frame(f);
     return extinction;
 }
