@@ -1,6 +1,8 @@
 /* rain/rain.c - creating and destroying a field of rain, and its settings. */
 #include "rain/rain_internal.h"
 
+#include "core/light.h"
+
 #include "shaders/rain_impact_find_comp.spv.h"
 #include "shaders/rain_impact_scan_comp.spv.h"
 #include "shaders/rain_impact_write_comp.spv.h"
@@ -41,27 +43,21 @@ virga_rain_def virga_default_rain_def(void)
 
 virga_rain_settings virga_default_rain_settings(void)
 {
-    virga_rain_settings settings = {.size = sizeof settings,
-                                    .cookie = SETTINGS_COOKIE,
-                                    .rate_mm_h = 10,
-                                    .air_density = (float)VIRGA_AIR_DENSITY,
-                                    .transition_s = 0.5f,
-                                    .gust_time_s = 4,
-                                    .streak_gain = 1,
-                                    .light_gain = 1,
-                                    .min_width_px = 1,
-                                    .soft_m = 0.05f,
-                                    .near_m = 0.15f,
-                                    .oscillation = 1,
-                                    .haze = 1,
-                                    .bodies_min_mm = 0.4f};
-    /* Grey 0.5 above and 0.1 below: mean 0.3 and a gradient in y with the first band of a step of 0.4 in height,
-     * whose coefficient is 0.4 pi / 2 x 0.488603 x 2. */
-    for (int c = 0; c < 3; c++) {
-        settings.environment_sh[0][c] = 0.3f / 0.282095f;
-        settings.environment_sh[1][c] = 0.614f;
-    }
-    return settings;
+    return (virga_rain_settings){.size = sizeof(virga_rain_settings),
+                                 .cookie = SETTINGS_COOKIE,
+                                 .rate_mm_h = 10,
+                                 .air_density = (float)VIRGA_AIR_DENSITY,
+                                 .transition_s = 0.5f,
+                                 .gust_time_s = 4,
+                                 .lighting = virga_default_lighting(),
+                                 .streak_gain = 1,
+                                 .light_gain = 1,
+                                 .min_width_px = 1,
+                                 .soft_m = 0.05f,
+                                 .near_m = 0.15f,
+                                 .oscillation = 1,
+                                 .haze = 1,
+                                 .bodies_min_mm = 0.4f};
 }
 
 /* ---- the sizes that follow from a definition */
@@ -348,7 +344,6 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
                   {"rain.wind_m_s", s->wind_m_s, 3},
                   {"rain.gust_m_s", &s->gust_m_s, 1},
                   {"rain.gust_time_s", &s->gust_time_s, 1},
-                  {"rain.environment_sh", &s->environment_sh[0][0], 27},
                   {"rain.streak_gain", &s->streak_gain, 1},
                   {"rain.light_gain", &s->light_gain, 1},
                   {"rain.min_width_px", &s->min_width_px, 1},
@@ -363,14 +358,6 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
     if (virga_settings_finite_double(log, "rain.wind_min_m", s->wind_min_m, 3) ||
         virga_settings_finite_double(log, "rain.wind_max_m", s->wind_max_m, 3))
         return VIRGA_ERROR_INVALID;
-    for (uint32_t i = 0; i < s->light_count && i < VIRGA_RAIN_MAX_LIGHTS; i++)
-        if (virga_settings_finite_double(log, "rain.lights.position_m", s->lights[i].position_m, 3) ||
-            virga_settings_finite(log, "rain.lights.intensity", s->lights[i].intensity, 3) ||
-            virga_settings_finite(log, "rain.lights.direction", s->lights[i].direction, 3) ||
-            virga_settings_finite(log, "rain.lights.range_m", &s->lights[i].range_m, 1) ||
-            virga_settings_finite(log, "rain.lights.cos_inner", &s->lights[i].cos_inner, 1) ||
-            virga_settings_finite(log, "rain.lights.cos_outer", &s->lights[i].cos_outer, 1))
-            return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
 
@@ -399,8 +386,6 @@ static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
         *ranges[i].value =
             virga_clamp_setting_float(log, ranges[i].name, *ranges[i].value, ranges[i].lo, ranges[i].hi, &changed);
-    s->light_count =
-        virga_clamp_setting_u32(log, "rain.light_count", s->light_count, 0, VIRGA_RAIN_MAX_LIGHTS, &changed);
     s->default_material = virga_clamp_setting_u32(log, "rain.default_material", s->default_material, 0, 255, &changed);
     return changed;
 }
@@ -481,7 +466,11 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
     if (settings->wind_texture && (!rain->def.wind_texture || !settings->wind_texture->view))
         return virga_wrong_argument(log, "rain.wind_texture: expected def.wind_texture at creation and an image view");
     virga_rain_settings next = *settings;
-    const bool changed = clamp_settings(log, &next);
+    bool changed = false;
+    result = virga_lighting_check(log, "rain", &next.lighting, &changed);
+    if (result)
+        return result;
+    changed |= clamp_settings(log, &next);
     double *diameters, *numbers;
     result = copy_table(rain, &next.sizes, &diameters, &numbers);
     if (result)

@@ -49,7 +49,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
     const virga_buffer *const unused = rain->prepared_buffer; /* stands in where an option is off */
     const virga_bound bound[BINDINGS] = {
         bound_buffer(rain->tick_ring, sizeof(rain_tick_tables)),
-        bound_buffer(rain->view_ring, sizeof(virga_view_gpu)),
+        bound_buffer(rain->view_ring, sizeof(rain_view_block)),
         bound_buffer(rain->slot_buffer, 0),
         bound_buffer(rain->drop_buffer, 0),
         bound_buffer(rain->impact_buffer, 0),

@@ -13,6 +13,7 @@
 
 #include "gpu/context.h"
 #include "gpu/mesh_map.h"
+#include "gpu/view.h"
 
 #include <stddef.h>
 
@@ -170,6 +171,12 @@ typedef struct rain_tick_block {
 _Static_assert(sizeof(rain_tick_tables) <= 16384, "a uniform buffer's range");
 _Static_assert(offsetof(rain_tick_block, weights) % 256 == 0, "a storage buffer's offset");
 _Static_assert(offsetof(rain_tick_block, tables) % 256 == 0, "a uniform buffer's offset");
+
+/* A view's block in its ring. */
+typedef struct rain_view_block {
+    virga_view_gpu view;
+    virga_rain_look_gpu look;
+} rain_view_block;
 
 /* Bytes that one tick or view takes in its ring. */
 uint32_t rain_tick_bytes(void);

@@ -5,6 +5,7 @@
 #include "shared/drop.h"
 #include "shared/impact.h"
 #include "shared/surface.glsl"
+#include "gpu/vectors.glsl"
 
 // Small tables are uniforms: software Vulkan reads them without a loop over lanes.
 layout(scalar, set = 0, binding = 0) uniform Tick
@@ -26,8 +27,6 @@ layout(set = 0, binding = 10) uniform usampler2DArray occlusion_surface;
 
 // The box that a slot lies in.
 uint slot_level(uint slot_index) { return slot_index / (tick.groups_per_level * VIRGA_RAIN_GROUP); }
-
-vec3 to_vec(float a[3]) { return vec3(a[0], a[1], a[2]); }
 
 // Radius of the square around the camera: boxes are cubes.
 float box_radius(vec3 p) { return max(max(abs(p.x), abs(p.y)), abs(p.z)); }

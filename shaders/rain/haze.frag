@@ -5,22 +5,20 @@
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
 #include "view.glsl"
-#include "scene_depth.glsl"
+#include "gpu/scene_depth.glsl"
 
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
-    const vec2 ndc = (gl_FragCoord.xy - vec2(view.viewport[0], view.viewport[1])) /
-                         vec2(view.viewport[2], view.viewport[3]) * 2.0 - 1.0;
-    const vec3 ray = to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead);
+    const vec3 ray = pixel_ray(gl_FragCoord.xy);
     // The sky is an environment seen through its own rain already.
     const float way = stored == view.far_depth ? 0.0 : view_depth(stored) * length(ray);
-    float thick = 0.0, from = 0.0, to = view.haze_inner_m;
+    float thick = 0.0, from = 0.0, to = look.haze_inner_m;
     for (uint box = 0u; box < tick.levels && way > from; box++, from = to, to *= 2.0)
-        thick += view.haze_per_m[box] * (min(way, to) - from);
-    thick += view.haze_per_m[tick.levels] * max(way - from, 0.0);
+        thick += look.haze_per_m[box] * (min(way, to) - from);
+    thick += look.haze_per_m[tick.levels] * max(way - from, 0.0);
     const float alpha = 1.0 - exp(-thick);
     if (alpha <= 0.0)
         discard;

@@ -40,7 +40,7 @@ uint kind_of_streak(uint slot_index)
     const vec2 moved = (head.xy / head_w - tail.xy / tail_w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const float way_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
     const float body_px = diameter / (0.5 * (head_w + tail_w) * view.pixel_angle);
-    const bool seen = !outside(head, tail, margin) && diameter >= view.bodies_min_m &&
+    const bool seen = !outside(head, tail, margin) && diameter >= look.bodies_min_m &&
                       weight * streak_coverage(body_px, body_px, way_px) > LEAST_COVERAGE;
     return !seen ? NOT_PICKED : width_px > WIDE_PX ? SECOND_KIND : FIRST_KIND;
 }

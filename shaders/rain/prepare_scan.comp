@@ -11,7 +11,7 @@ layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_
 
 void main()
 {
-    const uvec2 found = scan_picks(view.max_streaks);
+    const uvec2 found = scan_picks(look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;
     // The index buffer holds six indices a streak, so a streak's place tells where its own begin.

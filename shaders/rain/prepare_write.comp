@@ -19,8 +19,6 @@ layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu
 
 #define MOST_COVERAGE 0.25 // of a streak that stands for many: what it would cover beyond is haze, see rain_draw.c
 
-vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
-
 // Cuts the way from `tail` to `head` where it meets a surface. False: nothing of it is under the sky.
 bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)
 {
@@ -38,44 +36,11 @@ bool cut_at_surface(vec3 tail, inout vec3 head, uint slant)
     return true;
 }
 
-float phase(float cos_angle)
-{
-    const float x = acos(clamp(cos_angle, -1.0, 1.0)) * (64.0 / 3.14159265) - 0.5;
-    const int bin = clamp(int(floor(x)), 0, 62);
-    return mix(view.phase[bin], view.phase[bin + 1], clamp(x - float(bin), 0.0, 1.0));
-}
-
-// Point and spot lights: irradiance on the drop times its phase function. Looking along d, light that comes straight
-// from ahead is the forward direction: a lamp behind the rain glitters most.
-vec3 lamps(vec3 p, vec3 d)
-{
-    vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < view.light_count; i++) {
-        const vec3 way = to_vec(view.lights[i].position) - p;
-        const float distance2 = max(dot(way, way), 1e-4);
-        const vec3 towards = way * inversesqrt(distance2);
-        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
-        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
-        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
-                                     view.lights[i].inv_cos_width, 0.0, 1.0);
-        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * phase(dot(towards, d)));
-    }
-    return sum * view.light_gain;
-}
-
 // Height over width; the polynomial of virga_drop_axis_ratio.
 float axis_ratio(float mm)
 {
     return clamp(0.9951 + mm * (0.0251 + mm * (-0.03644 + mm * (0.005303 - 0.0002492 * mm))), 0.5, 1.0);
 }
-
-void cut_at_near_plane(inout vec4 a, vec4 b)
-{
-    if (a.w < NEAR_W && b.w > NEAR_W)
-        a = mix(a, b, (NEAR_W - a.w) / (b.w - a.w));
-}
-
-uint halves(float a, float b) { return packHalf2x16(clamp(vec2(a, b), vec2(-65000.0), vec2(65000.0))); }
 
 virga_streak_gpu empty_streak()
 {
@@ -117,7 +82,7 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
     const float turns = hz * (view.time_close_s - view.time_open_s) * kept;
     streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
-    streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * view.oscillation);
+    streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * look.oscillation);
 }
 
 virga_streak_gpu make_streak(uint slot_index)

@@ -1,5 +1,5 @@
 // streak_pixel.glsl - what thin and wide streaks do alike at a pixel.
-#include "scene_depth.glsl"
+#include "gpu/scene_depth.glsl"
 
 // A box filter of a pixel on the edge; the profile of a disc's chords where it is wide enough to show. Narrow streaks
 // get its mean, pi / 4, so coverage does not depend on the resolution.
@@ -18,12 +18,4 @@ float streak_wave(float turns, float size)
 {
     const float saw = 4.0 * abs(fract(turns) - 0.5) - 1.0;
     return 1.0 + size * saw * (1.5 - 0.5 * saw * saw);
-}
-
-// 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it.
-float soft_edge(float distance)
-{
-    const float stored = buffer_depth(gl_FragCoord.xy);
-    const float in_front = stored == view.far_depth ? 1e9 : view_depth(stored) - distance;
-    return view.soft_m > 0.0 ? clamp(in_front / view.soft_m, 0.0, 1.0) : float(in_front >= 0.0);
 }

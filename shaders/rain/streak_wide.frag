@@ -52,9 +52,7 @@ void main()
 
     const float wide = clamp(half_width - 0.75, 0.0, 1.0);
     vec3 light = mix(centre_alpha.rgb, rim_wave.rgb, wide * u * u + (1.0 - wide) * 0.5);
-    const vec2 ndc = (gl_FragCoord.xy - vec2(view.viewport[0], view.viewport[1])) /
-                         vec2(view.viewport[2], view.viewport[3]) * 2.0 - 1.0;
-    const vec3 d = normalize(to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead));
+    const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec2 across = vec2(dFdx(place.x), dFdy(place.x));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
     const float along = body > 0.0 ? clamp((place.y - 0.5 * way) / (0.5 * body), -1.0, 1.0) : 0.0;

@@ -13,8 +13,7 @@ typedef struct virga_weight_gpu virga_weight_gpu;
 typedef struct virga_travel_gpu virga_travel_gpu;
 typedef struct virga_tick_gpu virga_tick_gpu;
 typedef struct virga_map_gpu virga_map_gpu;
-typedef struct virga_light_gpu virga_light_gpu;
-typedef struct virga_view_gpu virga_view_gpu;
+typedef struct virga_rain_look_gpu virga_rain_look_gpu;
 typedef struct virga_streak_gpu virga_streak_gpu;
 typedef struct virga_sway_gpu virga_sway_gpu;
 typedef struct virga_draw_gpu virga_draw_gpu;
@@ -87,47 +86,14 @@ struct virga_map_gpu {
     float height_m;      /* between depth 0 and depth 1 */
 };
 
-struct virga_light_gpu {
-    float position[3];   /* relative to the camera */
-    float inv_range;
-    float intensity[3];
-    float cos_outer;
-    float direction[3];
-    float inv_cos_width;
-};
-
-/* All that a view's passes need. */
-struct virga_view_gpu {
-    float clip_from_rel[16];      /* from positions relative to the camera at the shutter's end */
-    float open_clip_from_rel[16]; /* from the same positions, to where the camera at the shutter's start saw them */
-    float right[3];               /* camera axes in the world, scaled so that right x ndc.x + up x ndc.y + ahead is the */
-    float time_close_s;           /* ray of a pixel with view depth 1; and the shutter's end from the state's tick */
-    float up[3];
-    float time_open_s;
-    float ahead[3];
-    float depth_a;                /* view depth = depth_b / (depth_a + depth in the buffer) */
-    float origin_offset[3];       /* step origin minus camera: added to drop positions */
-    float depth_b;
-    float viewport[4];
-    float streak_gain;
-    float light_gain;
-    float min_width_px;
-    float soft_m;
-    float near_m;
-    float oscillation;
-    float bodies_min_m;
-    float pixel_angle;            /* tangent of a pixel's angle at the centre */
+/* What rain's settings say of a view, beside virga_view_gpu. */
+struct virga_rain_look_gpu {
+    float streak_gain;   /* multiplies coverage */
+    float oscillation;   /* amplitude of shape oscillation, 1: physical */
+    float bodies_min_m;  /* smaller drops are haze */
+    float haze_inner_m;  /* radius of the innermost box; each next one is twice as wide */
     float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
-    float haze_inner_m;           /* radius of the innermost box; each next one is twice as wide */
-    float far_depth;              /* value of the depth buffer where there is nothing */
-    uint light_count;
-    uint depth_given;
     uint max_streaks;
-    float pad;
-    float sh[27];                 /* environment, coefficient-major RGB */
-    float phase_moment[3];
-    float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
-    virga_light_gpu lights[VIRGA_RAIN_LIGHTS];
 };
 
 /* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
@@ -185,9 +151,8 @@ VIRGA_ASSERT_SIZE(virga_class_gpu, 28);
 VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
-VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 692);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);

@@ -8,7 +8,6 @@
 #define VIRGA_RAIN_MAX_CASCADES 4
 #define VIRGA_RAIN_MAX_SLANTS 4
 #define VIRGA_RAIN_MAX_MAPS 16    /* cascades x slants */
-#define VIRGA_RAIN_LIGHTS 16
 #define VIRGA_RAIN_MAX_VIEWS 16     /* prepares a frame */
 #define VIRGA_RAIN_MAX_TARGETS 8    /* kinds of target attached at once */
 #define VIRGA_RAIN_ID_SLOT_BITS 22 /* low bits of an id: the slot; the rest tells the slot's drops apart */

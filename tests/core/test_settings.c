@@ -70,7 +70,7 @@ static void clamp_moves_and_says_so(void **state)
     assert_near(virga_clamp_setting_float(&log, "rain.soft_m", -1.0f, 0.5f, 1.0f, NULL), 0.5, 0.0);
     assert_near(virga_clamp_setting(&log, "rain.soft_m", NAN, 0.0, 1.0, NULL), 0.0, 0.0);
     changed = false;
-    assert_int_equal(virga_clamp_setting_u32(&log, "rain.light_count", 17, 0, 16, &changed), 16);
+    assert_int_equal(virga_clamp_setting_u32(&log, "rain.lighting.light_count", 17, 0, 16, &changed), 16);
     assert_int_equal(virga_clamp_setting_u32(&log, "rain.max_drops", 1, 1024, 4096, &changed), 1024);
     assert_true(changed);
     assert_int_equal(virga_clamp_setting_u32(&log, "rain.max_drops", 2000, 1024, 4096, NULL), 2000);

@@ -557,7 +557,7 @@ static void environment_at(const shot *s, const double d[3], const double band[3
     for (int c = 0; c < 3; c++) {
         radiance[c] = 0;
         for (int i = 0; i < 9; i++)
-            radiance[c] += basis[i] * (double)s->f.settings.environment_sh[i][c];
+            radiance[c] += basis[i] * (double)s->f.settings.lighting.environment_sh[i][c];
         radiance[c] = fmax(radiance[c], 0);
     }
 }
@@ -590,8 +590,8 @@ static void light_of(const shot *s, const expected *e, double centre[3], double 
     const double *m = e->middle, length = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     for (int i = 0; i < 3; i++)
         d[i] = m[i] / length;
-    for (uint32_t i = 0; i < s->f.settings.light_count; i++)
-        lamp_at(s, &s->f.settings.lights[i], m, d, glitter);
+    for (uint32_t i = 0; i < s->f.settings.lighting.light_count; i++)
+        lamp_at(s, &s->f.settings.lighting.lights[i], m, d, glitter);
     virga_drop_phase_moments(moments);
     environment_at(s, d, (const double[3]){1, 0.97, 0.90}, centre);
     environment_at(s, d, (const double[3]){1, 0.75 * moments[1], 0.3 * moments[2]}, rim);
@@ -630,7 +630,7 @@ static void streaks_show_the_environment(void **state)
     add_picture(&s, 320, 240);
     for (int i = 0; i < 9; i++)
         for (int c = 0; c < 3; c++)
-            s.f.settings.environment_sh[i][c] =
+            s.f.settings.lighting.environment_sh[i][c] =
                 (i ? 0.2f : 3) + 0.05f * (float)((i * 5 + c * 3) % 7) * (i % 2 ? 1 : -1);
     apply_settings(&s);
     aim_level(&s);
@@ -645,13 +645,14 @@ static void streaks_glitter_by_the_phase_function(void **state)
     shot s;
     open_shot(&s, 40);
     add_picture(&s, 320, 240);
-    s.f.settings.lights[0] = (virga_light){.position_m = {0.5, 2.2, -6}, .intensity = {90, 60, 30}, .range_m = 11};
-    s.f.settings.lights[1] = (virga_light){.position_m = {-1, 4, -4},
-                                           .intensity = {20, 80, 160},
-                                           .direction = {0.4f, -2, 0.3f},
-                                           .cos_inner = 0.95f,
-                                           .cos_outer = 0.6f};
-    s.f.settings.light_count = 2;
+    s.f.settings.lighting.lights[0] =
+        (virga_light){.position_m = {0.5, 2.2, -6}, .intensity = {90, 60, 30}, .range_m = 11};
+    s.f.settings.lighting.lights[1] = (virga_light){.position_m = {-1, 4, -4},
+                                                    .intensity = {20, 80, 160},
+                                                    .direction = {0.4f, -2, 0.3f},
+                                                    .cos_inner = 0.95f,
+                                                    .cos_outer = 0.6f};
+    s.f.settings.lighting.light_count = 2;
     s.f.settings.light_gain = 1.5f;
     apply_settings(&s);
     aim_level(&s);
@@ -679,12 +680,13 @@ static void a_lamp_behind_the_rain_brightens_it_and_most_near_the_lamp(void **st
     open_shot(&s, 80);
     add_picture(&s, 320, 240);
     const double lamp[3] = {0.4, 1.9, -7};
-    s.f.settings.lights[0] = (virga_light){.position_m = {lamp[0], lamp[1], lamp[2]}, .intensity = {50, 50, 50}};
+    s.f.settings.lighting.lights[0] =
+        (virga_light){.position_m = {lamp[0], lamp[1], lamp[2]}, .intensity = {50, 50, 50}};
     s.f.settings.oscillation = 0;
     apply_settings(&s);
     aim_level(&s);
     float *dark = draw_copy(&s, 0.2);
-    s.f.settings.light_count = 1;
+    s.f.settings.lighting.light_count = 1;
     apply_settings(&s);
     float *lit = draw_copy(&s, 0);
     double near = 0, near_covered = 0, far = 0, far_covered = 0;
@@ -712,13 +714,13 @@ static void without_lamps_nothing_glitters(void **state)
     shot s;
     open_shot(&s, 80);
     add_picture(&s, 160, 120);
-    memset(s.f.settings.environment_sh, 0, sizeof s.f.settings.environment_sh);
-    s.f.settings.lights[0] = (virga_light){.position_m = {0.4, 1.9, -7}, .intensity = {50, 50, 50}};
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    s.f.settings.lighting.lights[0] = (virga_light){.position_m = {0.4, 1.9, -7}, .intensity = {50, 50, 50}};
     apply_settings(&s);
     aim_level(&s);
     draw_frame(&s, 0.2);
     for (int run = 0; run < 2; run++) {
-        s.f.settings.light_count = run ? 1 : 0;
+        s.f.settings.lighting.light_count = run ? 1 : 0;
         s.f.settings.light_gain = 0;
         apply_settings(&s);
         const float *pixels = draw_frame(&s, 0);
@@ -812,9 +814,9 @@ static void an_even_environment_gives_its_radiance_times_the_coverage(void **sta
     shot s;
     open_shot(&s, 40);
     add_picture(&s, 320, 240);
-    memset(s.f.settings.environment_sh, 0, sizeof s.f.settings.environment_sh);
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
     for (int c = 0; c < 3; c++)
-        s.f.settings.environment_sh[0][c] = (float)(c + 1) / 0.282095f;
+        s.f.settings.lighting.environment_sh[0][c] = (float)(c + 1) / 0.282095f;
     s.f.settings.oscillation = 0;
     apply_settings(&s);
     aim_level(&s);
@@ -841,7 +843,7 @@ static void rain_of_haze(shot *s)
     s->f.settings.haze = 4;
     s->give_depth = true;
     for (int c = 0; c < 3; c++)
-        s->f.settings.environment_sh[3][c] = 0.3f; /* another one on the right than on the left */
+        s->f.settings.lighting.environment_sh[3][c] = 0.3f; /* another one on the right than on the left */
 }
 
 static void check_haze(shot *s, double distance_m)

@@ -63,14 +63,14 @@ static void more_haze(virga_rain_settings *s)
 static void another_sky(virga_rain_settings *s)
 {
     for (int i = 0; i < 27; i++)
-        s->environment_sh[i / 3][i % 3] = 0.1f * (float)i;
+        s->lighting.environment_sh[i / 3][i % 3] = 0.1f * (float)i;
 }
 
 static void lamps_on(virga_rain_settings *s)
 {
-    s->light_count = 3;
+    s->lighting.light_count = 3;
     for (int i = 0; i < 3; i++)
-        s->lights[i] = (virga_light){.position_m = {i, 4, -5}, .intensity = {10, 20, 30}, .range_m = 20};
+        s->lighting.lights[i] = (virga_light){.position_m = {i, 4, -5}, .intensity = {10, 20, 30}, .range_m = 20};
     s->light_gain = 2;
 }
 
@@ -420,9 +420,9 @@ static double haze_of_a_prepare(rain_fixture *f)
     const VkCommandBuffer cmd = rain_fixture_begin_frame(f);
     rain_fixture_record_step(f, cmd, tick_s);
     REQUIRE(virga_rain_prepare(f->rain, cmd, &view, virga_rain_time(f->rain)) == VIRGA_OK);
-    const virga_view_gpu *written =
+    const rain_view_block *written =
         (const void *)((const char *)f->rain->view_ring->memory.block.mapped + f->rain->view_offset);
-    const double extinction = (double)written->haze_per_m[f->rain->levels];
+    const double extinction = (double)written->look.haze_per_m[f->rain->levels];
     rain_fixture_end_frame(f);
     return extinction;
 }

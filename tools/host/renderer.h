@@ -3,7 +3,7 @@
 #define VIRGA_HOST_RENDERER_H
 
 #include <virga/ground.h>
-#include <virga/rain.h>
+#include <virga/light.h>
 
 #include "camera.h"
 #include "environment.h"

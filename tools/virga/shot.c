@@ -185,10 +185,10 @@ static void load_camera(shot *s)
 
 static void fill_lights(shot *s)
 {
-    s->settings.light_count = s->scene->light_count;
+    s->settings.lighting.light_count = s->scene->light_count;
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
         const scene_light *from = &s->scene->lights[i];
-        virga_light *to = &s->settings.lights[i];
+        virga_light *to = &s->settings.lighting.lights[i];
         memset(to, 0, sizeof *to);
         for (int c = 0; c < 3; c++) {
             to->position_m[c] = from->position_m[c];
@@ -241,7 +241,7 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     s->settings.oscillation = (float)from->oscillation;
     s->settings.haze = (float)from->haze;
     s->settings.bodies_min_mm = (float)from->bodies_min_mm;
-    memcpy(s->settings.environment_sh, s->environment.sh, sizeof s->settings.environment_sh);
+    memcpy(s->settings.lighting.environment_sh, s->environment.sh, sizeof s->settings.lighting.environment_sh);
     if (!fill_sizes(s, diameters, numbers, error, error_size))
         return false;
     return check(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
@@ -289,7 +289,7 @@ static bool open_rain(shot *s, char *error, size_t error_size)
         return true;
     virga_target_def target = virga_default_target_def();
     host_target_describe_layer(&s->target, &target);
-    host_renderer_set_lights(s->renderer, s->settings.lights, s->settings.light_count);
+    host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);
     return check(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
                  error_size) &&
            check(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);

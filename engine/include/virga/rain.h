@@ -13,6 +13,7 @@
 #define VIRGA_RAIN_H
 
 #include <virga/drops.h>
+#include <virga/light.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/point.h>
 #include <virga/mesh.h>
@@ -53,17 +54,6 @@ VIRGA_API virga_rain_def virga_default_rain_def(void);
 
 /* ---- live settings -------------------------------------------------------------------------------------------- */
 
-/* A light that glitters in drops. */
-typedef struct virga_light {
-    double position_m[3];
-    float intensity[3];    /* radiant intensity in the host's radiance unit x m^2 (linear RGB), on the axis */
-    float range_m;         /* beyond it the light is zero, faded smoothly; 0: no end */
-    float direction[3];    /* (spot) where it points, any length; all zero: a point light */
-    float cos_inner, cos_outer; /* (spot) full inside, none outside */
-} virga_light;
-
-#define VIRGA_RAIN_MAX_LIGHTS 16
-
 /* All may change at any time; what would pop eases in over transition_s. Fill with virga_default_rain_settings. */
 typedef struct virga_rain_settings {
     uint32_t size, cookie;
@@ -83,18 +73,13 @@ typedef struct virga_rain_settings {
                             * compute. The pointer is read in virga_rain_set; the image must live while it is set */
     double wind_min_m[3], wind_max_m[3]; /* box that the texture fills in the world; outside, its edge counts */
 
-    /* Light. Radiances in the unit of the host's own picture. */
-    float environment_sh[9][3]; /* radiance of sky and scene around as spherical harmonics of degree 2 (RGB), in the
-                            * real orthonormal basis in the order of virga/shared/sh.h. Default: grey 0.5 above and 0.1
-                            * below */
-    virga_light lights[VIRGA_RAIN_MAX_LIGHTS];
-    uint32_t light_count;  /* [0; 16] */
+    virga_lighting lighting; /* what drops show; default virga_default_lighting */
 
     /* Look. All neutral values are physics. */
     float streak_gain;     /* [0; 100] multiplies coverage of streaks. 1 is physical: a 2 mm drop covers 1.5 % of what
                             * is behind its streak at 1/48 s, which the eye sees and a film often wants more of.
                             * Default 1 */
-    float light_gain;      /* [0; 100] multiplies light from `lights` in drops. Default 1 */
+    float light_gain;      /* [0; 100] multiplies light from lighting.lights in drops. Default 1 */
     float min_width_px;    /* [0.5; 4] narrower streaks are drawn this wide with less coverage. Default 1 */
     float soft_m;          /* [0; 1] streaks fade over this depth where they meet geometry. Default 0.05 */
     float near_m;          /* [0; 5] drops nearer to the camera than this fade out. Default 0.15 */

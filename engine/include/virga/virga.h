@@ -4,6 +4,7 @@
 #include <virga/base.h>
 #include <virga/drops.h>
 #include <virga/ground.h>
+#include <virga/light.h>
 #include <virga/rain.h>
 #include <virga/scene.h>
 #include <virga/vulkan.h>

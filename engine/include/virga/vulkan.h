@@ -221,6 +221,10 @@ typedef struct virga_view {
                                    * target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
                                    * aspect. image VK_NULL_HANDLE: hard edges by the depth test, no haze */
+    virga_image color;            /* (optional) the opaque scene's colour, linear radiance, single-sampled and in the
+                                   * viewport's pixels, sampled where water refracts what is behind it; layout and
+                                   * access while drawing are `before`, and stay. image VK_NULL_HANDLE: refraction
+                                   * shows the environment instead */
 } virga_view;
 
 VIRGA_API virga_view virga_default_view(void);

@@ -1,0 +1,151 @@
+/* gpu/view.c - see view.h. */
+#include "gpu/view.h"
+
+#include "core/phase.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <virga/drops.h>
+
+#define VIEW_COOKIE VIRGA_COOKIE(4)
+
+virga_view virga_default_view(void)
+{
+    static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    virga_view view = {.size = sizeof view, .cookie = VIEW_COOKIE, .shutter_s = 1.0 / 96};
+    memcpy(view.view_from_world, identity, sizeof identity);
+    memcpy(view.clip_from_view, identity, sizeof identity);
+    memcpy(view.open_view_from_world, identity, sizeof identity);
+    memcpy(view.open_clip_from_view, identity, sizeof identity);
+    return view;
+}
+
+virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s)
+{
+    const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
+    if (result)
+        return result;
+    if (virga_settings_finite_double(log, "view.position_m", view->position_m, 3) ||
+        virga_settings_finite_double(log, "view.open_position_m", view->open_position_m, 3) ||
+        virga_settings_finite(log, "view.view_from_world", view->view_from_world, 16) ||
+        virga_settings_finite(log, "view.clip_from_view", view->clip_from_view, 16) ||
+        virga_settings_finite(log, "view.open_view_from_world", view->open_view_from_world, 16) ||
+        virga_settings_finite(log, "view.open_clip_from_view", view->open_clip_from_view, 16) ||
+        virga_settings_finite(log, "view.viewport", view->viewport, 4))
+        return VIRGA_ERROR_INVALID;
+    if (!(view->shutter_s >= 0 && view->shutter_s <= 1) || !(view->open_camera_s >= 0) || !isfinite(time_s))
+        return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
+    if (view->clip_from_view[0] == 0 || view->clip_from_view[5] == 0 || view->clip_from_view[11] != -1)
+        return virga_wrong_argument(log, "view.clip_from_view: expected a perspective projection with w = -z");
+    return VIRGA_OK;
+}
+
+/* out = projection x rotation x translation(offset), column-major. */
+static void clip_from_relative(const float clip_from_view[16], const float view_from_world[16], const double offset[3],
+                               float out[16])
+{
+    double view[16] = {0};
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            view[column * 4 + row] = (double)view_from_world[column * 4 + row];
+    for (int row = 0; row < 3; row++)
+        view[12 + row] = view[row] * offset[0] + view[4 + row] * offset[1] + view[8 + row] * offset[2];
+    view[15] = 1;
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0;
+            for (int i = 0; i < 4; i++)
+                sum += (double)clip_from_view[i * 4 + row] * view[column * 4 + i];
+            out[column * 4 + row] = (float)sum;
+        }
+}
+
+/* The axes of the camera in the world, scaled to rays: a pixel at ndc (x, y) looks along right x + up y + ahead. With
+ * a projection clip.x = a x + c z, clip.w = -z that is x = (ndc + c) / a at depth 1, jitter and shift included. */
+static void fill_rays(const virga_view *view, virga_view_gpu *out)
+{
+    const float *m = view->view_from_world, *p = view->clip_from_view;
+    for (int i = 0; i < 3; i++) {
+        const float x = m[i * 4], y = m[i * 4 + 1], z = -m[i * 4 + 2]; /* rows of the rotation */
+        out->right[i] = x / p[0];
+        out->up[i] = y / p[5];
+        out->ahead[i] = z + x * p[8] / p[0] + y * p[9] / p[5];
+    }
+    /* clip.z = p10 z + p14 and clip.w = -z, so depth = -p10 + p14 / w. */
+    out->depth_a = p[10];
+    out->depth_b = p[14];
+    out->pixel_angle = 2 / (fabsf(p[5]) * view->viewport[3]);
+}
+
+static void fill_lights(const virga_lighting *lighting, const double camera[3], virga_view_gpu *out)
+{
+    out->light_count = lighting->light_count;
+    for (uint32_t i = 0; i < out->light_count; i++) {
+        const virga_light *light = &lighting->lights[i];
+        virga_light_gpu *to = &out->lights[i];
+        const float *d = light->direction;
+        const float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        for (int axis = 0; axis < 3; axis++) {
+            to->position[axis] = (float)(light->position_m[axis] - camera[axis]);
+            to->intensity[axis] = light->intensity[axis];
+            to->direction[axis] = length > 0 ? d[axis] / length : 0;
+        }
+        to->inv_range = light->range_m > 0 ? 1 / light->range_m : 0;
+        const float width = light->cos_inner - light->cos_outer;
+        /* A point light has no cone: a cosine that is always passed. */
+        to->cos_outer = length > 0 ? light->cos_outer : -2;
+        to->inv_cos_width = length > 0 && width > 1e-4f ? 1 / width : 1e4f;
+    }
+}
+
+/* The environment, and how a drop spreads light: the same for everything that is drawn. */
+static void fill_environment(const virga_lighting *lighting, virga_view_gpu *out)
+{
+    _Static_assert(sizeof out->phase / sizeof out->phase[0] == VIRGA_PHASE_BINS, "bins of the phase function");
+    for (int i = 0; i < 9; i++)
+        for (int c = 0; c < 3; c++)
+            out->sh[i * 3 + c] = lighting->environment_sh[i][c];
+    double moments[3];
+    virga_drop_phase_moments(moments);
+    for (int i = 0; i < 3; i++)
+        out->phase_moment[i] = (float)moments[i];
+    for (int i = 0; i < VIRGA_PHASE_BINS; i++)
+        out->phase[i] = (float)virga_phase_table[i];
+}
+
+/* Clip coordinates of positions relative to the camera, at both ends of the shutter. */
+static void fill_matrices(const virga_view *view, virga_view_gpu *out)
+{
+    const double none[3] = {0, 0, 0};
+    clip_from_relative(view->clip_from_view, view->view_from_world, none, out->clip_from_rel);
+    /* The open camera may be another time away than the shutter: take the part of its way that the shutter sees. */
+    const double share = view->open_camera_s > 0 ? view->shutter_s / view->open_camera_s : 1;
+    double moved[3];
+    for (int i = 0; i < 3; i++)
+        moved[i] = (view->position_m[i] - view->open_position_m[i]);
+    float open[16];
+    clip_from_relative(view->open_clip_from_view, view->open_view_from_world, moved, open);
+    for (int i = 0; i < 16; i++)
+        out->open_clip_from_rel[i] = out->clip_from_rel[i] + (float)share * (open[i] - out->clip_from_rel[i]);
+}
+
+void virga_view_fill(const virga_view *view, const virga_lighting *lighting, const double origin_m[3], double state_s,
+                     double time_s, virga_view_gpu *out)
+{
+    memset(out, 0, sizeof *out);
+    out->light_gain = 1;
+    out->min_width_px = 1;
+    fill_matrices(view, out);
+    fill_rays(view, out);
+    for (int i = 0; i < 3; i++)
+        out->origin_offset[i] = (float)(origin_m[i] - view->position_m[i]);
+    out->time_close_s = (float)(time_s - state_s);
+    out->time_open_s = (float)(time_s - state_s - view->shutter_s);
+    memcpy(out->viewport, view->viewport, sizeof out->viewport);
+    out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
+    out->depth_given = view->depth.view != VK_NULL_HANDLE;
+    out->color_given = view->color.view != VK_NULL_HANDLE;
+    fill_lights(lighting, view->position_m, out);
+    fill_environment(lighting, out);
+}

@@ -1,0 +1,19 @@
+/* gpu/view.h - a host's view and light in the device's terms, for every effect that draws. Internal. */
+#ifndef VIRGA_GPU_VIEW_H
+#define VIRGA_GPU_VIEW_H
+
+#include "gpu/context.h"
+
+#include <virga/light.h>
+#include <virga/shared/view_gpu.h>
+
+/* VIRGA_OK, or VIRGA_ERROR_INVALID with a line for what is not a view, or a time that is not finite. */
+virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s);
+
+/* What a view sees at `time_s` of a state that is of `state_s` and has positions relative to `origin_m`. View and
+ * lighting have been checked. Writes all of *out; what is marked (look) there gets neutral values, which the effect
+ * replaces by those of its own settings. */
+void virga_view_fill(const virga_view *view, const virga_lighting *lighting, const double origin_m[3], double state_s,
+                     double time_s, virga_view_gpu *out);
+
+#endif

@@ -1,0 +1,43 @@
+// light.glsl - what water shows of the light around it. The includer has gpu/vectors.glsl and a block with a member
+// `virga_view_gpu view`.
+
+vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
+
+// The environment seen along d through a lobe with Legendre moments 1, g.x, g.y: each band is scaled by its moment
+// (Funk-Hecke). A drop's phase function as the lobe gives what the drop shows on average: nearly the whole environment.
+vec3 environment(vec3 d, vec2 g)
+{
+    vec3 sum = sh_coefficient(0u) * 0.282095;
+    sum += g.x * 0.488603 * (sh_coefficient(1u) * d.y + sh_coefficient(2u) * d.z + sh_coefficient(3u) * d.x);
+    sum += g.y * 1.092548 *
+           (sh_coefficient(4u) * d.x * d.y + sh_coefficient(5u) * d.y * d.z + sh_coefficient(7u) * d.x * d.z);
+    sum += g.y * 0.315392 * sh_coefficient(6u) * (3.0 * d.z * d.z - 1.0);
+    sum += g.y * 0.546274 * sh_coefficient(8u) * (d.x * d.x - d.y * d.y);
+    return max(sum, vec3(0.0));
+}
+
+// A drop's phase function (1/sr).
+float phase(float cos_angle)
+{
+    const float x = acos(clamp(cos_angle, -1.0, 1.0)) * (64.0 / 3.14159265) - 0.5;
+    const int bin = clamp(int(floor(x)), 0, 62);
+    return mix(view.phase[bin], view.phase[bin + 1], clamp(x - float(bin), 0.0, 1.0));
+}
+
+// Point and spot lights: irradiance on a drop at p (relative to the camera) times its phase function. Looking along d,
+// light that comes straight from ahead is the forward direction: a lamp behind the water glitters most.
+vec3 lamps(vec3 p, vec3 d)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < view.light_count; i++) {
+        const vec3 way = to_vec(view.lights[i].position) - p;
+        const float distance2 = max(dot(way, way), 1e-4);
+        const vec3 towards = way * inversesqrt(distance2);
+        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
+        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
+        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
+                                     view.lights[i].inv_cos_width, 0.0, 1.0);
+        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * phase(dot(towards, d)));
+    }
+    return sum * view.light_gain;
+}

@@ -1,0 +1,21 @@
+// view.glsl - where things are in a view's picture. The includer has gpu/vectors.glsl and a block with a member
+// `virga_view_gpu view`.
+
+#define NEAR_W 0.01 // m; what comes nearer to the camera's plane is cut there
+
+vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
+
+// Moves the end `a` of a line in clip coordinates to the near plane if it is before it and the other end is not.
+void cut_at_near_plane(inout vec4 a, vec4 b)
+{
+    if (a.w < NEAR_W && b.w > NEAR_W)
+        a = mix(a, b, (NEAR_W - a.w) / (b.w - a.w));
+}
+
+// From the camera through a place of the picture, as long as it takes to a view depth of 1 m.
+vec3 pixel_ray(vec2 pixel)
+{
+    const vec2 ndc = (pixel - vec2(view.viewport[0], view.viewport[1])) /
+                         vec2(view.viewport[2], view.viewport[3]) * 2.0 - 1.0;
+    return to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead);
+}
