@@ -22,6 +22,7 @@
 #ifndef VIRGA_GROUND_H
 #define VIRGA_GROUND_H
 
+#include <virga/material.h>
 #include <virga/mesh.h>
 #include <virga/shared/ground_limits.h>
 #include <virga/shared/impact.h>
@@ -34,29 +35,6 @@ extern "C" {
 #endif
 
 typedef struct virga_ground virga_ground; /* opaque */
-
-/* Materials that virga_default_ground_settings describes; the same numbers as in impacts. A host may redefine all of
- * them, or use the free ones. */
-typedef enum virga_material {
-    VIRGA_MATERIAL_DEFAULT = 0, /* as concrete */
-    VIRGA_MATERIAL_ASPHALT = 1,
-    VIRGA_MATERIAL_CONCRETE = 2,
-    VIRGA_MATERIAL_STONE = 3,
-    VIRGA_MATERIAL_BRICK = 4,
-    VIRGA_MATERIAL_GRASS = 5,
-    VIRGA_MATERIAL_SAND = 6,
-    VIRGA_MATERIAL_SOIL = 7,
-    VIRGA_MATERIAL_WOOD = 8,
-    VIRGA_MATERIAL_STEEL = 9, /* the griddle of the paper */
-    VIRGA_MATERIAL_GLASS = 10,
-    VIRGA_MATERIAL_WATER = 11,
-    VIRGA_MATERIAL_LEAVES = 12,
-    VIRGA_MATERIAL_CLOTH = 13,
-    VIRGA_MATERIAL_PLASTIC = 14,
-    VIRGA_MATERIAL_TILE = 15,
-    VIRGA_MATERIAL_DRAIN = 16,
-    VIRGA_MATERIAL_OWN = 17 /* this one and those above it, up to VIRGA_GROUND_MATERIALS - 1, are free */
-} virga_material;
 
 typedef struct virga_ground_def {
     uint32_t size, cookie;

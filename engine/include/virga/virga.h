@@ -5,7 +5,9 @@
 #include <virga/drops.h>
 #include <virga/ground.h>
 #include <virga/light.h>
+#include <virga/material.h>
 #include <virga/rain.h>
 #include <virga/scene.h>
+#include <virga/splash.h>
 #include <virga/vulkan.h>
 #endif

@@ -1,0 +1,382 @@
+/* splash/splash.c - create, destroy, settings, and what others read. */
+#include "splash/splash_internal.h"
+
+#include "core/light.h"
+
+#include "shaders/splash_fall_comp.spv.h"
+#include "shaders/splash_fall_scan_comp.spv.h"
+#include "shaders/splash_rebase_comp.spv.h"
+#include "shaders/splash_spawn_comp.spv.h"
+#include "shaders/splash_spawn_scan_comp.spv.h"
+#include "shaders/splash_step_comp.spv.h"
+
+#include <string.h>
+
+#define DEF_COOKIE      VIRGA_COOKIE(9)
+#define SETTINGS_COOKIE VIRGA_COOKIE(10)
+
+/* ---- defaults */
+
+virga_splash_def virga_default_splash_def(void)
+{
+    return (virga_splash_def){.size = sizeof(virga_splash_def),
+                              .cookie = DEF_COOKIE,
+                              .max_splashes = 65536,
+                              .max_droplets = 262144,
+                              .max_spawns = 65536,
+                              .max_returns = 131072,
+                              .max_ticks_per_step = 16,
+                              .tick_s = 1.0 / 60};
+}
+
+virga_splash_settings virga_default_splash_settings(void)
+{
+    virga_splash_settings settings = {.size = sizeof settings,
+                                      .cookie = SETTINGS_COOKIE,
+                                      .mode = VIRGA_SPLASH_MODE_PHYSICAL,
+                                      .style = VIRGA_SPLASH_STYLE_FILM,
+                                      .pile_s = 0.02f,
+                                      .pile_m = 0.015f,
+                                      .bounce = 0.25f,
+                                      .droplets_m = 12,
+                                      .dot_mm = 0.3f,
+                                      .air_density = 1.204f,
+                                      .lighting = virga_default_lighting(),
+                                      .gain = 1,
+                                      .light_gain = 1,
+                                      .min_width_px = 1,
+                                      .soft_m = 0.002f,
+                                      .near_m = 0.05f};
+    splash_default_rows(settings.rows);
+    return settings;
+}
+
+static uint32_t power_of_two(uint32_t least)
+{
+    uint32_t power = 1;
+    while (power < least)
+        power *= 2;
+    return power;
+}
+
+static virga_result check_def(const virga_log *log, const virga_splash_def *given, virga_splash_def *def)
+{
+    const virga_result result =
+        virga_settings_check(log, "splash_def", given->size, sizeof *given, given->cookie, DEF_COOKIE);
+    if (result)
+        return result;
+    if (virga_settings_finite_double(log, "splash_def.tick_s", &given->tick_s, 1))
+        return VIRGA_ERROR_INVALID;
+    *def = *given;
+    def->max_splashes =
+        power_of_two(virga_clamp_setting_u32(log, "splash_def.max_splashes", def->max_splashes, 256, 1048576, NULL));
+    def->max_droplets =
+        power_of_two(virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL));
+    def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
+    def->max_returns =
+        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194304, NULL);
+    def->max_ticks_per_step =
+        virga_clamp_setting_u32(log, "splash_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
+    def->tick_s = virga_clamp_setting(log, "splash_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
+    return VIRGA_OK;
+}
+
+/* The rings that a storage buffer of this device can hold. */
+static void fit_device(const virga_context *context, virga_splash_def *def)
+{
+    const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
+    const uint32_t asked = def->max_droplets;
+    while (def->max_droplets * sizeof(virga_droplet_gpu) > most)
+        def->max_droplets /= 2;
+    if (asked != def->max_droplets)
+        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                      "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
+                      def->max_droplets, (unsigned long long)most);
+    while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
+        def->max_returns /= 2;
+}
+
+VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
+{
+    virga_splash_def def;
+    if (!given || check_def(NULL, given, &def))
+        return 0;
+    return sizeof(virga_splash_state_gpu) + (VkDeviceSize)def.max_splashes * sizeof(virga_splash_gpu) +
+           (VkDeviceSize)def.max_droplets * (sizeof(virga_droplet_gpu) + 1) + (VkDeviceSize)def.max_spawns * 8 +
+           (VkDeviceSize)def.max_returns * sizeof(virga_impact_gpu) +
+           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
+               (def.max_ticks_per_step * splash_tick_bytes() + splash_rules_bytes());
+}
+
+/* ---- creating */
+
+enum { BUFFERS = 9, PASSES = 6 };
+
+static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
+{
+    const virga_splash_def *def = &splash->def;
+    const uint32_t frames = splash->context->frames_in_flight;
+    const VkBufferUsageFlags storage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+    const virga_buffer_row wanted[BUFFERS] = {
+        {&splash->state, sizeof(virga_splash_state_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.state"},
+        {&splash->splashes, def->max_splashes * sizeof(virga_splash_gpu), storage, VIRGA_HEAP_DEVICE,
+         "splash.splashes"},
+        {&splash->droplets, def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
+         "splash.droplets"},
+        {&splash->marks, def->max_droplets / 32 * 16, storage, VIRGA_HEAP_DEVICE, "splash.marks"},
+        {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
+        {&splash->returns, sizeof(virga_impacts_gpu) + (VkDeviceSize)def->max_returns * sizeof(virga_impact_gpu),
+         indirect, VIRGA_HEAP_DEVICE, "splash.returns"},
+        {&splash->tick_ring, (VkDeviceSize)frames * (def->max_ticks_per_step + 1) * splash_tick_bytes(),
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "splash.ticks"},
+        {&splash->rules_ring, (VkDeviceSize)frames * splash_rules_bytes(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+         VIRGA_HEAP_UPLOAD, "splash.rules"},
+        {&splash->readback_ring, frames * sizeof(splash_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         VIRGA_HEAP_READBACK, "splash.readback"},
+    };
+    memcpy(rows, wanted, sizeof wanted);
+}
+
+static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
+{
+    const virga_compute_row wanted[PASSES] = {
+        {&splash->spawn_scan, VIRGA_SPIRV(splash_spawn_scan_comp), "splash.spawn_scan"},
+        {&splash->spawn, VIRGA_SPIRV(splash_spawn_comp), "splash.spawn"},
+        {&splash->step, VIRGA_SPIRV(splash_step_comp), "splash.step"},
+        {&splash->fall_scan, VIRGA_SPIRV(splash_fall_scan_comp), "splash.fall_scan"},
+        {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
+        {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
+    };
+    memcpy(rows, wanted, sizeof wanted);
+}
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+
+/* As in shaders/splash: what each file declares. */
+static const virga_binding_kind kinds[] = {
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 tick */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 1 view */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 2 rules */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 3 spawns */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 4 state */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 5 splashes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 6 droplets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 marks */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 places */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 returns */
+};
+
+enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
+
+static virga_bound whole(const virga_buffer *buffer)
+{
+    return (virga_bound){.buffer = buffer->buffer};
+}
+
+VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index)
+{
+    const virga_bound bound[BINDINGS] = {
+        {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
+        {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
+        {.buffer = splash->rules_ring->buffer, .range = sizeof(virga_splash_rules_gpu)},
+        {.buffer = splash->spawns, .offset = splash->spawns_offset},
+        whole(splash->state),
+        whole(splash->splashes),
+        whole(splash->droplets),
+        whole(splash->marks),
+        whole(splash->places),
+        whole(splash->returns)};
+    return virga_bindings_write(splash->context, splash->bindings, index, bound);
+}
+
+void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+{
+    const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
+    splash->context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
+}
+
+static virga_result init(virga_splash *splash)
+{
+    virga_result result = VIRGA_OK;
+    virga_buffer_row buffers[BUFFERS];
+    virga_compute_row passes[PASSES];
+    fit_device(splash->context, &splash->def);
+    list_buffers(splash, buffers);
+    list_passes(splash, passes);
+    TRY(virga_buffers_create(splash->context, buffers, BUFFERS));
+    TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, 0, &splash->bindings));
+    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, passes, PASSES));
+error:
+    return result;
+}
+
+virga_result virga_splash_create(virga_context *context, const virga_splash_def *given, virga_splash **splash)
+{
+    if (splash)
+        *splash = NULL;
+    if (!context || !given || !splash)
+        return virga_wrong_argument(context ? &context->log : NULL, "virga_splash_create: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    virga_splash_def def;
+    virga_result result = check_def(&context->log, given, &def);
+    if (result)
+        return result;
+    virga_splash *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "splashes");
+    made->context = context;
+    made->def = def;
+    made->settings = virga_default_splash_settings();
+    context->effects++;
+    result = init(made);
+    if (result < 0) {
+        virga_splash_destroy(&made);
+        return result;
+    }
+    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
+                  "splash: up to %u splashes and %u droplets, %.1f MB of device memory in use", made->def.max_splashes,
+                  made->def.max_droplets, (double)context->device_used * 1e-6);
+    *splash = made;
+    return VIRGA_OK;
+}
+
+void virga_splash_destroy(virga_splash **splash)
+{
+    if (!splash || !*splash)
+        return;
+    virga_splash *dying = *splash;
+    virga_context *context = dying->context;
+    virga_buffer_row buffers[BUFFERS];
+    virga_compute_row passes[PASSES];
+    list_buffers(dying, buffers);
+    list_passes(dying, passes);
+    virga_compute_pipelines_retire(context, passes, PASSES);
+    virga_buffers_retire(context, buffers, BUFFERS);
+    VIRGA_RETIRE(context, dying->bindings);
+    context->effects--;
+    virga_free(&context->heap, dying);
+    *splash = NULL;
+}
+
+/* ---- settings */
+
+static virga_result check_numbers(const virga_log *log, virga_splash_settings *s, bool *changed)
+{
+    const struct {
+        float *value;
+        float low, high;
+        const char *name;
+    } rows[] = {
+        {&s->pile_s, 0.001f, 0.2f, "splash_settings.pile_s"},
+        {&s->pile_m, 0.001f, 0.2f, "splash_settings.pile_m"},
+        {&s->bounce, 0, 1, "splash_settings.bounce"},
+        {&s->droplets_m, 0, 1000, "splash_settings.droplets_m"},
+        {&s->dot_mm, 0.05f, 5, "splash_settings.dot_mm"},
+        {&s->air_density, 0.3f, 2, "splash_settings.air_density"},
+        {&s->gain, 0, 100, "splash_settings.gain"},
+        {&s->light_gain, 0, 100, "splash_settings.light_gain"},
+        {&s->min_width_px, 0.5f, 4, "splash_settings.min_width_px"},
+        {&s->soft_m, 0, 1, "splash_settings.soft_m"},
+        {&s->near_m, 0, 5, "splash_settings.near_m"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (virga_settings_finite(log, rows[i].name, rows[i].value, 1))
+            return VIRGA_ERROR_INVALID;
+        *rows[i].value =
+            virga_clamp_setting_float(log, rows[i].name, *rows[i].value, rows[i].low, rows[i].high, changed);
+    }
+    return VIRGA_OK;
+}
+
+virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings)
+{
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &splash->context->log;
+    if (!settings)
+        return virga_wrong_argument(log, "virga_splash_set: NULL argument");
+    const virga_result result = virga_settings_check(log, "splash_settings", settings->size, sizeof *settings,
+                                                     settings->cookie, SETTINGS_COOKIE);
+    if (result)
+        return result;
+    virga_splash_settings taken = *settings;
+    bool changed = false;
+    if ((uint32_t)taken.mode > VIRGA_SPLASH_PHYSICAL || (uint32_t)taken.style > VIRGA_SPLASH_STYLE_FILM)
+        return virga_wrong_argument(log, "splash_settings: there is no mode %d or style %d", (int)taken.mode,
+                                    (int)taken.style);
+    if (check_numbers(log, &taken, &changed) || splash_check_rows(log, taken.rows, &changed) ||
+        virga_lighting_check(log, "splash_settings", &taken.lighting, &changed) < 0)
+        return VIRGA_ERROR_INVALID;
+    splash->settings = taken;
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+void virga_splash_get(const virga_splash *splash, virga_splash_settings *settings)
+{
+    if (splash && settings)
+        *settings = splash->settings;
+}
+
+/* ---- what others read */
+
+void splash_push_rules(virga_splash *splash)
+{
+    virga_context *context = splash->context;
+    if (splash->rules_frame == context->frame_index)
+        return;
+    splash->rules_frame = context->frame_index;
+    splash->rules_offset = context->ring_slot * splash_rules_bytes();
+    char *mapped = splash->rules_ring->memory.block.mapped;
+    splash_fill_rules(splash, (virga_splash_rules_gpu *)(mapped + splash->rules_offset));
+    virga_buffer_flush(context, splash->rules_ring, splash->rules_offset, splash_rules_bytes());
+}
+
+void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
+{
+    if (!rules)
+        return;
+    *rules = (virga_splash_buffer){0};
+    if (!splash || splash->context->lost)
+        return;
+    splash_push_rules(splash);
+    *rules =
+        (virga_splash_buffer){splash->rules_ring->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
+}
+
+void virga_splash_returns(const virga_splash *splash, virga_splash_buffer *returns)
+{
+    if (returns)
+        *returns = splash && splash->ticks ? (virga_splash_buffer){splash->returns->buffer, 0, splash->returns->size}
+                                           : (virga_splash_buffer){0};
+}
+
+void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,
+                           double anchor_m[3])
+{
+    if (droplets)
+        *droplets = splash ? (virga_splash_buffer){splash->droplets->buffer, 0, splash->droplets->size}
+                           : (virga_splash_buffer){0};
+    if (count)
+        *count = splash ? splash->def.max_droplets : 0;
+    for (int axis = 0; anchor_m && axis < 3; axis++)
+        anchor_m[axis] = splash ? splash->anchor_m[axis] : 0;
+}
+
+double virga_splash_time(const virga_splash *splash)
+{
+    return splash ? (double)splash->ticks * splash->def.tick_s : 0;
+}
+
+void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats)
+{
+    if (!stats)
+        return;
+    memset(stats, 0, sizeof *stats);
+    if (!splash)
+        return;
+    splash_take_statistics(splash);
+    *stats = splash->stats;
+}

@@ -1,0 +1,247 @@
+/* splash/splash_step.c - a step: spawns become splashes, droplets fly, and what fell is given back. */
+#include "splash/splash_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define ANCHOR_M   64.0 /* anchors lie on multiples of it: floats around them are exact to some micrometres */
+
+static uint32_t ring_bytes(size_t size)
+{
+    return (uint32_t)((size + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT);
+}
+
+uint32_t splash_tick_bytes(void)
+{
+    return ring_bytes(sizeof(virga_splash_tick_gpu));
+}
+
+uint32_t splash_rules_bytes(void)
+{
+    return ring_bytes(sizeof(virga_splash_rules_gpu));
+}
+
+/* ---- statistics */
+
+static uint64_t count_of(const virga_splash_state_gpu *state, uint32_t index)
+{
+    return (uint64_t)state->counts[index].high << 32 | state->counts[index].low;
+}
+
+static void take_state(virga_splash *splash, uint32_t slot)
+{
+    virga_splash_state_gpu state;
+    const char *mapped = splash->readback_ring->memory.block.mapped;
+    memcpy(&state, mapped + slot * sizeof(splash_readback), sizeof state);
+    virga_splash_stats *stats = &splash->stats;
+    stats->frame_index = splash->frame_of_slot[slot];
+    for (uint32_t model = 0; model < VIRGA_SPLASH_MODELS; model++)
+        for (uint32_t material = 0; material < VIRGA_GROUND_MATERIALS; material++)
+            stats->splashes[model][material] =
+                count_of(&state, VIRGA_SPLASH_BY_MODEL + model * VIRGA_SPLASH_MATERIALS + material);
+    stats->droplets = count_of(&state, VIRGA_SPLASH_DROPLETS);
+    stats->fallen = count_of(&state, VIRGA_SPLASH_FALLEN);
+    stats->flown_nl = count_of(&state, VIRGA_SPLASH_FLOWN);
+    stats->returned_nl = count_of(&state, VIRGA_SPLASH_RETURNED);
+    stats->crowded = count_of(&state, VIRGA_SPLASH_CROWDED);
+    stats->splashes_alive = state.end_splash - state.first_splash;
+    stats->droplets_alive = state.end_droplet - state.first_droplet;
+    splash->frame_of_slot[slot] = 0;
+}
+
+void splash_take_statistics(virga_splash *splash)
+{
+    const virga_context *context = splash->context;
+    virga_buffer_invalidate(splash->context, splash->readback_ring);
+    for (;;) {
+        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
+        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
+            const uint64_t frame = splash->frame_of_slot[i];
+            if (frame && frame <= context->completed_index &&
+                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || frame < splash->frame_of_slot[oldest]))
+                oldest = i;
+        }
+        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
+            return;
+        take_state(splash, oldest);
+    }
+}
+
+static void record_readback(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferCopy copy = {0, context->ring_slot * sizeof(splash_readback), sizeof(virga_splash_state_gpu)};
+    context->vk.CmdCopyBuffer(cmd, splash->state->buffer, splash->readback_ring->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    splash->frame_of_slot[context->ring_slot] = context->frame_index;
+}
+
+/* ---- ticks */
+
+static void push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+                      const double shift[3])
+{
+    const virga_splash_settings *settings = &splash->settings;
+    const uint32_t per_frame = splash->def.max_ticks_per_step + 1;
+    const uint32_t place = splash->context->ring_slot * per_frame + splash->ring_ticks++;
+    splash->tick_offset = place * splash_tick_bytes();
+    char *mapped = splash->tick_ring->memory.block.mapped;
+    virga_splash_tick_gpu *out = (virga_splash_tick_gpu *)(mapped + splash->tick_offset);
+    *out = (virga_splash_tick_gpu){.tick = info->first_tick + tick_in_step,
+                                   .tick_in_step = tick_in_step,
+                                   .tick_s = (float)splash->def.tick_s,
+                                   .air_density = settings->air_density,
+                                   .bounce = settings->bounce,
+                                   .pile_s = settings->pile_s,
+                                   .pile_m = settings->pile_m,
+                                   .max_splashes = splash->def.max_splashes,
+                                   .max_droplets = splash->def.max_droplets,
+                                   .max_returns = splash->def.max_returns};
+    for (int axis = 0; axis < 3; axis++) {
+        out->anchor[axis] = (float)splash->anchor_m[axis];
+        out->shift[axis] = (float)shift[axis];
+        out->wind[axis] = info->wind_m_s[axis];
+    }
+    virga_buffer_flush(splash->context, splash->tick_ring, splash->tick_offset, splash_tick_bytes());
+}
+
+/* What a pass wrote is seen by the next, its indirect arguments too. */
+static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_barrier(splash->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+static void dispatch(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
+{
+    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    splash->context->vk.CmdDispatch(cmd, groups, 1, 1);
+    pass_barrier(splash, cmd);
+}
+
+static void dispatch_indirect(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                              VkBuffer buffer, VkDeviceSize offset)
+{
+    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    splash->context->vk.CmdDispatchIndirect(cmd, buffer, offset);
+    pass_barrier(splash, cmd);
+}
+
+static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info, uint32_t i)
+{
+    virga_context *context = splash->context;
+    const double still[3] = {0, 0, 0};
+    const VkDeviceSize droplets = offsetof(virga_splash_state_gpu, droplet_groups);
+    push_tick(splash, info, i, still);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_set);
+    virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
+    dispatch(splash, cmd, splash->spawn_scan, 1);
+    dispatch_indirect(splash, cmd, splash->spawn, info->spawns,
+                      info->spawns_offset + offsetof(virga_spawns_gpu, group_count));
+    virga_pass_end(context, cmd, scope);
+    scope = virga_pass_begin(context, cmd, "splash.step");
+    dispatch_indirect(splash, cmd, splash->step, splash->state->buffer, droplets);
+    dispatch(splash, cmd, splash->fall_scan, 1);
+    dispatch_indirect(splash, cmd, splash->fall, splash->state->buffer, droplets);
+    virga_pass_end(context, cmd, scope);
+    splash->ticks++;
+    splash->last_tick = info->first_tick + i;
+}
+
+/* Positions count from an anchor that follows the camera in wide steps. */
+static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+{
+    double shift[3];
+    bool far = !splash->anchored;
+    for (int axis = 0; axis < 3; axis++)
+        far = far || fabs(info->camera_m[axis] - splash->anchor_m[axis]) > ANCHOR_M;
+    if (!far)
+        return;
+    for (int axis = 0; axis < 3; axis++) {
+        const double anchor = round(info->camera_m[axis] / ANCHOR_M) * ANCHOR_M;
+        shift[axis] = splash->anchor_m[axis] - anchor;
+        splash->anchor_m[axis] = anchor;
+    }
+    if (splash->anchored) {
+        const uint32_t most =
+            splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
+        push_tick(splash, info, 0, shift);
+        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_set);
+        dispatch(splash, cmd, splash->rebase, most / VIRGA_SPLASH_GROUP);
+    }
+    splash->anchored = true;
+}
+
+/* ---- a step */
+
+static void first_contents(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    virga_buffer *const zero[] = {splash->state, splash->splashes, splash->droplets, splash->marks, splash->returns};
+    for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
+        context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    splash->started = true;
+}
+
+static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+{
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &splash->context->log;
+    if (!cmd || !info || !info->spawns)
+        return virga_wrong_argument(log, "virga_splash_step: NULL argument");
+    if (splash->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!splash->context->frame_index)
+        return virga_wrong_argument(log, "virga_splash_step: expected virga_frame_begin before it");
+    if (splash->ring_frame == splash->context->frame_index)
+        return virga_wrong_argument(log, "virga_splash_step: expected one step a frame");
+    if (info->ticks > splash->def.max_ticks_per_step)
+        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
+                                    splash->def.max_ticks_per_step, info->ticks);
+    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
+        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+{
+    const virga_result result = check_step(splash, cmd, info);
+    if (result)
+        return result;
+    virga_context *context = splash->context;
+    virga_timers_reset(context, cmd);
+    splash_take_statistics(splash);
+    splash_push_rules(splash);
+    splash->ring_frame = context->frame_index;
+    splash->ring_ticks = 0;
+    splash->spawns = info->spawns;
+    splash->spawns_offset = info->spawns_offset;
+    splash->step_set = splash_write_set(splash, SPLASH_STEP_SET);
+    /* What read splashes and droplets in the frame before is done with them; the ground may still read the returns. */
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    if (!splash->started)
+        first_contents(splash, cmd);
+    follow(splash, cmd, info);
+    for (uint32_t i = 0; i < info->ticks; i++)
+        run_tick(splash, cmd, info, i);
+    record_readback(splash, cmd);
+    return VIRGA_OK;
+}

@@ -1,0 +1,175 @@
+// spawn.comp - this tick's splashes: the record of each, and its droplets at the start of their orbits.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "state.glsl"
+#include "orbit.glsl"
+#include "spawn.glsl"
+#include "shape.glsl"
+#include "returns.glsl"
+
+layout(local_size_x = 64) in;
+
+// Streams of chance of a splash, and of each of its droplets.
+#define TURN_HASH 1u
+#define CONE_HASH 2u
+#define DROPLET_HASH 16u // + 4 times its index
+
+struct Frame { // of the surface
+    vec3 normal, side, across;
+};
+
+Frame surface_frame(vec3 normal)
+{
+    Frame frame;
+    frame.normal = normal;
+    frame.side = normalize(abs(normal.y) > 0.7 ? vec3(normal.y, -normal.x, 0.0) : vec3(normal.z, 0.0, -normal.x));
+    frame.across = cross(frame.side, normal);
+    return frame;
+}
+
+// What the drop's way along the surface adds to its droplets (section 4.5).
+vec3 lean_of(virga_spawn_gpu spawn)
+{
+    const vec3 velocity = to_vec(spawn.velocity), normal = to_vec(spawn.normal);
+    return tick.bounce * (velocity - dot(velocity, normal) * normal);
+}
+
+float splash_life(virga_spawn_gpu spawn)
+{
+    switch (spawn_model(spawn)) {
+    case VIRGA_SPLASH_CROWN_CONE:
+        return crown_time(crown_height(spawn.diameter_m, weber_number(spawn)));
+    case VIRGA_SPLASH_DISK:
+        return DISK_S;
+    case VIRGA_SPLASH_DOT:
+        return DOT_S;
+    }
+    return SHEET_S;
+}
+
+// Height a metre of the surface in x and z.
+vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec2(-50.0), vec2(50.0)); }
+
+void write_splash(uint place, virga_spawn_gpu spawn, vec3 position, uint droplets)
+{
+    const vec3 lean = lean_of(spawn);
+    virga_splash_gpu splash;
+    splash.position = float[3](position.x, position.y, position.z);
+    splash.share = spawn.share;
+    splash.tick = tick.tick;
+    splash.diameter_m = spawn.diameter_m;
+    splash.speed_m_s = drop_speed(spawn);
+    splash.depth_weight = halves(spawn.depth_m * 1e3, spawn.weight);
+    splash.normal = spawn.normal;
+    splash.random = spawn.random;
+    splash.life_s = splash_life(spawn);
+    splash.lean = halves(lean.x, lean.z);
+    splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16;
+    splash.id = spawn.id;
+    splashes[place & (tick.max_splashes - 1u)] = splash;
+}
+
+// Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into their
+// surfaces, n pi d^2 sigma, the rest moves their mass; most are slower than that mean of squares.
+float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
+{
+    const float d3 = spawn.diameter_m * spawn.diameter_m * spawn.diameter_m, speed = drop_speed(spawn);
+    const float mass = WATER_DENSITY * 0.5235988 * d3, flown = 1e-9 * float(spawn.water_nl) / max(spawn.drops, 1e-3) * 0.9982;
+    const float diameter = pow(6.0 / 3.14159265 * flown / (WATER_DENSITY * float(n)), 1.0 / 3.0);
+    const float energy = 0.1 * mass * speed * speed - float(n) * 3.14159265 * diameter * diameter * 0.0728;
+    const float fastest = sqrt(2.0 * max(energy, 0.0) / max(flown, 1e-12));
+    return clamp(fastest * normal_between(0.1, 0.7, hash), 0.1, 0.6 * speed);
+}
+
+// A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the next.
+void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 centre, uint i, uint n)
+{
+    const virga_splash_rule_gpu rule = rule_of(spawn);
+    const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
+    const float turn = virga_unit(virga_hash2(spawn.random, TURN_HASH));
+    const float azimuth = 6.2831853 * (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
+    const float elevation = normal_between(rule.angle[0], rule.angle[1], virga_hash1(hash));
+    const uint chance = virga_hash2(hash, 1u);
+    const float speed = is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
+    const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
+    const vec3 base = centre + rule.circle * spawn.diameter_m * outward;
+    const vec3 velocity = speed * (cos(elevation) * outward + sin(elevation) * frame.normal) + lean_of(spawn);
+    droplet.base = float[3](base.x, base.y, base.z);
+    droplet.position = droplet.base;
+    droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
+}
+
+// The droplet of the cone goes straight up and down.
+void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 centre)
+{
+    const virga_splash_rule_gpu rule = rule_of(spawn);
+    const uint hash = virga_hash2(spawn.random, CONE_HASH);
+    const float weber = weber_number(spawn);
+    const float speed = is_physical() ? cone_speed(spawn.diameter_m, weber, virga_unit(hash))
+                                      : normal_between(rule.speed[0], rule.speed[1], hash);
+    droplet.base = float[3](centre.x, centre.y, centre.z);
+    droplet.position = droplet.base;
+    droplet.velocity = float[3](0.0, speed, 0.0);
+    droplet.age_s -= crown_time(crown_height(spawn.diameter_m, weber)); // when the crown is over
+}
+
+// Parts of the water, in tenths: a droplet has between 1 and 4 times the least.
+uint part_of(virga_spawn_gpu spawn, uint i, uint n)
+{
+    const float u = virga_unit(virga_hash2(spawn.random, DROPLET_HASH + 4u * i + 1u));
+    const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE && i == 0u;
+    return cone ? 8u * n : 10u + uint(30.0 * u * u);
+}
+
+void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
+{
+    const Frame frame = surface_frame(to_vec(spawn.normal));
+    const vec2 slopes = slopes_of(frame.normal);
+    const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
+    uint parts = 0u, left = spawn.water_nl;
+    for (uint i = 0u; i < n; i++)
+        parts += part_of(spawn, i, n);
+    const uint unit = spawn.water_nl / parts, rest = spawn.water_nl - unit * parts;
+    for (uint i = 0u; i < n; i++) {
+        virga_droplet_gpu droplet;
+        const uint part = part_of(spawn, i, n);
+        // Below 2^32: parts are at most 64 x 40, and what does not divide is below parts.
+        const uint water = i + 1u == n ? left : unit * part + rest * part / parts;
+        left -= water;
+        droplet.water_nl = water;
+        droplet.age_s = -spawn.share * tick.tick_s;
+        droplet.diameter_m = pow(6e-12 / 3.14159265 * float(water) / max(spawn.drops, 1e-3), 1.0 / 3.0);
+        droplet.slopes = halves(slopes.x, slopes.y);
+        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 | VIRGA_DROPLET_ALIVE;
+        droplet.id = spawn.id;
+        droplet.weight_free = halves(spawn.weight, 0.0);
+        if (cone && i == 0u)
+            start_cone(droplet, spawn, centre);
+        else
+            start_pile(droplet, spawn, frame, centre, i, n);
+        droplets[(first + i) & (tick.max_droplets - 1u)] = droplet;
+    }
+}
+
+void main()
+{
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= spawns_head.count || spawns[index].tick != tick.tick)
+        return;
+    const virga_spawn_gpu spawn = spawns[index];
+    const uvec2 place = places[index];
+    const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
+    const bool crowded = place.x >= state.crowded_from;
+    const uint n = crowded ? 0u : droplet_count(spawn);
+    write_splash(state.tick_splash + place.x, spawn, centre, n);
+    count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
+    count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
+    if (n > 0u)
+        start_droplets(spawn, centre, state.tick_droplet + place.y, n);
+    const uint at = state.returns_before + (place.x - state.crowded_from);
+    if (crowded && at < tick.max_returns) {
+        returns[at] = make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
+        count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
+    }
+}

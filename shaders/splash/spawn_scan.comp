@@ -1,0 +1,99 @@
+// spawn_scan.comp - gives this tick's splashes and droplets their places in the rings, in the order of spawns. One
+// workgroup; each lane takes a run of spawns.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "state.glsl"
+#include "orbit.glsl"
+#include "spawn.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+
+shared uvec2 sums[VIRGA_SPLASH_GROUP];
+shared uint crowded_rank, crowded_droplets, expired;
+
+// The oldest splashes that are over make room.
+void forget_splashes(uint lane)
+{
+    uint first = state.first_splash;
+    for (;;) {
+        if (lane == 0u)
+            expired = VIRGA_SPLASH_GROUP;
+        barrier();
+        const uint place = first + lane;
+        bool live = place - first >= state.end_splash - first;
+        if (!live) {
+            const virga_splash_gpu splash = splashes[place & (tick.max_splashes - 1u)];
+            live = float(tick.tick - splash.tick) * tick.tick_s <= splash.life_s + tick.tick_s;
+        }
+        if (live)
+            atomicMin(expired, lane);
+        barrier();
+        const uint passed = expired;
+        first += passed;
+        barrier();
+        if (passed < VIRGA_SPLASH_GROUP)
+            break;
+    }
+    if (lane == 0u)
+        state.first_splash = first;
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, all = spawns_head.count;
+    const uint run = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+    const uint begin = min(lane * run, all), end = min(begin + run, all);
+    forget_splashes(lane);
+    uvec2 sum = uvec2(0u);
+    for (uint i = begin; i < end; i++)
+        if (spawns[i].tick == tick.tick)
+            sum += uvec2(1u, droplet_count(spawns[i]));
+    sums[lane] = sum;
+    if (lane == 0u)
+        crowded_rank = NO_PLACE;
+    for (uint reach = 1u; reach < VIRGA_SPLASH_GROUP; reach *= 2u) { // Hillis and Steele 1986
+        barrier();
+        const uvec2 lower = lane >= reach ? sums[lane - reach] : uvec2(0u);
+        barrier();
+        sums[lane] += lower;
+    }
+    barrier();
+    const uvec2 found = sums[VIRGA_SPLASH_GROUP - 1];
+    const uint room = tick.max_droplets - (state.end_droplet - state.first_droplet);
+    uvec2 place = sums[lane] - sum;
+    for (uint i = begin; i < end; i++) {
+        if (spawns[i].tick != tick.tick)
+            continue;
+        const uint droplets = droplet_count(spawns[i]);
+        if (place.y + droplets > room)
+            atomicMin(crowded_rank, place.x);
+        places[i] = place;
+        place += uvec2(1u, droplets);
+    }
+    barrier();
+    place = sums[lane] - sum;
+    if (lane == 0u)
+        crowded_droplets = found.y;
+    barrier();
+    for (uint i = begin; i < end; i++)
+        if (spawns[i].tick == tick.tick && places[i].x == crowded_rank)
+            crowded_droplets = places[i].y; // one invocation at most
+    barrier();
+    if (lane != 0u)
+        return;
+    state.tick_droplet = state.end_droplet;
+    state.tick_splash = state.end_splash;
+    state.end_droplet += crowded_droplets;
+    state.end_splash += found.x;
+    if (state.end_splash - state.first_splash > tick.max_splashes)
+        state.first_splash = state.end_splash - tick.max_splashes;
+    const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
+    state.crowded_from = crowded_rank;
+    state.returns_before = tick.tick_in_step == 0u ? 0u : state.returns;
+    state.returns = min(state.returns_before + crowded, tick.max_returns);
+    state.droplet_groups = ring_groups(state.first_droplet, state.end_droplet);
+    state.splash_groups = ring_groups(state.first_splash, state.end_splash);
+    count(VIRGA_SPLASH_CROWDED, crowded);
+    count(VIRGA_SPLASH_DROPLETS, crowded_droplets);
+}
