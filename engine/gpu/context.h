@@ -259,6 +259,18 @@ void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageF
 /* Between two compute passes. */
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
 
+/* One compute pass. */
+void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
+
+/* One as large as the head of a buffer says, e.g. of a list's (virga_list_gpu). */
+void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                             const virga_buffer *arguments);
+
+/* Ordered compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. Leaves the list ready
+ * for a pass over it. */
+void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
+                       const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
+
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
                          virga_image_state before, virga_image_state after);
 

@@ -21,7 +21,6 @@
 #define SETTINGS_COOKIE   VIRGA_COOKIE(5)
 #define REAL_DROPS_PER_M3 3200.0 /* of a cloudburst, from 0.2 mm up: decides how wide the innermost box may be */
 #define RANGE_SHARE       0.75   /* of the widest box's half side is at full density, see FADE_FROM in field.glsl */
-#define PICK_BYTES        (VIRGA_RAIN_GROUP / 32 * 16u) /* of a group, see shaders/rain/scan_buffers.glsl */
 
 /* ---- defaults */
 
@@ -127,7 +126,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
         (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades * def.occlusion_slants;
     return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
                     (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
-           slots / VIRGA_RAIN_GROUP * PICK_BYTES + def.max_impacts * sizeof(virga_impact_gpu) +
+           VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
@@ -151,7 +150,7 @@ static virga_result create_state_buffers(virga_rain *rain)
         {&rain->drop_buffer, rain->slots * sizeof(virga_drop_gpu), storage, "rain.drops"},
         {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu),
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.impacts"},
-        {&rain->pick_buffer, rain->groups * PICK_BYTES, storage, "rain.picks"},
+        {&rain->pick_buffer, VIRGA_PICK_BYTES(rain->slots), storage, "rain.picks"},
         {&rain->list_buffer, sizeof(virga_list_gpu) + rain->slots * sizeof(uint32_t),
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.list"},
         {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu), storage, "rain.streaks"},
