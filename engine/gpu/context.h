@@ -143,6 +143,22 @@ typedef enum virga_heap_kind {
 
 virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
                                  virga_heap_kind heap, const char *name, virga_buffer **buffer);
+
+/* A row of an effect's table of buffers. */
+typedef struct virga_buffer_row {
+    virga_buffer **buffer;
+    VkDeviceSize size; /* 0: not made, an option that is off */
+    VkBufferUsageFlags usage;
+    virga_heap_kind heap;
+    const char *name;
+} virga_buffer_row;
+
+/* Makes the buffers of a table, up to the first that can not be made. */
+virga_result virga_buffers_create(virga_context *context, const virga_buffer_row *rows, uint32_t count);
+
+/* Lets go of those that were made; sizes and names are not looked at. */
+void virga_buffers_retire(virga_context *context, const virga_buffer_row *rows, uint32_t count);
+
 /* `layers` 0: a 3D image of depth 1. */
 virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
@@ -178,6 +194,18 @@ typedef struct virga_spirv {
 
 virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
                                            const char *name, virga_pipeline **pipeline);
+
+/* A row of an effect's table of compute passes. */
+typedef struct virga_compute_row {
+    virga_pipeline **pipeline;
+    virga_spirv shader;
+    const char *name;
+} virga_compute_row;
+
+/* As virga_buffers_create and virga_buffers_retire. */
+virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout,
+                                            const virga_compute_row *rows, uint32_t count);
+void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
 
 /* What a graphics pipeline of ours varies in. */
 typedef struct virga_graphics_def {
@@ -258,6 +286,18 @@ void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageF
 
 /* Between two compute passes. */
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
+
+/* One compute pass. */
+void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
+
+/* One as large as the head of a buffer says, e.g. of a list's (virga_list_gpu). */
+void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                             const virga_buffer *arguments);
+
+/* Ordered compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. Leaves the list ready
+ * for a pass over it. */
+void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
+                       const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
 
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
                          virga_image_state before, virga_image_state after);

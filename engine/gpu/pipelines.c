@@ -61,6 +61,22 @@ error:
     return result;
 }
 
+virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout,
+                                            const virga_compute_row *rows, uint32_t count)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < count; i++)
+        TRY(virga_compute_pipeline_create(context, rows[i].shader, layout, rows[i].name, rows[i].pipeline));
+error:
+    return result;
+}
+
+void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        VIRGA_RETIRE(context, *rows[i].pipeline);
+}
+
 /* Everything about a graphics pipeline but its shaders. The state structs point into one another, so they live in
  * the caller's frame. */
 typedef struct graphics_state {

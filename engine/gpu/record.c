@@ -1,4 +1,4 @@
-/* gpu/record.c - labels, timestamps and barriers: what surrounds a pass. */
+/* gpu/record.c - compute passes, and what surrounds a pass: labels, timestamps and barriers. */
 #include "gpu/context.h"
 
 #include <string.h>
@@ -15,6 +15,32 @@ void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd)
 {
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
+{
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    context->vk.CmdDispatch(cmd, groups, 1, 1);
+}
+
+void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                             const virga_buffer *arguments)
+{
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    context->vk.CmdDispatchIndirect(cmd, arguments->buffer, 0);
+}
+
+void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
+                       const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups)
+{
+    virga_dispatch(context, cmd, find, groups);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, scan, 1);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, list, groups);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,

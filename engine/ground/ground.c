@@ -101,19 +101,12 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
 
 static virga_result create_buffers(virga_ground *ground)
 {
-    virga_result result = VIRGA_OK;
     const VkDeviceSize cells = (VkDeviceSize)ground->def.cells * ground->def.cells;
     const VkDeviceSize kept = (VkDeviceSize)ground->def.kept_tiles * VIRGA_GROUND_TILE_CELLS;
     const uint32_t frames = ground->context->frames_in_flight;
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const struct {
-        virga_buffer **buffer;
-        VkDeviceSize size;
-        VkBufferUsageFlags usage;
-        virga_heap_kind heap;
-        const char *name;
-    } wanted[] = {
+    const virga_buffer_row wanted[] = {
         {&ground->floors, cells * sizeof(virga_floor_gpu), storage, VIRGA_HEAP_DEVICE, "ground.floors"},
         {&ground->cells[0], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells0"},
         {&ground->cells[1], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells1"},
@@ -140,11 +133,7 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->readback_ring, frames * sizeof(ground_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          VIRGA_HEAP_READBACK, "ground.readback"},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
-        TRY(virga_buffer_create(ground->context, wanted[i].size, wanted[i].usage, wanted[i].heap, wanted[i].name,
-                                wanted[i].buffer));
-error:
-    return result;
+    return virga_buffers_create(ground->context, wanted, sizeof wanted / sizeof wanted[0]);
 }
 
 static virga_result create_images(virga_ground *ground)
@@ -240,12 +229,7 @@ void ground_write_sets(virga_ground *ground)
 
 static virga_result create_pipelines(virga_ground *ground)
 {
-    virga_result result = VIRGA_OK;
-    const struct {
-        virga_pipeline **pipeline;
-        virga_spirv shader;
-        const char *name;
-    } passes[] = {
+    const virga_compute_row passes[] = {
         {&ground->adopt, VIRGA_SPIRV(ground_adopt_comp), "ground.adopt"},
         {&ground->forget, VIRGA_SPIRV(ground_forget_comp), "ground.forget"},
         {&ground->spawn_find, VIRGA_SPIRV(ground_spawn_find_comp), "ground.spawn_find"},
@@ -258,11 +242,8 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
     };
-    for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
-        TRY(virga_compute_pipeline_create(ground->context, passes[i].shader, ground->bindings->layout, passes[i].name,
-                                          passes[i].pipeline));
-error:
-    return result;
+    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, passes,
+                                          sizeof passes / sizeof passes[0]);
 }
 
 static virga_result init(virga_ground *ground)

@@ -21,7 +21,6 @@
 #define SETTINGS_COOKIE   VIRGA_COOKIE(5)
 #define REAL_DROPS_PER_M3 3200.0 /* of a cloudburst, from 0.2 mm up: decides how wide the innermost box may be */
 #define RANGE_SHARE       0.75   /* of the widest box's half side is at full density, see FADE_FROM in field.glsl */
-#define PICK_BYTES        (VIRGA_RAIN_GROUP / 32 * 16u) /* of a group, see shaders/rain/scan_buffers.glsl */
 
 /* ---- defaults */
 
@@ -127,7 +126,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
         (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades * def.occlusion_slants;
     return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
                     (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
-           slots / VIRGA_RAIN_GROUP * PICK_BYTES + def.max_impacts * sizeof(virga_impact_gpu) +
+           VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
@@ -135,83 +134,48 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 
 /* ---- creating */
 
-static virga_result create_state_buffers(virga_rain *rain)
+/* What rain makes and lets go of, each in one table for both. */
+enum { BUFFERS = 15, PASSES = 10 };
+
+static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 {
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
+    const VkDeviceSize frames = rain->context->frames_in_flight, slots = rain->slots;
+    const VkDeviceSize slot_bytes = slots * sizeof(virga_slot_gpu);
+    const VkDeviceSize index_bytes = (VkDeviceSize)rain->def.max_streaks * 6 * sizeof(uint32_t);
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const struct {
-        virga_buffer **buffer;
-        VkDeviceSize size;
-        VkBufferUsageFlags usage;
-        const char *name;
-    } wanted[] = {
-        {&rain->slot_buffer, rain->slots * sizeof(virga_slot_gpu), storage, "rain.slots"},
-        {&rain->drop_buffer, rain->slots * sizeof(virga_drop_gpu), storage, "rain.drops"},
-        {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu),
-         storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.impacts"},
-        {&rain->pick_buffer, rain->groups * PICK_BYTES, storage, "rain.picks"},
-        {&rain->list_buffer, sizeof(virga_list_gpu) + rain->slots * sizeof(uint32_t),
-         storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "rain.list"},
-        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu), storage, "rain.streaks"},
-        {&rain->prepared_buffer, sizeof(virga_prepared_gpu), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-         "rain.prepared"},
-        {&rain->index_buffer, (VkDeviceSize)rain->def.max_streaks * 6 * sizeof(uint32_t),
-         storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "rain.indices"},
-        {&rain->sway_buffer, rain->def.wind_texture ? rain->slots * sizeof(virga_sway_gpu) : 0, storage, "rain.sways"},
-        {&rain->point_buffer, rain->def.points ? rain->slots * sizeof(virga_point_gpu) : 0, storage, "rain.points"},
+    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+    const VkBufferUsageFlags uniform = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    const virga_heap_kind device = VIRGA_HEAP_DEVICE, upload = VIRGA_HEAP_UPLOAD;
+    const virga_buffer_row all[] = {
+        {&rain->slot_buffer, slot_bytes, storage, device, "rain.slots"},
+        {&rain->drop_buffer, slots * sizeof(virga_drop_gpu), storage, device, "rain.drops"},
+        {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu), indirect,
+         device, "rain.impacts"},
+        {&rain->pick_buffer, VIRGA_PICK_BYTES(slots), storage, device, "rain.picks"},
+        {&rain->list_buffer, sizeof(virga_list_gpu) + slots * sizeof(uint32_t), indirect, device, "rain.list"},
+        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu), storage, device,
+         "rain.streaks"},
+        {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
+        {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
+        {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
+         "rain.sways"},
+        {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},
+        {&rain->slot_upload, slot_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.slot_upload"},
+        {&rain->index_upload, index_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.index_upload"},
+        {&rain->tick_ring, frames * rain->def.max_ticks_per_step * rain_tick_bytes(),
+         uniform | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, upload, "rain.ticks"},
+        {&rain->view_ring, frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(), uniform, upload, "rain.views"},
+        {&rain->readback_ring, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,
+         "rain.readback"},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
-        if (wanted[i].size)
-            TRY(virga_buffer_create(context, wanted[i].size, wanted[i].usage, VIRGA_HEAP_DEVICE, wanted[i].name,
-                                    wanted[i].buffer));
-error:
-    return result;
+    _Static_assert(sizeof all == BUFFERS * sizeof all[0], "a row for each buffer");
+    memcpy(rows, all, sizeof all);
 }
 
-static virga_result create_host_buffers(virga_rain *rain)
+static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
 {
-    virga_result result = VIRGA_OK;
-    virga_context *context = rain->context;
-    const uint32_t frames = context->frames_in_flight;
-    TRY(virga_buffer_create(context, rain->slot_buffer->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
-                            "rain.slot_upload", &rain->slot_upload));
-    TRY(virga_buffer_create(context, rain->index_buffer->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
-                            "rain.index_upload", &rain->index_upload));
-    TRY(virga_buffer_create(context, (VkDeviceSize)frames * rain->def.max_ticks_per_step * rain_tick_bytes(),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD,
-                            "rain.ticks", &rain->tick_ring));
-    TRY(virga_buffer_create(context, (VkDeviceSize)frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(),
-                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "rain.views", &rain->view_ring));
-    TRY(virga_buffer_create(context, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                            VIRGA_HEAP_READBACK, "rain.readback", &rain->readback_ring));
-    memset(rain->readback_ring->memory.block.mapped, 0, frames * sizeof(rain_readback));
-    virga_buffer_flush(context, rain->readback_ring, 0, rain->readback_ring->size);
-error:
-    return result;
-}
-
-static void fill_uploads(virga_rain *rain)
-{
-    rain_classes_fill_slots(rain->classes, rain->def.seed, rain->slot_upload->memory.block.mapped);
-    uint32_t *indices = rain->index_upload->memory.block.mapped;
-    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
-    for (uint32_t i = 0; i < rain->def.max_streaks; i++)
-        for (uint32_t j = 0; j < 6; j++)
-            indices[i * 6 + j] = i * 4 + corners[j];
-    virga_buffer_flush(rain->context, rain->slot_upload, 0, rain->slot_upload->size);
-    virga_buffer_flush(rain->context, rain->index_upload, 0, rain->index_upload->size);
-}
-
-static virga_result create_passes(virga_rain *rain)
-{
-    virga_result result = VIRGA_OK;
-    const struct {
-        virga_pipeline **pipeline;
-        virga_spirv shader;
-        const char *name;
-    } passes[] = {
+    const virga_compute_row all[] = {
         {&rain->step, VIRGA_SPIRV(rain_step_comp), "rain.step"},
         {&rain->sway, VIRGA_SPIRV(rain_sway_comp), "rain.sway"},
         {&rain->impact_find, VIRGA_SPIRV(rain_impact_find_comp), "rain.impact_find"},
@@ -223,11 +187,23 @@ static virga_result create_passes(virga_rain *rain)
         {&rain->prepare_write, VIRGA_SPIRV(rain_prepare_write_comp), "rain.prepare_write"},
         {&rain->points, VIRGA_SPIRV(rain_points_comp), "rain.points"},
     };
-    for (size_t i = 0; i < sizeof passes / sizeof passes[0]; i++)
-        TRY(virga_compute_pipeline_create(rain->context, passes[i].shader, rain->bindings->layout, passes[i].name,
-                                          passes[i].pipeline));
-error:
-    return result;
+    _Static_assert(sizeof all == PASSES * sizeof all[0], "a row for each pass");
+    memcpy(rows, all, sizeof all);
+}
+
+/* What the host writes before the first frame. */
+static void fill_host_buffers(virga_rain *rain)
+{
+    rain_classes_fill_slots(rain->classes, rain->def.seed, rain->slot_upload->memory.block.mapped);
+    uint32_t *indices = rain->index_upload->memory.block.mapped;
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
+    for (uint32_t i = 0; i < rain->def.max_streaks; i++)
+        for (uint32_t j = 0; j < 6; j++)
+            indices[i * 6 + j] = i * 4 + corners[j];
+    virga_buffer_flush(rain->context, rain->slot_upload, 0, rain->slot_upload->size);
+    virga_buffer_flush(rain->context, rain->index_upload, 0, rain->index_upload->size);
+    memset(rain->readback_ring->memory.block.mapped, 0, rain->readback_ring->size);
+    virga_buffer_flush(rain->context, rain->readback_ring, 0, rain->readback_ring->size);
 }
 
 static virga_result create_field(virga_rain *rain)
@@ -251,10 +227,13 @@ static virga_result create_field(virga_rain *rain)
 static virga_result init(virga_rain *rain)
 {
     virga_result result = VIRGA_OK;
+    virga_buffer_row buffers[BUFFERS];
+    virga_compute_row passes[PASSES];
     TRY(create_field(rain));
-    TRY(create_state_buffers(rain));
-    TRY(create_host_buffers(rain));
-    fill_uploads(rain);
+    list_buffers(rain, buffers);
+    list_passes(rain, passes);
+    TRY(virga_buffers_create(rain->context, buffers, BUFFERS));
+    fill_host_buffers(rain);
     TRY(virga_image_create(rain->context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){1, 1}, 1,
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                            VK_IMAGE_ASPECT_DEPTH_BIT, "rain.blank", &rain->blank));
@@ -263,7 +242,7 @@ static virga_result init(virga_rain *rain)
                            &rain->blank_wind));
     TRY(rain_occlusion_create(rain));
     TRY(rain_descriptors_create(rain));
-    TRY(create_passes(rain));
+    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, passes, PASSES));
 error:
     return result;
 }
@@ -306,18 +285,12 @@ void virga_rain_destroy(virga_rain **rain)
     virga_rain *dying = *rain;
     virga_context *context = dying->context;
     rain_targets_destroy(dying);
-    virga_pipeline **pipelines[] = {
-        &dying->step,         &dying->sway,         &dying->impact_find,  &dying->list,          &dying->impact_scan,
-        &dying->impact_write, &dying->prepare_find, &dying->prepare_scan, &dying->prepare_write, &dying->points};
-    for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
-        VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->slot_buffer,   &dying->slot_upload,     &dying->drop_buffer,
-                                &dying->impact_buffer, &dying->pick_buffer,     &dying->list_buffer,
-                                &dying->streak_buffer, &dying->prepared_buffer, &dying->sway_buffer,
-                                &dying->index_buffer,  &dying->index_upload,    &dying->tick_ring,
-                                &dying->view_ring,     &dying->readback_ring,   &dying->point_buffer};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
-        VIRGA_RETIRE(context, *buffers[i]);
+    virga_compute_row passes[PASSES];
+    virga_buffer_row buffers[BUFFERS];
+    list_passes(dying, passes);
+    list_buffers(dying, buffers);
+    virga_compute_pipelines_retire(context, passes, PASSES);
+    virga_buffers_retire(context, buffers, BUFFERS);
     VIRGA_RETIRE(context, dying->blank);
     VIRGA_RETIRE(context, dying->blank_wind);
     virga_mesh_map_retire(context, &dying->map);

@@ -101,8 +101,8 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
-    rain_record_list(rain, cmd, rain->prepare_find, rain->prepare_scan);
-    rain_dispatch_list(rain, cmd, rain->prepare_write);
+    virga_record_list(context, cmd, rain->prepare_find, rain->prepare_scan, rain->list, rain->groups);
+    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,

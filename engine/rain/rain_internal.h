@@ -18,6 +18,7 @@
 #include <stddef.h>
 
 #include <virga/rain.h>
+#include <virga/shared/compact.h>
 #include <virga/shared/drop.h>
 #include <virga/shared/rain_gpu.h>
 
@@ -194,12 +195,6 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
 /* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
 void rain_take_statistics(virga_rain *rain);
-
-/* Finds slots and lists them in their order: a pass that marks, one that counts, and the list's own. */
-void rain_record_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *find, const virga_pipeline *scan);
-
-/* A pass over the list. */
-void rain_dispatch_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline);
 
 /* ---- rain_occlusion.c */
 virga_result rain_occlusion_create(virga_rain *rain);

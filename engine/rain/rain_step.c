@@ -191,33 +191,6 @@ static void push_tick(virga_rain *rain, uint32_t tick_in_step)
     virga_buffer_flush(rain->context, rain->tick_ring, rain->tick_offset, rain_tick_bytes());
 }
 
-static void dispatch(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
-{
-    rain->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    rain->context->vk.CmdDispatch(cmd, groups, 1, 1);
-}
-
-/* Ordered compaction, see shaders/rain/scan_buffers.glsl. Leaves the list ready for a pass over it. */
-void rain_record_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *find, const virga_pipeline *scan)
-{
-    virga_context *context = rain->context;
-    dispatch(rain, cmd, find, rain->groups);
-    virga_compute_barrier(context, cmd);
-    dispatch(rain, cmd, scan, 1);
-    virga_compute_barrier(context, cmd);
-    dispatch(rain, cmd, rain->list, rain->groups);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-}
-
-void rain_dispatch_list(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline)
-{
-    const virga_functions *vk = &rain->context->vk;
-    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    vk->CmdDispatchIndirect(cmd, rain->list_buffer->buffer, 0);
-}
-
 static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
     virga_context *context = rain->context;
@@ -225,17 +198,17 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_pass_scope scope;
     if (rain->sway_on) {
         scope = virga_pass_begin(context, cmd, "rain.sway");
-        dispatch(rain, cmd, rain->sway, rain->groups);
+        virga_dispatch(context, cmd, rain->sway, rain->groups);
         virga_compute_barrier(context, cmd);
         virga_pass_end(context, cmd, scope);
     }
     scope = virga_pass_begin(context, cmd, "rain.step");
-    dispatch(rain, cmd, rain->step, rain->groups);
+    virga_dispatch(context, cmd, rain->step, rain->groups);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "rain.impacts");
-    rain_record_list(rain, cmd, rain->impact_find, rain->impact_scan);
-    rain_dispatch_list(rain, cmd, rain->impact_write);
+    virga_record_list(context, cmd, rain->impact_find, rain->impact_scan, rain->list, rain->groups);
+    virga_dispatch_indirect(context, cmd, rain->impact_write, rain->list_buffer);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     virga_pass_end(context, cmd, scope);
@@ -244,12 +217,13 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
 /* The state of the field at the newest tick, seen from a new place: no time passes, nothing lands. */
 static void record_refresh(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
+    virga_context *context = rain->context;
     push_tick(rain, 0);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
-    const virga_pass_scope scope = virga_pass_begin(rain->context, cmd, "rain.step");
-    dispatch(rain, cmd, rain->step, rain->groups);
-    virga_compute_barrier(rain->context, cmd);
-    virga_pass_end(rain->context, cmd, scope);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.step");
+    virga_dispatch(context, cmd, rain->step, rain->groups);
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
 }
 
 static void advance(virga_rain *rain)
@@ -375,7 +349,7 @@ virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.points");
-    dispatch(rain, cmd, rain->points, rain->groups);
+    virga_dispatch(context, cmd, rain->points, rain->groups);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -3,7 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
-#include "find.glsl"
+#include "compact.glsl"
+#include "gpu/compact_find.glsl"
 #include "impact.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;

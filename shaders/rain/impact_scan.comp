@@ -3,7 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
-#include "scan.glsl"
+#include "compact.glsl"
+#include "gpu/compact_scan.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 4) buffer Impacts
@@ -17,7 +18,7 @@ void main()
     const bool first_tick = tick.tick_in_step == 0u;
     const uint before = first_tick ? 0u : head.count;
     const uint dropped_before = first_tick ? 0u : head.dropped;
-    const uint found = scan_picks(0xffffffffu).x;
+    const uint found = scan_picks(tick.groups, 0xffffffffu).x;
     if (gl_LocalInvocationIndex != 0u)
         return;
     list.first = before;

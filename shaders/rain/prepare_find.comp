@@ -4,7 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
 #include "view.glsl"
-#include "find.glsl"
+#include "compact.glsl"
+#include "gpu/compact_find.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };

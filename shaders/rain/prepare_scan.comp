@@ -4,14 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "field.glsl"
 #include "view.glsl"
-#include "scan.glsl"
+#include "compact.glsl"
+#include "gpu/compact_scan.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_gpu prepared; };
 
 void main()
 {
-    const uvec2 found = scan_picks(look.max_streaks);
+    const uvec2 found = scan_picks(tick.groups, look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;
     // The index buffer holds six indices a streak, so a streak's place tells where its own begin.

@@ -18,7 +18,6 @@ typedef struct virga_streak_gpu virga_streak_gpu;
 typedef struct virga_sway_gpu virga_sway_gpu;
 typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
-typedef struct virga_list_gpu virga_list_gpu;
 #endif
 
 /* A slot: its place in the lattice of its class, and which drops it stands for. Never changes. */
@@ -135,15 +134,6 @@ struct virga_prepared_gpu {
     uint dropped;
 };
 
-/* Head of the list of picked slots, see shaders/rain/scan_buffers.glsl. */
-struct virga_list_gpu {
-    uint group_count[3]; /* of the dispatch that works through the list */
-    uint count;
-    uint second_kind;    /* how many of them, at the front, are of the second kind */
-    uint first;          /* free for the pass: where in its output the list's entries go */
-    uint pad[2];
-};
-
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_slot_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_travel_gpu, 32);
@@ -157,7 +147,6 @@ VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_prepared_gpu, 48);
-VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
 #undef uint
 #endif
 

@@ -1,8 +1,9 @@
-// find.glsl - the finding half of ordered compaction, see scan_buffers.glsl.
-#include "scan_buffers.glsl"
+// compact_find.glsl - the finding part of ordered compaction, see compact_buffers.glsl.
+#include "gpu/compact_buffers.glsl"
 
 shared uint group_bits[2 * GROUP_WORDS];
 
+// Of the invocation's slot. For all invocations of a workgroup alike: there are barriers in it.
 void mark_pick(uint kind)
 {
     const uint lane = gl_LocalInvocationIndex;

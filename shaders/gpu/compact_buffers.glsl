@@ -1,0 +1,32 @@
+// compact_buffers.glsl - ordered compaction: which slots are picked, and the list of them.
+//
+// Four passes, of which an effect writes what is its own around compact_find, compact_scan, compact_list and this file:
+//
+// find:  each slot's pick becomes a bit in shared memory (an OR does not care for order), 32 slots to a word
+// scan:  one workgroup turns the words' counts into places
+// list:  each picked slot finds its place by counting the bits before its own, and writes its number there
+// write: a dispatch as long as the list, so that no invocation works for a slot that was not picked
+//
+// The list is in the order of slots, whatever order the device runs groups in. Slots are picked as one of two kinds,
+// and the list has all of the second kind first.
+//
+// The includer says in COMPACT_GROUP how many slots a workgroup has (a multiple of 32, and the local size of all four
+// passes), and in COMPACT_PICKS_BINDING and COMPACT_LIST_BINDING where the two buffers are bound. The host gives the
+// picks VIRGA_PICK_BYTES, records the first three passes with virga_record_list and the last with
+// virga_dispatch_indirect.
+#include "shared/compact.h"
+
+layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) buffer Picks
+{
+    uvec4 picks[]; // a word's bits of each kind; places of each kind
+};
+layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) buffer List
+{
+    virga_list_gpu list;
+    uint listed[]; // slots
+};
+
+#define NOT_PICKED 0u
+#define FIRST_KIND 1u
+#define SECOND_KIND 2u
+#define GROUP_WORDS (COMPACT_GROUP / 32)
