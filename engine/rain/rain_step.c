@@ -374,3 +374,9 @@ void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count)
     if (first)
         *first = rain ? (uint32_t)rain->ticks - (run ? run - 1 : 0) : 0;
 }
+
+void virga_rain_wind(const virga_rain *rain, float wind_m_s[3])
+{
+    for (int axis = 0; wind_m_s && axis < 3; axis++)
+        wind_m_s[axis] = rain ? (float)rain->wind_now[axis] : 0;
+}

@@ -9,6 +9,7 @@ struct virga_scene {
     virga_context *context;
     virga_rain *rain;
     virga_ground *ground; /* NULL: none */
+    virga_splash *splash; /* NULL: none */
 };
 
 virga_scene_def virga_default_scene_def(void)
@@ -16,7 +17,8 @@ virga_scene_def virga_default_scene_def(void)
     return (virga_scene_def){.size = sizeof(virga_scene_def),
                              .cookie = SCENE_COOKIE,
                              .rain = virga_default_rain_def(),
-                             .ground = virga_default_ground_def()};
+                             .ground = virga_default_ground_def(),
+                             .splash = virga_default_splash_def()};
 }
 
 /* What must be the same as the rain's is taken from it. */
@@ -30,6 +32,18 @@ static virga_result create_ground(virga_context *context, const virga_scene_def 
     for (int i = 0; i < 4; i++)
         taken.occluder_strides[i] = def->rain.occluder_strides[i];
     return virga_ground_create(context, &taken, ground);
+}
+
+static virga_result create_splash(virga_context *context, const virga_scene_def *def, virga_splash **splash)
+{
+    virga_splash_def taken = def->splash;
+    if (!def->with_ground)
+        return virga_wrong_argument(&context->log, "scene_def.with_splash: expected with_ground too");
+    taken.tick_s = def->rain.tick_s;
+    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
+    taken.max_spawns = def->ground.max_spawns;
+    taken.max_returns = def->ground.max_returns;
+    return virga_splash_create(context, &taken, splash);
 }
 
 virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene)
@@ -49,6 +63,8 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
     result = virga_rain_create(context, &def->rain, &made->rain);
     if (result >= 0 && def->with_ground)
         result = create_ground(context, def, &made->ground);
+    if (result >= 0 && def->with_splash)
+        result = create_splash(context, def, &made->splash);
     if (result < 0)
         virga_scene_destroy(&made);
     *scene = made;
@@ -59,6 +75,7 @@ void virga_scene_destroy(virga_scene **scene)
 {
     if (!scene || !*scene)
         return;
+    virga_splash_destroy(&(*scene)->splash);
     virga_ground_destroy(&(*scene)->ground);
     virga_rain_destroy(&(*scene)->rain);
     virga_free(&(*scene)->context->heap, *scene);
@@ -73,6 +90,11 @@ virga_rain *virga_scene_rain(virga_scene *scene)
 virga_ground *virga_scene_ground(virga_scene *scene)
 {
     return scene ? scene->ground : NULL;
+}
+
+virga_splash *virga_scene_splash(virga_scene *scene)
+{
+    return scene ? scene->splash : NULL;
 }
 
 /* The first error, else the last remark. */
@@ -94,7 +116,37 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
         info.focus_m[axis] = frame->focus_m[axis];
     }
     virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
+    if (scene->splash) {
+        virga_splash_buffer rules, returns;
+        virga_splash_rules(scene->splash, &rules);
+        virga_splash_returns(scene->splash, &returns);
+        info.splash_rules = rules.buffer;
+        info.splash_rules_offset = rules.offset;
+        info.returns = returns.buffer;
+        info.returns_offset = returns.offset;
+    }
     return virga_ground_step(scene->ground, cmd, &info);
+}
+
+static virga_result step_splash(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_splash_step_info info = {.spawns_offset = 0};
+    for (int axis = 0; axis < 3; axis++)
+        info.camera_m[axis] = frame->camera_m[axis];
+    virga_ground_spawns(scene->ground, &info.spawns, NULL);
+    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
+    virga_rain_wind(scene->rain, info.wind_m_s);
+    return virga_splash_step(scene->splash, cmd, &info);
+}
+
+/* What a view sees, at the time of the rain. */
+static virga_result prepare(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
+{
+    virga_result result = VIRGA_OK;
+    const double time_s = virga_rain_time(scene->rain);
+    if (scene->splash)
+        result = virga_splash_prepare(scene->splash, cmd, view, time_s);
+    return result < 0 ? result : worst(result, virga_rain_prepare(scene->rain, cmd, view, time_s));
 }
 
 virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
@@ -111,17 +163,25 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         result = worst(result, virga_rain_step(scene->rain, cmd, &step));
     if (result >= 0 && scene->ground)
         result = worst(result, step_ground(scene, cmd, frame));
+    if (result >= 0 && scene->splash)
+        result = worst(result, step_splash(scene, cmd, frame));
     if (result >= 0 && frame->view)
-        result = worst(result, virga_rain_prepare(scene->rain, cmd, frame->view, virga_rain_time(scene->rain)));
+        result = worst(result, prepare(scene, cmd, frame->view));
     return result;
 }
 
 virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
 {
-    return scene ? virga_rain_attach(scene->rain, target) : VIRGA_ERROR_INVALID;
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = scene->splash ? virga_splash_attach(scene->splash, target) : VIRGA_OK;
+    return result < 0 ? result : worst(result, virga_rain_attach(scene->rain, target));
 }
 
 virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target)
 {
-    return scene ? virga_rain_draw(scene->rain, cmd, target) : VIRGA_ERROR_INVALID;
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
+    return result < 0 ? result : worst(result, virga_rain_draw(scene->rain, cmd, target));
 }

@@ -150,6 +150,9 @@ VIRGA_API double virga_rain_time(const virga_rain *rain);
 /* The ticks that the newest step ran, as virga_impact_gpu.tick counts them: `*first` and those that follow. */
 VIRGA_API void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count);
 
+/* The uniform wind of the newest tick (m/s), gust included. */
+VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
+
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s` (normally virga_rain_time; any time within a tick or two of it is
