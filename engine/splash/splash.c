@@ -3,11 +3,19 @@
 
 #include "core/light.h"
 
+#include "shaders/splash_crown_find_comp.spv.h"
+#include "shaders/splash_crown_list_comp.spv.h"
+#include "shaders/splash_crown_scan_comp.spv.h"
 #include "shaders/splash_fall_comp.spv.h"
 #include "shaders/splash_fall_scan_comp.spv.h"
+#include "shaders/splash_indices_comp.spv.h"
 #include "shaders/splash_rebase_comp.spv.h"
 #include "shaders/splash_spawn_comp.spv.h"
 #include "shaders/splash_spawn_scan_comp.spv.h"
+#include "shaders/splash_sprite_find_comp.spv.h"
+#include "shaders/splash_sprite_list_comp.spv.h"
+#include "shaders/splash_sprite_scan_comp.spv.h"
+#include "shaders/splash_sprite_write_comp.spv.h"
 #include "shaders/splash_step_comp.spv.h"
 
 #include <string.h>
@@ -22,7 +30,7 @@ virga_splash_def virga_default_splash_def(void)
     return (virga_splash_def){.size = sizeof(virga_splash_def),
                               .cookie = DEF_COOKIE,
                               .max_splashes = 65536,
-                              .max_droplets = 262144,
+                              .max_droplets = 131072,
                               .max_spawns = 65536,
                               .max_returns = 131072,
                               .max_ticks_per_step = 16,
@@ -35,11 +43,12 @@ virga_splash_settings virga_default_splash_settings(void)
                                       .cookie = SETTINGS_COOKIE,
                                       .mode = VIRGA_SPLASH_MODE_PHYSICAL,
                                       .style = VIRGA_SPLASH_STYLE_FILM,
-                                      .pile_s = 0.02f,
-                                      .pile_m = 0.015f,
+                                      .pile_s = 0.012f,
+                                      .pile_m = 0.008f,
                                       .bounce = 0.25f,
-                                      .droplets_m = 12,
-                                      .dot_mm = 0.3f,
+                                      .wind_share = 0.4f,
+                                      .droplets_m = 2.5f,
+                                      .dot_mm = 0.5f,
                                       .air_density = 1.204f,
                                       .lighting = virga_default_lighting(),
                                       .gain = 1,
@@ -71,7 +80,8 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     def->max_splashes =
         power_of_two(virga_clamp_setting_u32(log, "splash_def.max_splashes", def->max_splashes, 256, 1048576, NULL));
     def->max_droplets =
-        power_of_two(virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL));
+        virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL);
+    def->max_droplets = (def->max_droplets + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP * VIRGA_SPLASH_GROUP;
     def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
         virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194304, NULL);
@@ -87,7 +97,7 @@ static void fit_device(const virga_context *context, virga_splash_def *def)
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
     const uint32_t asked = def->max_droplets;
     while (def->max_droplets * sizeof(virga_droplet_gpu) > most)
-        def->max_droplets /= 2;
+        def->max_droplets = def->max_droplets / 2 / VIRGA_SPLASH_GROUP * VIRGA_SPLASH_GROUP;
     if (asked != def->max_droplets)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
                       "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
@@ -96,26 +106,35 @@ static void fit_device(const virga_context *context, virga_splash_def *def)
         def->max_returns /= 2;
 }
 
+/* Quads of sprites, pyramids, and the mesh of a sheet. */
+static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
+{
+    return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
+}
+
 VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
 {
     virga_splash_def def;
     if (!given || check_def(NULL, given, &def))
         return 0;
     return sizeof(virga_splash_state_gpu) + (VkDeviceSize)def.max_splashes * sizeof(virga_splash_gpu) +
-           (VkDeviceSize)def.max_droplets * (sizeof(virga_droplet_gpu) + 1) + (VkDeviceSize)def.max_spawns * 8 +
+           (VkDeviceSize)def.max_droplets * (2 * sizeof(virga_droplet_gpu) + 1) + (VkDeviceSize)def.max_spawns * 8 +
            (VkDeviceSize)def.max_returns * sizeof(virga_impact_gpu) +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
-               (def.max_ticks_per_step * splash_tick_bytes() + splash_rules_bytes());
+               (def.max_ticks_per_step * splash_tick_bytes() + splash_rules_bytes() +
+                SPLASH_MAX_VIEWS * splash_view_bytes()) +
+           VIRGA_PICK_BYTES(2 * (VkDeviceSize)def.max_droplets + 2 * (VkDeviceSize)def.max_splashes) +
+           (VkDeviceSize)splash_max_sprites(&def) * (sizeof(virga_sprite_gpu) + 4) + splash_index_bytes(&def);
 }
 
 /* ---- creating */
 
-enum { BUFFERS = 9, PASSES = 6 };
+enum { BUFFERS = 18, PASSES = 14 };
 
 static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
 {
     const virga_splash_def *def = &splash->def;
-    const uint32_t frames = splash->context->frames_in_flight;
+    const uint32_t frames = splash->context->frames_in_flight, sprites = splash_max_sprites(def);
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
@@ -123,16 +142,32 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
         {&splash->state, sizeof(virga_splash_state_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.state"},
         {&splash->splashes, def->max_splashes * sizeof(virga_splash_gpu), storage, VIRGA_HEAP_DEVICE,
          "splash.splashes"},
-        {&splash->droplets, def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
-         "splash.droplets"},
+        {&splash->droplet_buffers[0], def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
+         "splash.droplets0"},
+        {&splash->droplet_buffers[1], def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
+         "splash.droplets1"},
         {&splash->marks, def->max_droplets / 32 * 16, storage, VIRGA_HEAP_DEVICE, "splash.marks"},
         {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
         {&splash->returns, sizeof(virga_impacts_gpu) + (VkDeviceSize)def->max_returns * sizeof(virga_impact_gpu),
          indirect, VIRGA_HEAP_DEVICE, "splash.returns"},
+        {&splash->sprite_picks, VIRGA_PICK_BYTES(2 * (VkDeviceSize)def->max_droplets + def->max_splashes), storage,
+         VIRGA_HEAP_DEVICE, "splash.sprite_picks"},
+        {&splash->sprite_list_buffer, sizeof(virga_list_gpu) + (VkDeviceSize)sprites * 4, indirect, VIRGA_HEAP_DEVICE,
+         "splash.sprite_list"},
+        {&splash->crown_picks, VIRGA_PICK_BYTES((VkDeviceSize)def->max_splashes), storage, VIRGA_HEAP_DEVICE,
+         "splash.crown_picks"},
+        {&splash->crown_list_buffer, sizeof(virga_list_gpu) + (VkDeviceSize)splash_max_crowns(def) * 4, indirect,
+         VIRGA_HEAP_DEVICE, "splash.crown_list"},
+        {&splash->sprites, sprites * sizeof(virga_sprite_gpu), storage, VIRGA_HEAP_DEVICE, "splash.sprites"},
+        {&splash->prepared_buffer, sizeof(virga_splash_prepared_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.prepared"},
+        {&splash->index_buffer, splash_index_bytes(def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
+         "splash.indices"},
         {&splash->tick_ring, (VkDeviceSize)frames * (def->max_ticks_per_step + 1) * splash_tick_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "splash.ticks"},
         {&splash->rules_ring, (VkDeviceSize)frames * splash_rules_bytes(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
          VIRGA_HEAP_UPLOAD, "splash.rules"},
+        {&splash->view_ring, (VkDeviceSize)frames * SPLASH_MAX_VIEWS * splash_view_bytes(),
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "splash.views"},
         {&splash->readback_ring, frames * sizeof(splash_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          VIRGA_HEAP_READBACK, "splash.readback"},
     };
@@ -148,6 +183,14 @@ static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
         {&splash->fall_scan, VIRGA_SPIRV(splash_fall_scan_comp), "splash.fall_scan"},
         {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
         {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
+        {&splash->indices, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
+        {&splash->sprite_find, VIRGA_SPIRV(splash_sprite_find_comp), "splash.sprite_find"},
+        {&splash->sprite_scan, VIRGA_SPIRV(splash_sprite_scan_comp), "splash.sprite_scan"},
+        {&splash->sprite_list, VIRGA_SPIRV(splash_sprite_list_comp), "splash.sprite_list"},
+        {&splash->sprite_write, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},
+        {&splash->crown_find, VIRGA_SPIRV(splash_crown_find_comp), "splash.crown_find"},
+        {&splash->crown_scan, VIRGA_SPIRV(splash_crown_scan_comp), "splash.crown_scan"},
+        {&splash->crown_list, VIRGA_SPIRV(splash_crown_list_comp), "splash.crown_list"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
@@ -160,12 +203,22 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 1 view */
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 2 rules */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 3 spawns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 4 state */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 4 state */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 5 splashes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 6 droplets */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 marks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 places */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 returns */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 10 picks of sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 11 list of sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 12 picks of sheets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 13 list of sheets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 14 sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 15 prepared */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 16 indices */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 18 scene colour */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 droplets that stay */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -175,19 +228,44 @@ static virga_bound whole(const virga_buffer *buffer)
     return (virga_bound){.buffer = buffer->buffer};
 }
 
-VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index)
+/* A host's image, or a blank in its place. */
+static virga_bound image_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler)
+{
+    const bool given = image && image->view;
+    return (virga_bound){.sampler = sampler,
+                         .view = given ? image->view : blank->layer_views[0],
+                         .image_layout =
+                             given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+uint32_t splash_current(const virga_splash *splash)
+{
+    return splash->droplets == splash->droplet_buffers[1];
+}
+
+VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view)
 {
     const virga_bound bound[BINDINGS] = {
         {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
-        {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
+        {.buffer = splash->view_ring->buffer, .range = splash_view_bytes()},
         {.buffer = splash->rules_ring->buffer, .range = sizeof(virga_splash_rules_gpu)},
         {.buffer = splash->spawns, .offset = splash->spawns_offset},
         whole(splash->state),
         whole(splash->splashes),
-        whole(splash->droplets),
+        whole(splash->droplet_buffers[current]),
         whole(splash->marks),
         whole(splash->places),
-        whole(splash->returns)};
+        whole(splash->returns),
+        whole(splash->sprite_picks),
+        whole(splash->sprite_list_buffer),
+        whole(splash->crown_picks),
+        whole(splash->crown_list_buffer),
+        whole(splash->sprites),
+        whole(splash->prepared_buffer),
+        whole(splash->index_buffer),
+        image_or_blank(view ? &view->depth : NULL, splash->blank_depth, splash->context->nearest),
+        image_or_blank(view ? &view->color : NULL, splash->blank_color, splash->context->linear),
+        whole(splash->droplet_buffers[current ^ 1])};
     return virga_bindings_write(splash->context, splash->bindings, index, bound);
 }
 
@@ -206,7 +284,14 @@ static virga_result init(virga_splash *splash)
     list_buffers(splash, buffers);
     list_passes(splash, passes);
     TRY(virga_buffers_create(splash->context, buffers, BUFFERS));
-    TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, 0, &splash->bindings));
+    splash->droplets = splash->droplet_buffers[0];
+    const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
+    const VkExtent2D one = {1, 1};
+    TRY(virga_image_create(splash->context, VK_FORMAT_D32_SFLOAT, one, 1, sampled, VK_IMAGE_ASPECT_DEPTH_BIT,
+                           "splash.blank_depth", &splash->blank_depth));
+    TRY(virga_image_create(splash->context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
+                           "splash.blank_color", &splash->blank_color));
+    TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
     TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, passes, PASSES));
 error:
     return result;
@@ -255,6 +340,9 @@ void virga_splash_destroy(virga_splash **splash)
     list_passes(dying, passes);
     virga_compute_pipelines_retire(context, passes, PASSES);
     virga_buffers_retire(context, buffers, BUFFERS);
+    splash_targets_destroy(dying);
+    VIRGA_RETIRE(context, dying->blank_depth);
+    VIRGA_RETIRE(context, dying->blank_color);
     VIRGA_RETIRE(context, dying->bindings);
     context->effects--;
     virga_free(&context->heap, dying);
@@ -273,6 +361,7 @@ static virga_result check_numbers(const virga_log *log, virga_splash_settings *s
         {&s->pile_s, 0.001f, 0.2f, "splash_settings.pile_s"},
         {&s->pile_m, 0.001f, 0.2f, "splash_settings.pile_m"},
         {&s->bounce, 0, 1, "splash_settings.bounce"},
+        {&s->wind_share, 0, 2, "splash_settings.wind_share"},
         {&s->droplets_m, 0, 1000, "splash_settings.droplets_m"},
         {&s->dot_mm, 0.05f, 5, "splash_settings.dot_mm"},
         {&s->air_density, 0.3f, 2, "splash_settings.air_density"},
@@ -367,7 +456,7 @@ void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *drop
 
 double virga_splash_time(const virga_splash *splash)
 {
-    return splash ? (double)splash->ticks * splash->def.tick_s : 0;
+    return splash ? (double)splash->last_tick * splash->def.tick_s : 0;
 }
 
 void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats)

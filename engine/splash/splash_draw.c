@@ -1,19 +1,245 @@
 /* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for a target (attach), drawing. */
 #include "splash/splash_internal.h"
 
+#include "shaders/splash_crown_frag.spv.h"
+#include "shaders/splash_crown_pyramid_vert.spv.h"
+#include "shaders/splash_crown_vert.spv.h"
+#include "shaders/splash_pile_pyramid_vert.spv.h"
+#include "shaders/splash_pyramid_frag.spv.h"
+#include "shaders/splash_sprite_thin_frag.spv.h"
+#include "shaders/splash_sprite_vert.spv.h"
+#include "shaders/splash_sprite_wide_frag.spv.h"
+
+#include <string.h>
+
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+
+typedef struct splash_view_block {
+    virga_view_gpu view;
+    virga_splash_look_gpu look;
+} splash_view_block;
+
+uint32_t splash_view_bytes(void)
+{
+    return (uint32_t)((sizeof(splash_view_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
+                      VIRGA_RING_ALIGNMENT);
+}
+
+/* ---- prepare */
+
+static void fill_view(const virga_splash *splash, const virga_view *view, double time_s, splash_view_block *out)
+{
+    const virga_splash_settings *settings = &splash->settings;
+    virga_view_fill(view, &settings->lighting, splash->anchor_m, virga_splash_time(splash), time_s, &out->view);
+    out->view.light_gain = settings->light_gain;
+    out->view.min_width_px = settings->min_width_px;
+    out->view.soft_m = settings->soft_m;
+    out->view.near_m = settings->near_m;
+    out->look = (virga_splash_look_gpu){.tick = splash->last_tick,
+                                        .tick_s = (float)splash->def.tick_s,
+                                        .style = (uint32_t)settings->style,
+                                        .gain = settings->gain,
+                                        .max_splashes = splash->def.max_splashes,
+                                        .max_droplets = splash->def.max_droplets,
+                                        .max_sprites = splash_max_sprites(&splash->def),
+                                        .max_crowns = splash_max_crowns(&splash->def),
+                                        .pile_s = settings->pile_s,
+                                        .light_gain = settings->light_gain,
+                                        .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
+                                        .circle = settings->rows[0][VIRGA_GROUND_PUDDLE_10].circle};
+}
+
+static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_barrier(splash->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    splash->context->vk.CmdDispatchIndirect(cmd, splash->state->buffer, groups);
+}
+
+/* What is to be seen of sprites and of sheets, found side by side. */
+static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    const size_t sprites = offsetof(virga_splash_state_gpu, sprite_groups);
+    const size_t crowns = offsetof(virga_splash_state_gpu, splash_groups);
+    over(splash, cmd, splash->sprite_find, sprites);
+    over(splash, cmd, splash->crown_find, crowns);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, splash->sprite_scan, 1);
+    virga_dispatch(context, cmd, splash->crown_scan, 1);
+    virga_compute_barrier(context, cmd);
+    over(splash, cmd, splash->sprite_list, sprites);
+    over(splash, cmd, splash->crown_list, crowns);
+    pass_barrier(splash, cmd);
+}
+
+static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.prepare");
+    /* The draw before, of this or an earlier frame, may still read lists and sprites. */
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->prepared_set);
+    record_lists(splash, cmd);
+    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->sprite_list_buffer);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    splash_record_prepared(splash, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
 virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
-    (void)cmd, (void)view, (void)time_s;
-    return splash ? VIRGA_NOT_READY : VIRGA_ERROR_INVALID;
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = splash->context;
+    if (!cmd || !view)
+        return virga_wrong_argument(&context->log, "virga_splash_prepare: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    const virga_result result = virga_view_check(&context->log, view, time_s);
+    if (result)
+        return result;
+    splash->prepared = false;
+    if (!splash->ticks || view->viewport[2] < 1 || view->viewport[3] < 1)
+        return VIRGA_NOT_READY;
+    if (splash->view_frame != context->frame_index)
+        splash->ring_views = 0;
+    splash->view_frame = context->frame_index;
+    if (splash->ring_views >= SPLASH_MAX_VIEWS)
+        return virga_wrong_argument(&context->log, "virga_splash_prepare: more than %d views in a frame",
+                                    SPLASH_MAX_VIEWS);
+    virga_timers_reset(context, cmd);
+    splash_push_rules(splash);
+    const uint32_t place = splash->ring_views++;
+    splash->view_offset = (context->ring_slot * SPLASH_MAX_VIEWS + place) * splash_view_bytes();
+    char *mapped = splash->view_ring->memory.block.mapped;
+    fill_view(splash, view, time_s, (splash_view_block *)(mapped + splash->view_offset));
+    virga_buffer_flush(context, splash->view_ring, splash->view_offset, splash_view_bytes());
+    splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
+    splash->prepared_set = splash_write_set(splash, place, splash_current(splash), view);
+    record_prepare(splash, cmd);
+    memcpy(splash->prepared_viewport, view->viewport, sizeof splash->prepared_viewport);
+    splash->prepared_style = splash->settings.style;
+    splash->prepared = true;
+    return VIRGA_OK;
+}
+
+/* ---- attach */
+
+static splash_target *find_target(virga_splash *splash, uint64_t serial)
+{
+    for (uint32_t i = 0; i < SPLASH_MAX_TARGETS; i++)
+        if (splash->targets[i].serial == serial)
+            return &splash->targets[i];
+    return NULL;
+}
+
+static void target_clear(virga_splash *splash, splash_target *target)
+{
+    for (int depth = 0; depth < 2; depth++)
+        for (int draw = 0; draw < SPLASH_DRAWS; draw++)
+            VIRGA_RETIRE(splash->context, target->draws[draw][depth]);
+    target->serial = 0;
+}
+
+void splash_targets_destroy(virga_splash *splash)
+{
+    for (uint32_t i = 0; i < SPLASH_MAX_TARGETS; i++)
+        target_clear(splash, &splash->targets[i]);
 }
 
 virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)
 {
-    return splash && target ? VIRGA_OK : VIRGA_ERROR_INVALID;
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &splash->context->log;
+    if (!target || target->context != splash->context)
+        return virga_wrong_argument(log, "virga_splash_attach: expected a target of the same context");
+    if (splash->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (find_target(splash, target->serial))
+        return VIRGA_OK;
+    splash_target *slot = find_target(splash, 0);
+    if (!slot)
+        return virga_wrong_argument(log, "virga_splash_attach: more than %d targets", SPLASH_MAX_TARGETS);
+    const struct {
+        virga_spirv vertex, fragment;
+        const char *name;
+    } rows[SPLASH_DRAWS] = {
+        [SPLASH_DRAW_THIN] = {VIRGA_SPIRV(splash_sprite_vert), VIRGA_SPIRV(splash_sprite_thin_frag), "splash.thin"},
+        [SPLASH_DRAW_WIDE] = {VIRGA_SPIRV(splash_sprite_vert), VIRGA_SPIRV(splash_sprite_wide_frag), "splash.wide"},
+        [SPLASH_DRAW_SHEETS] = {VIRGA_SPIRV(splash_crown_vert), VIRGA_SPIRV(splash_crown_frag), "splash.sheets"},
+        [SPLASH_DRAW_PILES] = {VIRGA_SPIRV(splash_pile_pyramid_vert), VIRGA_SPIRV(splash_pyramid_frag),
+                               "splash.pile_pyramids"},
+        [SPLASH_DRAW_CROWNS] = {VIRGA_SPIRV(splash_crown_pyramid_vert), VIRGA_SPIRV(splash_pyramid_frag),
+                                "splash.crown_pyramids"},
+    };
+    virga_result result = VIRGA_OK;
+    virga_graphics_def def = {.layout = splash->bindings->layout, .blend_premultiplied = true, .depth_test = true};
+    for (uint32_t i = 0; i < SPLASH_DRAWS * 2; i++) {
+        def.constant = i % 2;
+        def.vertex = rows[i / 2].vertex;
+        def.fragment = rows[i / 2].fragment;
+        def.name = rows[i / 2].name;
+        TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
+    }
+    slot->serial = target->serial;
+    return VIRGA_OK;
+error:
+    target_clear(splash, slot);
+    return result;
+}
+
+/* ---- draw */
+
+static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
+{
+    const virga_functions *vk = &splash->context->vk;
+    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    vk->CmdDrawIndexedIndirect(cmd, splash->prepared_buffer->buffer, arguments, 1, sizeof(virga_splash_draw_gpu));
 }
 
 virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target)
 {
-    (void)cmd, (void)target;
-    return splash ? VIRGA_NOT_READY : VIRGA_ERROR_INVALID;
+    if (!splash)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = splash->context;
+    if (!cmd || !target)
+        return virga_wrong_argument(&context->log, "virga_splash_draw: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    const splash_target *found = find_target(splash, target->serial);
+    if (!found || !splash->prepared)
+        return VIRGA_NOT_READY;
+    const float *box = splash->prepared_viewport;
+    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
+    const VkRect2D scissor = {{(int32_t)box[0], (int32_t)box[1]}, {(uint32_t)box[2], (uint32_t)box[3]}};
+    const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
+    const int depth = splash->prepared_depth;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");
+    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
+    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->prepared_set);
+    context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
+    draw(splash, cmd, found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
+         offsetof(virga_splash_prepared_gpu, crowns));
+    draw(splash, cmd, found->draws[film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES][depth],
+         offsetof(virga_splash_prepared_gpu, wide));
+    draw(splash, cmd, found->draws[SPLASH_DRAW_THIN][depth], offsetof(virga_splash_prepared_gpu, thin));
+    virga_pass_end(context, cmd, scope);
+    return VIRGA_OK;
 }

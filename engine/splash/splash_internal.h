@@ -25,12 +25,27 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 #define SPLASH_MAX_VIEWS   4
 #define SPLASH_MAX_TARGETS 8
 
-enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS };
+enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
 /* What the statistics ring reads back for one frame. */
 typedef struct splash_readback {
     virga_splash_state_gpu state;
+    virga_splash_prepared_gpu prepared;
 } splash_readback;
+
+enum {
+    SPLASH_DRAW_THIN,
+    SPLASH_DRAW_WIDE,
+    SPLASH_DRAW_SHEETS,
+    SPLASH_DRAW_PILES,  /* (paper) */
+    SPLASH_DRAW_CROWNS, /* (paper) */
+    SPLASH_DRAWS
+};
+
+typedef struct splash_target {
+    uint64_t serial;                         /* of the virga_target; 0: free */
+    virga_pipeline *draws[SPLASH_DRAWS][2];  /* without and with the scene's depth to read */
+} splash_target;
 
 struct virga_splash {
     virga_context *context;
@@ -41,16 +56,26 @@ struct virga_splash {
     uint64_t ticks; /* run since creation */
     uint32_t last_tick;
 
-    virga_buffer *state, *splashes, *droplets, *marks, *places, *returns;
-    virga_buffer *tick_ring, *rules_ring, *readback_ring;
+    virga_buffer *droplet_buffers[2], *droplets; /* the last: that of the two which is current */
+    virga_buffer *state, *splashes, *marks, *places, *returns, *sprite_picks, *sprite_list_buffer, *crown_picks,
+        *crown_list_buffer, *sprites, *prepared_buffer, *index_buffer;
+    virga_buffer *tick_ring, *rules_ring, *view_ring, *readback_ring;
+    virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase;
+    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices, *sprite_find, *sprite_scan, *sprite_list,
+        *sprite_write, *crown_find, *crown_scan, *crown_list;
+    splash_target targets[SPLASH_MAX_TARGETS];
 
-    uint64_t ring_frame, rules_frame; /* that the cursors below belong to */
-    uint32_t ring_ticks, tick_offset, rules_offset, view_offset;
-    VkDescriptorSet step_set;
+    uint64_t ring_frame, rules_frame, view_frame; /* that the cursors below belong to */
+    uint32_t ring_ticks, ring_views, tick_offset, rules_offset, view_offset;
+    VkDescriptorSet step_sets[2]; /* by which buffer of droplets is current */
     VkBuffer spawns;
     VkDeviceSize spawns_offset;
+    bool prepared, prepared_depth;
+    virga_splash_style prepared_style;
+    VkDescriptorSet prepared_set;
+    float prepared_viewport[4];
+    uint64_t prepared_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose prepare the ring holds; 0: none */
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose state the ring holds; 0: none */
     virga_splash_stats stats;
 };
@@ -58,9 +83,25 @@ struct virga_splash {
 /* Bytes of a tick's numbers, and of the rules, in their rings. */
 uint32_t splash_tick_bytes(void);
 uint32_t splash_rules_bytes(void);
+uint32_t splash_view_bytes(void);
+
+/* Places for what one view sees. */
+static inline uint32_t splash_max_sprites(const virga_splash_def *def)
+{
+    return def->max_droplets;
+}
+
+static inline uint32_t splash_max_crowns(const virga_splash_def *def)
+{
+    /* As pyramids they share the indices of sprites. */
+    const uint32_t most = def->max_droplets / VIRGA_CROWN_PYRAMIDS;
+    return def->max_splashes < most ? def->max_splashes : most;
+}
 
 /* ---- splash.c */
-VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index);
+/* `current` is the buffer of droplets; `view` NULL where nothing is drawn with the set. */
+VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
+uint32_t splash_current(const virga_splash *splash);
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
 /* Writes the rules of this frame, once. */
@@ -70,5 +111,11 @@ void splash_push_rules(virga_splash *splash);
 
 /* Takes in what completed frames have left in the ring, oldest first. */
 void splash_take_statistics(virga_splash *splash);
+
+/* What the newest prepare found, for the statistics. */
+void splash_record_prepared(virga_splash *splash, VkCommandBuffer cmd);
+
+/* ---- splash_draw.c */
+void splash_targets_destroy(virga_splash *splash);
 
 #endif

@@ -46,14 +46,13 @@ static void take_state(virga_splash *splash, uint32_t slot)
     stats->returned_nl = count_of(&state, VIRGA_SPLASH_RETURNED);
     stats->crowded = count_of(&state, VIRGA_SPLASH_CROWDED);
     stats->splashes_alive = state.end_splash - state.first_splash;
-    stats->droplets_alive = state.end_droplet - state.first_droplet;
+    stats->droplets_alive = state.staying;
     splash->frame_of_slot[slot] = 0;
 }
 
-void splash_take_statistics(virga_splash *splash)
+static void take_states(virga_splash *splash)
 {
     const virga_context *context = splash->context;
-    virga_buffer_invalidate(splash->context, splash->readback_ring);
     for (;;) {
         uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
         for (uint32_t i = 0; i < context->frames_in_flight; i++) {
@@ -63,9 +62,32 @@ void splash_take_statistics(virga_splash *splash)
                 oldest = i;
         }
         if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
-            return;
+            break;
         take_state(splash, oldest);
     }
+}
+
+/* A frame may draw without a step, so what prepares found is taken apart from it: the newest. */
+static void take_prepared(virga_splash *splash)
+{
+    uint64_t newest = 0;
+    for (uint32_t i = 0; i < splash->context->frames_in_flight; i++) {
+        const uint64_t frame = splash->prepared_of_slot[i];
+        if (frame <= newest || frame > splash->context->completed_index)
+            continue;
+        newest = frame;
+        virga_splash_prepared_gpu found;
+        const char *mapped = splash->readback_ring->memory.block.mapped;
+        memcpy(&found, mapped + i * sizeof(splash_readback) + offsetof(splash_readback, prepared), sizeof found);
+        splash->stats.sprites = found.sprites;
+    }
+}
+
+void splash_take_statistics(virga_splash *splash)
+{
+    virga_buffer_invalidate(splash->context, splash->readback_ring);
+    take_states(splash);
+    take_prepared(splash);
 }
 
 static void record_readback(virga_splash *splash, VkCommandBuffer cmd)
@@ -79,6 +101,20 @@ static void record_readback(virga_splash *splash, VkCommandBuffer cmd)
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     splash->frame_of_slot[context->ring_slot] = context->frame_index;
+}
+
+void splash_record_prepared(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    const VkBufferCopy copy = {0, context->ring_slot * sizeof(splash_readback) + offsetof(splash_readback, prepared),
+                               sizeof(virga_splash_prepared_gpu)};
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    context->vk.CmdCopyBuffer(cmd, splash->prepared_buffer->buffer, splash->readback_ring->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    splash->prepared_of_slot[context->ring_slot] = context->frame_index;
 }
 
 /* ---- ticks */
@@ -105,7 +141,7 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
     for (int axis = 0; axis < 3; axis++) {
         out->anchor[axis] = (float)splash->anchor_m[axis];
         out->shift[axis] = (float)shift[axis];
-        out->wind[axis] = info->wind_m_s[axis];
+        out->wind[axis] = settings->wind_share * info->wind_m_s[axis];
     }
     virga_buffer_flush(splash->context, splash->tick_ring, splash->tick_offset, splash_tick_bytes());
 }
@@ -139,7 +175,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     const double still[3] = {0, 0, 0};
     const VkDeviceSize droplets = offsetof(virga_splash_state_gpu, droplet_groups);
     push_tick(splash, info, i, still);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_set);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
     dispatch(splash, cmd, splash->spawn_scan, 1);
     dispatch_indirect(splash, cmd, splash->spawn, info->spawns,
@@ -150,6 +186,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     dispatch(splash, cmd, splash->fall_scan, 1);
     dispatch_indirect(splash, cmd, splash->fall, splash->state->buffer, droplets);
     virga_pass_end(context, cmd, scope);
+    splash->droplets = splash->droplet_buffers[splash_current(splash) ^ 1];
     splash->ticks++;
     splash->last_tick = info->first_tick + i;
 }
@@ -172,18 +209,36 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
         const uint32_t most =
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
         push_tick(splash, info, 0, shift);
-        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_set);
-        dispatch(splash, cmd, splash->rebase, most / VIRGA_SPLASH_GROUP);
+        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
+        dispatch(splash, cmd, splash->rebase, (most + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
     }
     splash->anchored = true;
 }
 
 /* ---- a step */
 
+static void write_indices(virga_splash *splash, VkCommandBuffer cmd)
+{
+    virga_context *context = splash->context;
+    const uint32_t sprites = splash_max_sprites(&splash->def);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[0]);
+    context->vk.CmdPushConstants(cmd, splash->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof sprites, &sprites);
+    virga_dispatch(context, cmd, splash->indices, 1024);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_INDEX_READ_BIT);
+}
+
 static void first_contents(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->context;
-    virga_buffer *const zero[] = {splash->state, splash->splashes, splash->droplets, splash->marks, splash->returns};
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const virga_image_state after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                     VK_ACCESS_SHADER_READ_BIT};
+    virga_image_barrier(context, cmd, splash->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
+    virga_image_barrier(context, cmd, splash->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    write_indices(splash, cmd);
+    virga_buffer *const zero[] = {splash->state, splash->splashes, splash->droplet_buffers[0],
+                                  splash->droplet_buffers[1], splash->marks, splash->returns};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -227,7 +282,8 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash->ring_ticks = 0;
     splash->spawns = info->spawns;
     splash->spawns_offset = info->spawns_offset;
-    splash->step_set = splash_write_set(splash, SPLASH_STEP_SET);
+    for (uint32_t i = 0; i < 2; i++)
+        splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
     /* What read splashes and droplets in the frame before is done with them; the ground may still read the returns. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

@@ -165,9 +165,9 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 {
     const virga_splash_settings *settings = &splash->settings;
     const float degree = 0.0174532925f;
-    /* Most splashes last for a twelfth of a second or less; disks stay on what is dry only. */
+    /* Splashes last for a twelfth of a second or less (disks stay, on what is dry only); there are dots beside them. */
     rules->mode = (uint32_t)settings->mode;
-    rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.12);
+    rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.25);
     rules->droplets_m = fmaxf(settings->droplets_m, 1e-3f);
     rules->dot_diameter_m = settings->dot_mm * 1e-3f;
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS * VIRGA_GROUND_STATES; i++) {

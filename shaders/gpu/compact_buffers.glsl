@@ -16,11 +16,15 @@
 // virga_dispatch_indirect.
 #include "shared/compact.h"
 
-layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) buffer Picks
+#ifndef COMPACT_ACCESS
+#define COMPACT_ACCESS // readonly where a vertex shader reads the list
+#endif
+
+layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) COMPACT_ACCESS buffer Picks
 {
     uvec4 picks[]; // a word's bits of each kind; places of each kind
 };
-layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) buffer List
+layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer List
 {
     virga_list_gpu list;
     uint listed[]; // slots

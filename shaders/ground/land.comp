@@ -101,7 +101,7 @@ void main()
             record_landing(landing, piece, impact);
         uint water = piece.water_nl;
         if (next != NO_SPAWN) {
-            const Spawning plan = plan_spawn(impact, piece, i);
+            const Spawning plan = plan_spawn(impact, piece, i, NEAR_OF_TICK);
             if (plan.model != VIRGA_SPLASH_NONE) {
                 write_spawn(next++, impact, piece, plan, drops);
                 water -= plan.water_nl;

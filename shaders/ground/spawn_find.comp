@@ -18,6 +18,6 @@ void main()
     const uint n = piece_count(impact);
     uint count = 0u;
     for (uint i = 0u; i < n; i++)
-        count += plan_spawn(impact, get_piece(impact, i, n), i).model != VIRGA_SPLASH_NONE ? 1u : 0u;
+        count += plan_spawn(impact, get_piece(impact, i, n), i, spawns_head.near_m).model != VIRGA_SPLASH_NONE ? 1u : 0u;
     landings[landing_index(index)].first_spawn = count;
 }

@@ -11,6 +11,8 @@ layout(scalar, set = 0, binding = 19) buffer Spawns
 };
 
 #define NO_SPAWN 0xffffffffu
+// spawn_scan.comp puts the radius of the next tick in near_m; land.comp must plan by that which spawn_find.comp had.
+#define NEAR_OF_TICK uintBitsToFloat(spawns_head.pad[0])
 #define FIRST_HASH 128u // of the numbers of hashes for a piece's splash
 
 struct Spawning {
@@ -52,9 +54,9 @@ uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, f
 
 // Within the radius that the quota gives, all drops splash; beyond, as many as fall on a disc of that radius in each ring
 // of its width.
-float chance_to_show(float distance2) { return min(spawns_head.near_m * spawns_head.near_m / max(distance2, 1e-6), 1.0); }
+float chance_to_show(float distance2, float near_m) { return min(near_m * near_m / max(distance2, 1e-6), 1.0); }
 
-Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
+Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i, float near_m)
 {
     const uint state = state_at(piece.place);
     const virga_splash_rule_gpu rule = rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state];
@@ -68,14 +70,16 @@ Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
     const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
                                       vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
     const float distance2 = dot(way, way);
-    plan.keep = chance_to_show(distance2);
+    plan.keep = chance_to_show(distance2, near_m);
     if (virga_unit(plan.hash) >= plan.keep) {
         plan.model = VIRGA_SPLASH_NONE;
         return plan;
     }
     const uint chance = virga_hash1(plan.hash);
     const float near = clamp(4.0 - 4.0 * sqrt(distance2) / rules.droplets_m, 0.0, 1.0);
-    const bool flies = plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE;
+    // What flies off a wall would fall past the surface that droplets are followed to.
+    const bool level = impact.normal[1] > 0.6;
+    const bool flies = level && (plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE);
     if (flies && virga_unit(chance) < near) {
         const float speed = length(vec3(impact.velocity[0], impact.velocity[1], impact.velocity[2]));
         const float share = splash_share(rule, rules.mode, impact.diameter_m, speed, state != VIRGA_GROUND_DRY, virga_hash1(chance));

@@ -6,6 +6,7 @@
 #include "field.glsl"
 #include "view.glsl"
 #include "streak_pixel.glsl"
+#include "gpu/streak_profile.glsl"
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;
 

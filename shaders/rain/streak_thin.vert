@@ -5,7 +5,7 @@
 #include "field.glsl"
 #include "view.glsl"
 #include "streak.glsl"
-#include "streak_ramp.glsl"
+#include "gpu/streak_profile.glsl"
 
 layout(location = 0) noperspective out vec4 place; // px from the middle line; see streak_begun; turns; view depth
 layout(location = 1) flat out vec4 light_alpha;

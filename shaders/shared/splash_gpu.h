@@ -2,6 +2,7 @@
 #ifndef VIRGA_SHARED_SPLASH_GPU_H
 #define VIRGA_SHARED_SPLASH_GPU_H
 
+#include "compact.h"
 #include "splash_rule.h"
 #include "types.h"
 
@@ -10,6 +11,10 @@
 typedef struct virga_splash_tick_gpu virga_splash_tick_gpu;
 typedef struct virga_splash_count_gpu virga_splash_count_gpu;
 typedef struct virga_splash_state_gpu virga_splash_state_gpu;
+typedef struct virga_splash_look_gpu virga_splash_look_gpu;
+typedef struct virga_sprite_gpu virga_sprite_gpu;
+typedef struct virga_splash_draw_gpu virga_splash_draw_gpu;
+typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
 #define VIRGA_SPLASH_GROUP      256
@@ -29,7 +34,7 @@ struct virga_splash_tick_gpu {
     float wind[3];       /* m/s */
     float pile_s;
     float pile_m;
-    uint max_splashes;   /* powers of two */
+    uint max_splashes;   /* a power of two */
     uint max_droplets;
     uint max_returns;
 };
@@ -49,10 +54,11 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_BY_MODEL 5
 #define VIRGA_SPLASH_COUNTS   165
 
-/* Splashes and droplets lie in rings: places count up for ever (modulo 2^32) and are taken modulo the rings' sizes. */
+/* Splashes lie in a ring: places count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one behind the
+ * other, the oldest first; a tick moves those that stay from one buffer into another. */
 struct virga_splash_state_gpu {
-    uint first_droplet;     /* the oldest that is alive */
-    uint end_droplet;       /* behind the newest */
+    uint end_droplet;       /* droplets of this tick, those that fall in it too */
+    uint staying;           /* that are there after it */
     uint first_splash;
     uint end_splash;
     uint tick_droplet;      /* the first of this tick */
@@ -60,15 +66,78 @@ struct virga_splash_state_gpu {
     uint crowded_from;      /* rank among this tick's spawns from which on there is no room for droplets */
     uint returns;           /* of this step */
     uint returns_before;    /* of this tick's falls */
-    uint droplet_groups[3]; /* of a dispatch over the droplets from the oldest alive on */
+    uint droplet_groups[3]; /* of a dispatch over all droplets of this tick */
     uint splash_groups[3];
-    uint fall_start;        /* place of the first droplet that step.comp went over in this tick */
+    uint pad;
+    uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
+    uint view_groups;       /* of droplets among them */
     virga_splash_count_gpu counts[165];
 };
 
+/* What a view's passes need beside the view. */
+struct virga_splash_look_gpu {
+    uint tick;           /* the newest */
+    float tick_s;
+    uint style;          /* 0 paper, 1 film */
+    float gain;
+    uint max_splashes;
+    uint max_droplets;
+    uint max_sprites;
+    uint max_crowns;
+    float pile_s;
+    float light_gain;
+    uint physical;
+    float circle;        /* (paper) radius of a crown, times the drop's diameter */
+};
+
+/* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in a
+ * word are two half floats, the first in the low bits. */
+struct virga_sprite_gpu {
+    float head[2];       /* ends, normalised device x, y */
+    float tail[2];
+    float depth[2];      /* head, tail: in the buffer's terms */
+    float distance[2];   /* head, tail: view depth (m) */
+    uint widths;         /* drawn (px): head, tail */
+    uint alpha_body;     /* coverage; length of the thing itself (px) */
+    uint light[3];       /* radiance in the middle (rgb), then at the edge (rgb) */
+    uint kind;           /* VIRGA_SPRITE_... */
+    uint solid;          /* (pile) share of its length that is there all of the time; - */
+    uint id;
+};
+
+#define VIRGA_SPRITE_DROPLET 0
+#define VIRGA_SPRITE_PILE    1
+#define VIRGA_SPRITE_PUFF    2
+
+/* Arguments of an indexed indirect draw, as Vulkan lays them out. */
+struct virga_splash_draw_gpu {
+    uint index_count;
+    uint instance_count;
+    uint first_index;
+    int vertex_offset;
+    uint first_instance;
+};
+
+/* What a prepare found. */
+struct virga_splash_prepared_gpu {
+    virga_splash_draw_gpu thin;     /* sprites that show one colour */
+    virga_splash_draw_gpu wide;     /* sprites that show what is behind them; (paper) pyramids */
+    virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
+    uint sprites;
+};
+
+/* A sheet's mesh: columns around, rows up; and the pyramids that stand for it in the paper's style. */
+#define VIRGA_CROWN_COLUMNS  60
+#define VIRGA_CROWN_ROWS     4
+#define VIRGA_CROWN_INDICES  1440/* columns x rows x 6 */
+#define VIRGA_CROWN_PYRAMIDS 12
+
 #ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
-VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 64 + 8 * VIRGA_SPLASH_COUNTS);
+VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 80 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, splash_groups, 48);
 #undef uint

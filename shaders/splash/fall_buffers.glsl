@@ -1,2 +1,3 @@
-// fall_buffers.glsl - which droplets have fallen, and which are alive: a bit each, 32 to a word.
-layout(scalar, set = 0, binding = 7) buffer Marks { uvec4 marks[]; }; // fallen; alive; place of the first fallen among the returns; -
+// fall_buffers.glsl - which droplets have fallen, and which are alive: a bit each, 32 to a word; then, of the droplets before
+// the word, how many have fallen and how many are alive.
+layout(scalar, set = 0, binding = 7) buffer Marks { uvec4 marks[]; };

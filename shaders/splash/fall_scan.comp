@@ -1,58 +1,69 @@
-// fall_scan.comp - gives what fell in this tick its places among the returns, and finds the oldest droplet that is alive.
-// One workgroup; each lane takes a run of words.
+// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their places. One
+// workgroup; each lane takes a run of words.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
+#include "count.glsl"
+#include "orbit.glsl"
+#include "spawn.glsl"
 #include "fall_buffers.glsl"
 #include "returns.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-shared uint sums[VIRGA_SPLASH_GROUP], oldest;
+shared uvec2 sums[VIRGA_SPLASH_GROUP];
+
+// Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
+uint spawns_to_come()
+{
+    uint low = 0u, high = spawns_head.count;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (int(spawns[middle].tick - tick.tick) > 0)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    return spawns_head.count - low;
+}
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, words = state.droplet_groups[0] * (VIRGA_SPLASH_GROUP / 32);
+    const uint lane = gl_LocalInvocationIndex, words = (state.end_droplet + 31u) / 32u;
     const uint run = (words + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
-    const uint start = state.first_droplet & ~uint(VIRGA_SPLASH_GROUP - 1), mask = tick.max_droplets / 32u - 1u;
-    uint sum = 0u, first = NO_PLACE;
-    for (uint i = begin; i < end; i++) {
-        const uvec4 word = marks[(start / 32u + i) & mask];
-        sum += bitCount(word.x);
-        if (first == NO_PLACE && word.y != 0u)
-            first = i * 32u + uint(findLSB(word.y));
-    }
+    uvec2 sum = uvec2(0u);
+    for (uint i = begin; i < end; i++)
+        sum += uvec2(bitCount(marks[i].xy));
     sums[lane] = sum;
-    if (lane == 0u)
-        oldest = NO_PLACE;
-    barrier();
-    atomicMin(oldest, first);
     for (uint reach = 1u; reach < VIRGA_SPLASH_GROUP; reach *= 2u) { // Hillis and Steele 1986
         barrier();
-        const uint lower = lane >= reach ? sums[lane - reach] : 0u;
+        const uvec2 lower = lane >= reach ? sums[lane - reach] : uvec2(0u);
         barrier();
         sums[lane] += lower;
     }
     barrier();
-    uint place = state.returns + sums[lane] - sum;
+    uvec2 before = sums[lane] - sum;
     for (uint i = begin; i < end; i++) {
-        const uint word = (start / 32u + i) & mask;
-        marks[word].z = place;
-        place += bitCount(marks[word].x);
+        const uvec4 word = marks[i];
+        marks[i].zw = before;
+        before += uvec2(bitCount(word.xy));
     }
-    barrier();
     if (lane != 0u)
         return;
-    const uint total = min(state.returns + sums[VIRGA_SPLASH_GROUP - 1], tick.max_returns);
-    count(VIRGA_SPLASH_FALLEN, total - state.returns);
-    state.returns = total;
-    state.fall_start = start;
-    state.first_droplet = oldest == NO_PLACE ? state.end_droplet : start + oldest;
-    returns_head.count = total;
+    const uvec2 all = sums[VIRGA_SPLASH_GROUP - 1];
+    const uint taken = min(state.returns + spawns_to_come(), tick.max_returns);
+    const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
+    state.returns_before = state.returns;
+    state.returns += fallen;
+    state.staying = all.y - fallen;
+    state.view_groups = ring_groups(0u, state.staying)[0];
+    state.sprite_groups = uint[3](2u * state.view_groups + state.splash_groups[0], 1u, 1u);
+    count(VIRGA_SPLASH_FALLEN, fallen);
+    returns_head.count = state.returns;
     returns_head.dropped = 0u;
-    returns_head.group_count = uint[3]((total + 63u) / 64u, 1u, 1u);
+    returns_head.group_count = uint[3]((state.returns + 63u) / 64u, 1u, 1u);
     returns_head.capacity = tick.max_returns;
     returns_head.origin = tick.anchor;
     returns_head.tick_s = tick.tick_s;

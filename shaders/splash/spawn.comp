@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
+#include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
 #include "shape.glsl"
@@ -53,6 +54,8 @@ vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec
 
 void write_splash(uint place, virga_spawn_gpu spawn, vec3 position, uint droplets)
 {
+    if (place - state.first_splash >= tick.max_splashes)
+        return; // newer ones of this very tick have its place
     const vec3 lean = lean_of(spawn);
     virga_splash_gpu splash;
     splash.position = float[3](position.x, position.y, position.z);
@@ -89,14 +92,27 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
     const float turn = virga_unit(virga_hash2(spawn.random, TURN_HASH));
     const float azimuth = 6.2831853 * (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
-    const float elevation = normal_between(rule.angle[0], rule.angle[1], virga_hash1(hash));
+    // What a crown lets go leaves the way that its rim flares, whatever its cone does.
+    const bool crown = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
+    const vec2 angles = crown ? vec2(0.87, 1.4) : vec2(rule.angle[0], rule.angle[1]);
+    const float elevation = normal_between(angles.x, angles.y, virga_hash1(hash));
     const uint chance = virga_hash2(hash, 1u);
-    const float speed = is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
+    float speed = is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
+    if (crown)
+        speed *= 0.4; // deep water takes more of it
     const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
-    const vec3 base = centre + rule.circle * spawn.diameter_m * outward;
+    vec3 base = centre + rule.circle * spawn.diameter_m * outward, start = base;
     const vec3 velocity = speed * (cos(elevation) * outward + sin(elevation) * frame.normal) + lean_of(spawn);
+    if (crown) {
+        // They leave the rim while the crown rises.
+        const float weber = weber_number(spawn), t = 0.15 + 0.3 * virga_unit(virga_hash2(hash, 2u));
+        const float height = crown_height(spawn.diameter_m, weber);
+        base = centre + crown_radius(spawn.diameter_m, weber) * crown_spread(t) * outward;
+        start = base + height * crown_rise(t) * frame.normal;
+        droplet.age_s -= t * crown_time(height);
+    }
     droplet.base = float[3](base.x, base.y, base.z);
-    droplet.position = droplet.base;
+    droplet.position = float[3](start.x, start.y, start.z);
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
 }
 
@@ -130,12 +146,13 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
     uint parts = 0u, left = spawn.water_nl;
     for (uint i = 0u; i < n; i++)
         parts += part_of(spawn, i, n);
-    const uint unit = spawn.water_nl / parts, rest = spawn.water_nl - unit * parts;
+    // Each has a nanolitre at least, or it would have no size; the parts are of what is left.
+    const uint unit = (spawn.water_nl - n) / parts, rest = spawn.water_nl - n - unit * parts;
     for (uint i = 0u; i < n; i++) {
         virga_droplet_gpu droplet;
         const uint part = part_of(spawn, i, n);
         // Below 2^32: parts are at most 64 x 40, and what does not divide is below parts.
-        const uint water = i + 1u == n ? left : unit * part + rest * part / parts;
+        const uint water = i + 1u == n ? left : 1u + unit * part + rest * part / parts;
         left -= water;
         droplet.water_nl = water;
         droplet.age_s = -spawn.share * tick.tick_s;
@@ -148,7 +165,7 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
             start_cone(droplet, spawn, centre);
         else
             start_pile(droplet, spawn, frame, centre, i, n);
-        droplets[(first + i) & (tick.max_droplets - 1u)] = droplet;
+        droplets[first + i] = droplet;
     }
 }
 

@@ -1,9 +1,10 @@
-// spawn_scan.comp - gives this tick's splashes and droplets their places in the rings, in the order of spawns. One
+// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One
 // workgroup; each lane takes a run of spawns.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
+#include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
 
@@ -60,7 +61,7 @@ void main()
     }
     barrier();
     const uvec2 found = sums[VIRGA_SPLASH_GROUP - 1];
-    const uint room = tick.max_droplets - (state.end_droplet - state.first_droplet);
+    const uint room = tick.max_droplets - state.staying;
     uvec2 place = sums[lane] - sum;
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
@@ -82,17 +83,17 @@ void main()
     barrier();
     if (lane != 0u)
         return;
-    state.tick_droplet = state.end_droplet;
+    state.tick_droplet = state.staying;
     state.tick_splash = state.end_splash;
-    state.end_droplet += crowded_droplets;
+    state.end_droplet = state.staying + crowded_droplets;
     state.end_splash += found.x;
-    if (state.end_splash - state.first_splash > tick.max_splashes)
-        state.first_splash = state.end_splash - tick.max_splashes;
+    if (state.end_splash - (state.first_splash & ~uint(VIRGA_SPLASH_GROUP - 1)) > tick.max_splashes)
+        state.first_splash = (state.end_splash - tick.max_splashes + VIRGA_SPLASH_GROUP - 1u) & ~uint(VIRGA_SPLASH_GROUP - 1);
     const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
     state.crowded_from = crowded_rank;
     state.returns_before = tick.tick_in_step == 0u ? 0u : state.returns;
     state.returns = min(state.returns_before + crowded, tick.max_returns);
-    state.droplet_groups = ring_groups(state.first_droplet, state.end_droplet);
+    state.droplet_groups = ring_groups(0u, state.end_droplet);
     state.splash_groups = ring_groups(state.first_splash, state.end_splash);
     count(VIRGA_SPLASH_CROWDED, crowded);
     count(VIRGA_SPLASH_DROPLETS, crowded_droplets);

@@ -9,7 +9,7 @@
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 #define PARTS 4       // of a tick
-#define MOST_AGE_S 8.0 // what flies longer has left the world
+#define MOST_AGE_S 3.0 // what flies longer is blown about: its water counts as fallen where it is
 #define WORDS (VIRGA_SPLASH_GROUP / 32)
 
 shared uint fallen_bits[WORDS], alive_bits[WORDS];
@@ -87,16 +87,13 @@ void step_droplet(uint place)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex;
-    const uint place = ring_place(state.first_droplet, state.end_droplet, tick.max_droplets);
+    const uint lane = gl_LocalInvocationIndex, place = gl_GlobalInvocationID.x;
     if (lane < WORDS)
         fallen_bits[lane] = alive_bits[lane] = 0u;
     barrier();
-    if (place != NO_PLACE && (droplets[place].kind & VIRGA_DROPLET_ALIVE) != 0u)
+    if (place < state.end_droplet)
         step_droplet(place);
     barrier();
-    const uint group = ((state.first_droplet & ~uint(VIRGA_SPLASH_GROUP - 1)) + gl_WorkGroupID.x * VIRGA_SPLASH_GROUP) &
-                       (tick.max_droplets - 1u);
     if (lane < WORDS)
-        marks[(group >> 5) + lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);
+        marks[gl_WorkGroupID.x * WORDS + lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);
 }

@@ -39,9 +39,9 @@ typedef struct virga_splash_def {
     uint32_t size, cookie;
     uint32_t max_splashes; /* [256; 1048576] alive at once, raised to a power of two; 64 bytes each. The oldest make
                             * room. Default 65536 */
-    uint32_t max_droplets; /* [256; 4194304] in the air at once, raised to a power of two; 64 bytes each, and 64 for the
-                            * sprites that a view needs. Where there is no room the water falls back at once. At most
-                            * what a storage buffer of the device holds. Default 262144 */
+    uint32_t max_droplets; /* [256; 4194304] in the air at once, raised to whole workgroups of 256; 128 bytes each, 64 for the
+                            * sprites that a view needs and 72 for their indices. Where there is no room the water
+                            * falls back at once. At most what a storage buffer of the device holds. Default 131072 */
     uint32_t max_spawns;   /* [256; 1048576] of one step, the same as the ground's. Default 65536 */
     uint32_t max_returns;  /* [max_spawns; 4194304] droplets that fall in one step, 64 bytes each; more wait in the air
                             * for the next. The ground's must be as large. Default 131072 */
@@ -85,11 +85,15 @@ typedef struct virga_splash_settings {
                                * VIRGA_GROUND_NONE is for what is not ground. Defaults with their sources:
                                * engine/splash/splash_table.c */
     float pile_s, pile_m;     /* [0.001; 0.2], [0.001; 0.2] unit time and unit distance: a pile that exceeds either lets
-                               * its droplet go (section 4.1, step 5). Default 0.02 and 0.015 */
+                               * its droplet go (section 4.1, step 5). Default 0.012 and 0.008 */
     float bounce;             /* [0; 1] share of the drop's velocity along the surface that its droplets take over
                                * (section 4.5). Default 0.25 */
-    float droplets_m;         /* [0; 1000] nearer splashes have droplets; farther ones show as a whole. Default 12 */
-    float dot_mm;             /* [0.05; 5] droplets that are at least as large make a dot where they fall. Default 0.3 */
+    float wind_share;         /* [0; 2] of the wind in the step's info that blows where droplets fly. The logarithmic law has
+                               * 0.4 of the wind at 10 m at a height of 0.1 m over a street (roughness length 3 mm). The
+                               * paper takes the rain's wind as it is: 1. Default 0.4 */
+    float droplets_m;         /* [0; 1000] nearer splashes have droplets; farther ones show as a whole: beyond some metres a droplet is a
+                               * hundredth of a pixel wide. Default 2.5 */
+    float dot_mm;             /* [0.05; 5] droplets that are at least as large make a dot where they fall. Default 0.5 */
     float air_density;        /* [0.3; 2] kg/m^3. Default 1.204 */
 
     virga_lighting lighting;
@@ -161,8 +165,9 @@ VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_tar
  * the first prepare. */
 VIRGA_API virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target);
 
-/* The droplets of the newest tick: def.max_droplets (as raised) x virga_droplet_gpu, those alive have
- * VIRGA_DROPLET_ALIVE; positions relative to `anchor_m`. Ready to be read by transfers and compute after a step. */
+/* The droplets of the newest tick: def.max_droplets (as raised) x virga_droplet_gpu, those alive first, with
+ * VIRGA_DROPLET_ALIVE; positions relative to `anchor_m`. Another buffer after each step; ready to be read by transfers and
+ * compute. */
 VIRGA_API void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,
                                      double anchor_m[3]);
 

@@ -1,0 +1,73 @@
+// crown.vert - a point of a sheet: crowns and low sheets that flare towards a rim with fingers, and disks that lie flat.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define STATE_ACCESS readonly
+#define COMPACT_ACCESS readonly
+#include "state.glsl"
+#include "look.glsl"
+#include "compact_crowns.glsl"
+#include "gpu/compact_buffers.glsl"
+
+layout(location = 0) out vec3 position; // relative to the camera
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec4 sheet;    // up its height [0; 1]; share of time that it is there; coverage; view depth
+
+struct Shape {
+    Crown crown;
+    vec3 side, across;
+    float height, fingers, turn;
+};
+
+// A point at an angle and a share of the height.
+vec3 sheet_point(Shape s, float angle, float up)
+{
+    const vec3 outward = cos(angle) * s.side + sin(angle) * s.across;
+    if (s.crown.model == VIRGA_SPLASH_DISK) {
+        const float wobble = 1.0 + 0.06 * sin(3.0 * angle + s.turn) + 0.04 * sin(5.0 * angle + 2.3 * s.turn);
+        return outward * (s.crown.radius * wobble * up) + s.crown.normal * (s.height * (1.0 - up * up));
+    }
+    // Fingers are drawn out of the rim; below it the sheet is even.
+    const float wave = 0.5 + 0.5 * cos(s.fingers * angle + s.turn), uneven = 0.5 + 0.5 * sin(2.0 * angle + 1.7 * s.turn);
+    const float rim = up * up * (0.4 * wave * wave + 0.2 * uneven);
+    const float radius = s.crown.radius * (0.72 + 0.28 * up * up + 0.08 * rim);
+    const vec3 leaned = vec3(s.crown.lean.x, 0.0, s.crown.lean.y) * (0.004 * up * up);
+    return outward * radius + s.crown.normal * (s.height * (0.78 * up + rim)) + leaned;
+}
+
+void main()
+{
+    const virga_splash_gpu splash = splashes[splash_place(listed[gl_InstanceIndex])];
+    const Crown now = crown_at(splash, view.time_close_s), before = crown_at(splash, view.time_open_s);
+    Shape s;
+    s.crown = now;
+    if (before.height > now.height)
+        s.crown.radius = before.radius;
+    s.height = max(now.height, before.height);
+    s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0) : vec3(now.normal.z, 0.0, -now.normal.x));
+    s.across = cross(s.side, now.normal);
+    s.fingers = float(clamp(now.droplets, 7u, 11u));
+    s.turn = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
+    // Columns in turns left and right of the farthest from the camera.
+    const uint vertex = uint(gl_VertexIndex), column = vertex >> 5, j = column >> 1;
+    const int from = (column & 1u) == 0u ? int(j) : -int(j) - 1;
+    const float farthest = atan(dot(now.centre, s.across), dot(now.centre, s.side));
+    const float step_angle = 6.2831853 / float(VIRGA_CROWN_COLUMNS);
+    const float angle = farthest + float(from + int((vertex >> 4) & 1u)) * step_angle;
+    const float up = float(vertex & 15u) / float(VIRGA_CROWN_ROWS);
+    const vec3 p = sheet_point(s, angle, up);
+    const vec3 around = sheet_point(s, angle + 0.05, up) - sheet_point(s, angle - 0.05, up);
+    const vec3 upward = sheet_point(s, angle, up + 0.05) - sheet_point(s, angle, up - 0.05);
+    normal = cross(around, upward);
+    normal = dot(normal, normal) > 0.0 ? normalize(normal) : now.normal;
+    position = now.centre + p;
+    // The upper part is there for the share of time that the sheet is as high.
+    const float low = min(now.height, before.height) / max(s.height, 1e-6);
+    const float there = now.model == VIRGA_SPLASH_DISK || low >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - low) + 0.25, 0.0, 1.0);
+    const float fade = now.model == VIRGA_SPLASH_DISK ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
+    gl_Position = project(to_mat(view.clip_from_rel), position);
+    const bool seen = s.height > 0.0;
+    sheet = vec4(up, there, fade * near_fade(now.centre) * min(now.weight, 1.0) * min(look.gain, 4.0), gl_Position.w);
+    if (!seen)
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}

@@ -1,0 +1,59 @@
+// pyramid.glsl - piles and crowns as the paper draws them (figures 4 and 5): pyramids of four sides.
+#include "state.glsl"
+#include "sprite.glsl"
+#ifdef CROWNS
+#include "compact_crowns.glsl"
+#else
+#include "compact.glsl"
+#endif
+#include "gpu/compact_buffers.glsl"
+
+layout(location = 0) out vec3 position; // relative to the camera
+layout(location = 1) flat out vec2 shade; // coverage; -
+
+// A corner of a pyramid: 0 to 3 its foot, 4 its tip.
+vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
+{
+    const vec3 axis = distance(tip, base) > 1e-7 ? normalize(tip - base) : vec3(0.0, 1.0, 0.0);
+    const vec3 side = normalize(abs(axis.y) > 0.7 ? vec3(axis.y, -axis.x, 0.0) : vec3(axis.z, 0.0, -axis.x));
+    const vec3 across = cross(side, axis);
+    if (corner == 4u)
+        return tip;
+    return base + half_foot * (((corner + 1u) & 2u) == 0u ? side : -side) + half_foot * ((corner & 2u) == 0u ? across : -across);
+}
+
+vec3 crown_corner(uint pyramid, uint corner)
+{
+    const virga_splash_gpu splash = splashes[splash_place(listed[pyramid / VIRGA_CROWN_PYRAMIDS])];
+    const Crown crown = crown_at(splash, view.time_close_s);
+    const uint spoke = pyramid % VIRGA_CROWN_PYRAMIDS;
+    const float angle = 6.2831853 * (float(spoke) + virga_unit(virga_hash2(crown.random, 5u))) / float(VIRGA_CROWN_PYRAMIDS);
+    const vec3 side = normalize(abs(crown.normal.y) > 0.7 ? vec3(crown.normal.y, -crown.normal.x, 0.0)
+                                                          : vec3(crown.normal.z, 0.0, -crown.normal.x));
+    const vec3 outward = cos(angle) * side + sin(angle) * cross(side, crown.normal);
+    // The paper's crown stands where it is, on its initial circle; in the physical mode it widens.
+    const float radius = look.physical != 0u ? crown.radius : look.circle * crown.diameter;
+    const float height = crown.height * (0.8 + 0.4 * virga_unit(virga_hash2(crown.random, 32u + spoke)));
+    const vec3 base = crown.centre + radius * outward, tip = base + height * crown.normal + 0.35 * height * outward;
+    return corner_of(base, tip, 0.28 * crown.diameter, corner);
+}
+
+vec3 pile_corner(uint pyramid, uint corner)
+{
+    const virga_droplet_gpu droplet = droplets[slot_of(listed[pyramid]).place];
+    const vec4 tip = pile_tip(droplet, view.time_close_s);
+    const float half_foot = droplet.diameter_m * (is_upright(droplet) ? 1.5 : 0.7);
+    return corner_of(base_of(droplet), tip.xyz, half_foot * tip.w, corner);
+}
+
+void main()
+{
+    const uint vertex = uint(gl_VertexIndex);
+#ifdef CROWNS
+    position = crown_corner(vertex >> 3, vertex & 7u);
+#else
+    position = pile_corner(vertex >> 3, vertex & 7u);
+#endif
+    shade = vec2(0.6 * min(look.gain, 1.6) * near_fade(position), 0.0);
+    gl_Position = project(to_mat(view.clip_from_rel), position);
+}

@@ -1,0 +1,189 @@
+// sprite.glsl - what sprites stand for, by slot; and how much each would cover.
+#include "look.glsl"
+
+#define SLOT_NONE 0u
+#define SLOT_DROPLET 1u
+#define SLOT_PILE 2u
+#define SLOT_SPLASH 3u
+
+struct Slot {
+    uint kind;
+    uint place;
+};
+
+Slot slot_of(uint slot)
+{
+    const uint span = state.view_groups * VIRGA_SPLASH_GROUP;
+    Slot found = Slot(SLOT_NONE, NO_PLACE);
+    if (slot < 2u * span) {
+        found.kind = slot < span ? SLOT_DROPLET : SLOT_PILE;
+        found.place = slot < span ? slot : slot - span;
+        if (found.place >= state.staying)
+            found.place = NO_PLACE;
+    } else {
+        found.kind = SLOT_SPLASH;
+        found.place = ring_place(state.first_splash, state.end_splash, look.max_splashes, slot - 2u * span);
+    }
+    if (found.place == NO_PLACE)
+        found.kind = SLOT_NONE;
+    return found;
+}
+
+// A sprite before it is projected.
+struct Sprite {
+    uint kind;
+    vec3 head, tail;       // relative to the camera, as the camera sees them at the shutter's end and start
+    bool moves;            // head and tail are of different times
+    vec2 widths;           // m, at the head and the tail
+    float body;            // m; 0: its whole length
+    float gain, weight;
+    float solid;
+    uint id;
+};
+
+Sprite empty_sprite()
+{
+    Sprite sprite;
+    sprite.kind = VIRGA_SPRITE_DROPLET;
+    sprite.head = sprite.tail = vec3(0.0);
+    sprite.moves = false;
+    sprite.widths = vec2(0.0);
+    sprite.body = 0.0;
+    sprite.gain = 1.0;
+    sprite.weight = 0.0;
+    sprite.solid = 1.0;
+    sprite.id = 0u;
+    return sprite;
+}
+
+Sprite droplet_sprite(virga_droplet_gpu droplet)
+{
+    Sprite sprite = empty_sprite();
+    const bool rests = (droplet.kind & VIRGA_DROPLET_ALIVE) == 0u || droplet.age_s + view.time_close_s <= 0.0;
+    sprite.head = droplet_at(droplet, view.time_close_s);
+    sprite.tail = is_film() ? droplet_at(droplet, view.time_open_s) : sprite.head;
+    sprite.moves = is_film();
+    sprite.widths = vec2(droplet.diameter_m);
+    sprite.body = droplet.diameter_m;
+    sprite.weight = rests ? 0.0 : droplet_weight(droplet);
+    sprite.id = droplet.id;
+    return sprite;
+}
+
+// A pile narrows from its foot to a neck that is thinner than its droplet; a cone stands on a wider foot.
+vec2 pile_widths(virga_droplet_gpu droplet, float left)
+{
+    const float foot = is_upright(droplet) ? 7.0 : 2.2;
+    return droplet.diameter_m * vec2(0.7, foot) * (is_upright(droplet) ? 1.0 : sqrt(left));
+}
+
+Sprite pile_sprite(virga_droplet_gpu droplet)
+{
+    Sprite sprite = empty_sprite();
+    const vec4 now = pile_tip(droplet, view.time_close_s), before = pile_tip(droplet, view.time_open_s);
+    const vec3 base = base_of(droplet);
+    const float now_m = distance(now.xyz, base) * step(1e-4, now.w), before_m = distance(before.xyz, base) * step(1e-4, before.w);
+    const bool longer = now_m >= before_m;
+    sprite.kind = VIRGA_SPRITE_PILE;
+    sprite.head = longer ? now.xyz : before.xyz;
+    sprite.tail = base;
+    // It is there all of the time as far as it reaches at both ends of the shutter.
+    sprite.solid = min(now_m, before_m) / max(max(now_m, before_m), 1e-6);
+    sprite.widths = pile_widths(droplet, max(now.w, before.w));
+    // Fingers of a crown are fewer than its droplets: those between were torn off the rim at once.
+    const bool crown = VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE;
+    const bool finger = is_upright(droplet) || (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
+    const bool there = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
+    sprite.weight = there ? droplet_weight(droplet) : 0.0;
+    sprite.id = droplet.id;
+    return sprite;
+}
+
+// A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they are
+// not followed one by one (a seventh of the drop's water in a dozen of them).
+Sprite puff_sprite(virga_splash_gpu splash)
+{
+    Sprite sprite = empty_sprite();
+    const Crown crown = crown_at(splash, 0.5 * (view.time_close_s + view.time_open_s));
+    const float age = max(splash_age(splash, view.time_close_s), 0.0), t = age / splash.life_s;
+    const bool alone = crown.droplets == 0u && crown.model != VIRGA_SPLASH_DOT && crown.model != VIRGA_SPLASH_DISK;
+    const float spread = alone ? 0.12 * splash.speed_m_s * age : 0.0;
+    const float across = 2.0 * (crown.radius + spread), up = max(crown.height + 0.5 * spread, 0.2 * across);
+    float area = crown.model == VIRGA_SPLASH_DISK ? 0.3 * across * across : 2.0 * crown.radius * crown.height;
+    if (alone && t < 1.0)
+        area += 2.5 * crown.diameter * crown.diameter * (1.0 - t);
+    sprite.kind = VIRGA_SPRITE_PUFF;
+    sprite.tail = crown.centre;
+    sprite.head = crown.centre + crown.normal * up;
+    sprite.widths = vec2(across);
+    sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
+    sprite.gain = 0.6 * area / max(across * up, 1e-8);
+    sprite.id = splash.id;
+    return sprite;
+}
+
+Sprite sprite_of(Slot slot)
+{
+    if (slot.kind == SLOT_DROPLET)
+        return droplet_sprite(droplets[slot.place]);
+    if (slot.kind == SLOT_PILE)
+        return pile_sprite(droplets[slot.place]);
+    if (slot.kind == SLOT_SPLASH)
+        return puff_sprite(splashes[slot.place]);
+    return empty_sprite();
+}
+
+// On the picture.
+struct Projected {
+    vec4 head, tail;  // clip
+    float width_px, way_px, body_px;
+    float coverage;   // of its middle; 0: not to be seen
+};
+
+Projected project_sprite(Sprite sprite)
+{
+    Projected p;
+    p.head = project(to_mat(view.clip_from_rel), sprite.head);
+    if (sprite.moves)
+        p.tail = project(to_mat(view.open_clip_from_rel), sprite.tail);
+    else
+        p.tail = project(to_mat(view.clip_from_rel), sprite.tail);
+    p.coverage = 0.0;
+    p.width_px = p.way_px = p.body_px = 0.0;
+    const float nearest = min(p.head.w, p.tail.w);
+    if (sprite.weight <= 0.0 || nearest < NEAR_W)
+        return p;
+    const vec2 moved = (p.head.xy / p.head.w - p.tail.xy / p.tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    p.way_px = length(moved);
+    p.width_px = pixels(max(sprite.widths.x, sprite.widths.y), nearest);
+    p.body_px = pixels(sprite.body, nearest);
+    const vec2 margin = (p.width_px + 2.0) * max(p.head.w, p.tail.w) / vec2(view.viewport[2], view.viewport[3]);
+    const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w), low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
+    if (any(greaterThan(high, margin)) || any(greaterThan(low, margin)))
+        return p;
+    const float drawn = max(view.min_width_px, 1e-3);
+    const float mean_px = sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
+    float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
+    float shown = one;
+    if (sprite.kind == VIRGA_SPRITE_DROPLET)
+        shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
+    else if (sprite.kind == VIRGA_SPRITE_PILE)
+        shown = one *= min(max(p.way_px, 0.05), 1.0);
+    else if (max(p.width_px, p.way_px) < 1.0)
+        shown = one *= max(p.way_px, 0.05);
+    const float many = max(sprite.weight, 0.0);
+    const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
+    const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);
+    p.coverage = min(all, max(look.gain, 1.0)) * fade * near_fade(0.5 * (sprite.head + sprite.tail));
+    return p;
+}
+
+// Whether a splash's sheet is large enough to be drawn as one.
+bool is_sheet(virga_splash_gpu splash, Crown crown)
+{
+    const float distance = project(to_mat(view.clip_from_rel), crown.centre).w;
+    const float size = crown.model == VIRGA_SPLASH_DISK  ? crown.radius
+                       : crown.model == VIRGA_SPLASH_DOT ? 1.5 * crown.diameter
+                                                         : crown_height(splash.diameter_m, splash_weber(splash));
+    return distance > NEAR_W && pixels(size, distance) >= MESH_PX;
+}

@@ -1,0 +1,11 @@
+// sprite.vert - corners of sprites.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define VIRGA_GLSL
+#include "shared/splash_gpu.h"
+#include "shared/view_gpu.h"
+layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
+#include "sprite_corner.glsl"
+
+void main() { set_corner(uint(gl_VertexIndex)); }

@@ -1,0 +1,27 @@
+// sprite_find.comp - marks what a view may see: droplets, piles, and splashes from afar.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "state.glsl"
+#include "sprite.glsl"
+#include "compact.glsl"
+#include "gpu/compact_find.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+
+uint pick(Slot slot)
+{
+    // In the paper's style piles are pyramids, and crowns are their pyramids at any size.
+    if (slot.kind == SLOT_NONE || (slot.kind == SLOT_SPLASH && !is_film() && splashes[slot.place].kind >> 16 != 0u))
+        return NOT_PICKED;
+    if (slot.kind == SLOT_SPLASH && is_sheet(splashes[slot.place], crown_at(splashes[slot.place], view.time_close_s)))
+        return NOT_PICKED;
+    const Projected p = project_sprite(sprite_of(slot));
+    if (p.coverage <= 0.0)
+        return NOT_PICKED;
+    if (!is_film())
+        return slot.kind == SLOT_PILE ? SECOND_KIND : FIRST_KIND;
+    return p.width_px >= WIDE_PX && slot.kind != SLOT_SPLASH ? SECOND_KIND : FIRST_KIND;
+}
+
+void main() { mark_pick(pick(slot_of(gl_GlobalInvocationID.x))); }

@@ -1,0 +1,55 @@
+// sprite_pixel.glsl - how much of a pixel a sprite covers.
+#include "gpu/streak_profile.glsl"
+#define SCENE_DEPTH_BINDING 17
+#include "gpu/scene_depth.glsl"
+
+layout(constant_id = 0) const bool HAS_DEPTH = true;
+
+layout(location = 0) noperspective in vec4 place;
+layout(location = 1) flat in vec4 centre_alpha;
+layout(location = 2) flat in vec4 rim_kind;
+layout(location = 3) flat in vec4 shape;
+layout(location = 4) flat in vec4 turn;
+layout(location = 0) out vec4 radiance;
+
+// The share of the time for which a disc covers a place while it goes its way: of the chord through it there, what lies
+// on the way, over the way. One that hardly moves goes a pixel, and so has soft ends.
+float droplet_cover()
+{
+    const float half_width = shape.x, way = max(shape.z, 1.0), y = place.y + 0.5 * (way - shape.z);
+    const float across = streak_profile(abs(place.x), half_width);
+    const float chord = max(shape.w, 0.0) * across + 1e-4, edge = clamp(half_width + 0.5 - abs(place.x), 0.0, 1.0);
+    const float passed = clamp(min(y + 0.5 * chord, way) - max(y - 0.5 * chord, 0.0), 0.0, way) / way;
+    return min(passed, 1.0) * edge;
+}
+
+// It narrows from its foot like a flame, the more so the wider its foot, and its tip is there for a part of the time.
+float pile_half_width()
+{
+    const float v = 1.0 - clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0);
+    return mix(shape.x, shape.y, v * v * (shape.y > 4.0 * shape.x ? v * v : 1.0));
+}
+
+float pile_cover()
+{
+    const float v = clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0), solid = turn.z;
+    const float tip = solid < 1.0 ? clamp((1.0 - v) / (1.0 - solid), 0.0, 1.0) : 1.0;
+    // Its foot flows out into the water that it stands on.
+    const float foot = max(0.8 * shape.y, 1.0);
+    const float ends = smoothstep(0.0, 1.0, (place.y + 0.5) / foot) * clamp(shape.z + 0.5 - place.y, 0.0, 1.0);
+    return clamp(pile_half_width() + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends;
+}
+
+float puff_cover()
+{
+    const float half_width = shape.x + 0.25, half_way = 0.5 * shape.z + 0.5 * half_width;
+    const float x = place.x / half_width, y = (place.y - 0.5 * shape.z) / half_way;
+    return max(1.0 - x * x - y * y, 0.0);
+}
+
+float sprite_cover()
+{
+    const float kind = rim_kind.w;
+    const float cover = kind < 0.5 ? droplet_cover() : kind < 1.5 ? pile_cover() : puff_cover();
+    return min(centre_alpha.a * cover, 1.0) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
+}

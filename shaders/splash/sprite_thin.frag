@@ -1,0 +1,15 @@
+// sprite_thin.frag - a sprite that is too thin to show what is behind it: its mean colour, premultiplied.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define VIRGA_GLSL
+#include "shared/splash_gpu.h"
+#include "shared/view_gpu.h"
+layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
+#include "sprite_pixel.glsl"
+
+void main()
+{
+    const float alpha = sprite_cover(), u = min(abs(place.x) / max(shape.x, 0.5), 1.0);
+    radiance = vec4(mix(centre_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u) * alpha, alpha);
+}

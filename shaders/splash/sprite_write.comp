@@ -1,0 +1,44 @@
+// sprite_write.comp - a sprite for each thing that a view sees: where it is on the picture, and the light in it.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "state.glsl"
+#include "sprite.glsl"
+#include "gpu/light.glsl"
+#include "compact.glsl"
+#include "gpu/compact_buffers.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+layout(scalar, set = 0, binding = 14) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
+
+void set_light(inout virga_sprite_gpu record, vec3 middle)
+{
+    const vec3 d = normalize(middle);
+    const vec3 glitter = lamps(middle, d);
+    // Near the middle rays are bent by up to 16 degrees, at the rim by 50 and more (Legendre: cosines of those).
+    const vec3 centre = environment(d, vec2(0.97, 0.90)) + glitter;
+    const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
+    record.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= list.count)
+        return;
+    const Sprite sprite = sprite_of(slot_of(listed[gl_GlobalInvocationID.x]));
+    const Projected p = project_sprite(sprite);
+    const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
+    virga_sprite_gpu record;
+    record.head = float[2](head.x, head.y);
+    record.tail = float[2](tail.x, tail.y);
+    record.depth = float[2](head.z, tail.z);
+    record.distance = float[2](p.head.w, p.tail.w);
+    record.widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px),
+                           max(pixels(sprite.widths.y, p.tail.w), view.min_width_px));
+    record.alpha_body = halves(p.coverage, p.body_px);
+    record.kind = sprite.kind;
+    record.solid = halves(sprite.solid, 0.0);
+    record.id = sprite.id;
+    set_light(record, 0.5 * (sprite.head + sprite.tail));
+    sprites[gl_GlobalInvocationID.x] = record;
+}
