@@ -146,6 +146,8 @@ static virga_result create_images(virga_ground *ground)
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.wet_map", &ground->wet_map));
     TRY(virga_image_create(ground->context, VK_FORMAT_R32_UINT, (VkExtent2D){2 * cells, cells}, 1, usage,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.spot_map", &ground->spot_map));
+    TRY(virga_image_create(ground->context, VK_FORMAT_R8_UINT, (VkExtent2D){1, 1}, 1, VK_IMAGE_USAGE_SAMPLED_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.blank_materials", &ground->blank_materials));
     TRY(virga_mesh_map_create(ground->context, cells, 1, ground->def.occluder_strides, "ground.survey",
                               &ground->survey));
 error:
@@ -176,6 +178,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 stirs */
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE},                              /* 18 rules of splashes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 spawns */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 20 material map */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -190,7 +193,7 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
     const VkSampler nearest = ground->context->nearest;
     const virga_ground_step_info *info = &ground->info;
-    const bool returns = source == GROUND_RETURNS;
+    const bool returns = source == GROUND_RETURNS, mapped = info->materials.image.view != VK_NULL_HANDLE;
     const virga_bound rules = {.buffer = info->splash_rules, .offset = info->splash_rules_offset};
     const virga_bound bound[BINDINGS] = {
         {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
@@ -213,7 +216,10 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
         {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
         whole(ground->stirs),
         info->splash_rules ? rules : whole(ground->no_rules),
-        whole(ground->spawns)};
+        whole(ground->spawns),
+        {.sampler = nearest,
+         .view = mapped ? info->materials.image.view : ground->blank_materials->layer_views[0],
+         .image_layout = mapped ? info->materials.image.before.layout : read_only}};
     ground->sets[parity][source] =
         virga_bindings_write(ground->context, ground->bindings, parity * GROUND_SOURCES + source, bound);
 }
@@ -316,6 +322,7 @@ void virga_ground_destroy(virga_ground **ground)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);
     VIRGA_RETIRE(context, dying->spot_map);
+    VIRGA_RETIRE(context, dying->blank_materials);
     virga_mesh_map_retire(context, &dying->survey);
     ground_ripples_retire(context, &dying->ripples);
     VIRGA_RETIRE(context, dying->bindings);

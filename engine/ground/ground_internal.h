@@ -106,7 +106,7 @@ struct virga_ground {
     virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs, *spawns,
         *no_rules;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
-    virga_image_2d *wet_map, *spot_map;
+    virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *survey;
     ground_ripples *ripples;
     double ripple_low_m[2]; /* in the world */

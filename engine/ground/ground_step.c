@@ -89,6 +89,20 @@ static void record_readback(virga_ground *ground, VkCommandBuffer cmd)
 
 /* ---- a tick's numbers */
 
+/* Without a map, a place that no cell is in. */
+static void fill_material_map(const virga_ground *ground, virga_ground_tick_gpu *out)
+{
+    const virga_ground_material_map *map = &ground->info.materials;
+    const double cell = (double)ground->def.cell_m;
+    for (int axis = 0; axis < 2; axis++) {
+        const double size = map->high_m[axis] - map->low_m[axis];
+        const double corner = ground->window.low[axis] * (double)VIRGA_GROUND_TILE * cell;
+        const bool given = map->image.view && size > 0;
+        out->material_scale[axis] = given ? (float)(cell / size) : 0;
+        out->material_offset[axis] = given ? (float)((corner - map->low_m[axis]) / size) : -1;
+    }
+}
+
 static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_tick_gpu *out)
 {
     const double cell = (double)ground->def.cell_m, area = cell * cell;
@@ -125,6 +139,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->tick_in_step = ground->tick_in_step;
     for (int axis = 0; axis < 3; axis++)
         out->camera[axis] = (float)ground->info.camera_m[axis];
+    fill_material_map(ground, out);
     out->tiles_entering = ground->move.entering_count;
     out->tiles_forgotten = ground->move.forgotten_count;
     ground_fill_soils(&ground->settings, cell, out->soils);
@@ -392,6 +407,9 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
                                      VK_ACCESS_SHADER_WRITE_BIT};
     virga_image_barrier(context, cmd, ground->wet_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                    VK_ACCESS_SHADER_READ_BIT};
+    virga_image_barrier(context, cmd, ground->blank_materials->image, VK_IMAGE_ASPECT_COLOR_BIT, before, read);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     ground_ripples_upload(context, cmd, ground->ripples);
     virga_buffer *const zero[] = {ground->rings, ground->stirs,  ground->cells[0],   ground->cells[1], ground->arrivals,
@@ -424,7 +442,9 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
                                     ground->def.max_ticks_per_step, info->ticks);
     if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
-        virga_settings_finite_double(log, "step_info.focus_m", info->focus_m, 3))
+        virga_settings_finite_double(log, "step_info.focus_m", info->focus_m, 3) ||
+        virga_settings_finite_double(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
+        virga_settings_finite_double(log, "step_info.materials.high_m", info->materials.high_m, 2))
         return VIRGA_ERROR_INVALID;
     return virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
 }

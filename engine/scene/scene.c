@@ -109,6 +109,7 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
     virga_rain_impacts(scene->rain, &impacts);
     virga_ground_step_info info = {.meshes = frame->occluders,
                                    .mesh_count = frame->occluder_count,
+                                   .materials = frame->materials,
                                    .impacts = impacts.buffer,
                                    .impacts_offset = impacts.offset};
     for (int axis = 0; axis < 3; axis++) {

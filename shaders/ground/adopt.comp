@@ -16,6 +16,7 @@ layout(scalar, set = 0, binding = 1) readonly buffer Lists
 };
 layout(set = 0, binding = 11) uniform sampler2DArray survey_depth;
 layout(set = 0, binding = 12) uniform usampler2DArray survey_surface;
+layout(set = 0, binding = 20) uniform usampler2D material_map;
 
 float knot(ivec2 at) { return virga_unit(virga_hash3(0x6b756d70u, uint(at.x), uint(at.y))) * 2.0 - 1.0; }
 
@@ -37,6 +38,18 @@ float bumps_um(ivec2 cell, virga_soil_gpu soil)
     return soil.bumps_um * (2.4 * noise(at) + 1.2 * noise(2.0 * at + 17.3) + 0.6 * noise(4.0 * at + 5.1));
 }
 
+// The mesh's, or what the host's map says there.
+uint material_of(ivec3 texel)
+{
+    const uint mesh = min(surface_material(texelFetch(survey_surface, texel, 0).r), VIRGA_GROUND_MATERIALS - 1u);
+    const vec2 at = (vec2(texel.xy) + 0.5) * vec2(tick.material_scale[0], tick.material_scale[1]) +
+                    vec2(tick.material_offset[0], tick.material_offset[1]);
+    if (min(at.x, at.y) < 0.0 || max(at.x, at.y) >= 1.0)
+        return mesh;
+    const uint mapped = texelFetch(material_map, ivec2(at * vec2(textureSize(material_map, 0))), 0).r;
+    return mapped < VIRGA_GROUND_MATERIALS ? mapped : mesh;
+}
+
 void main()
 {
     const uint entry = entering[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
@@ -46,7 +59,7 @@ void main()
     const ivec2 cell = cell_at_place(place);
     const ivec3 texel = ivec3(cell - (ivec2(tick.low_tile[0], tick.low_tile[1]) << TILE_SHIFT), 0);
     const float depth = texelFetch(survey_depth, texel, 0).r;
-    const uint material = min(surface_material(texelFetch(survey_surface, texel, 0).r), VIRGA_GROUND_MATERIALS - 1u);
+    const uint material = material_of(texel);
     virga_floor_gpu made = virga_floor_gpu(0, NO_GROUND);
     virga_cell_gpu start = virga_cell_gpu(0u, 0u);
     if (depth < 1.0) {

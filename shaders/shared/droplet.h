@@ -36,7 +36,7 @@ struct virga_droplet_gpu {
 /* A splash, 64 bytes. */
 struct virga_splash_gpu {
     float position[3];  /* m, relative to the anchor */
-    float share;        /* of its tick that had passed [0; 1) */
+    float share;        /* of its tick that had passed; 1 and more: it falls so many ticks later */
     uint tick;
     float diameter_m;   /* of the drop */
     float speed_m_s;    /* of the drop */

@@ -81,6 +81,8 @@ struct virga_ground_tick_gpu {
     uint max_impacts;        /* landings of returns lie behind so many */
     float camera[3];         /* in the world */
     uint tick_in_step;
+    float material_scale[2]; /* from cells behind the window's low corner to the material map [0; 1) */
+    float material_offset[2];
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
 };
 
@@ -132,7 +134,7 @@ VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 144 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 160 + 32 * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

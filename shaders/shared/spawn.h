@@ -13,7 +13,7 @@ typedef struct virga_spawns_gpu virga_spawns_gpu;
 /* One splash, 76 bytes. Positions are relative to virga_spawns_gpu's origin. */
 struct virga_spawn_gpu {
     float position[3];  /* m, where it fell */
-    float share;        /* of its tick that had passed [0; 1) */
+    float share;        /* of its tick that had passed [0; 1); 1 and more: it falls so many ticks later */
     float velocity[3];  /* m/s, of the drop on its way in */
     float diameter_m;   /* of one drop */
     float normal[3];    /* of the surface, unit length */

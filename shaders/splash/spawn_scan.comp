@@ -25,7 +25,7 @@ void forget_splashes(uint lane)
         bool live = place - first >= state.end_splash - first;
         if (!live) {
             const virga_splash_gpu splash = splashes[place & (tick.max_splashes - 1u)];
-            live = float(tick.tick - splash.tick) * tick.tick_s <= splash.life_s + tick.tick_s;
+            live = (float(tick.tick - splash.tick) - splash.share) * tick.tick_s <= splash.life_s;
         }
         if (live)
             atomicMin(expired, lane);

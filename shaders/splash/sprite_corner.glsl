@@ -23,9 +23,9 @@ void set_corner(uint vertex)
     const float way_px = length(way);
     const vec2 along = way_px > 1e-3 ? way / way_px : vec2(0.0, -1.0), side = vec2(-along.y, along.x);
     const bool at_head = (vertex & 2u) != 0u;
-    // A droplet reaches half of itself beyond its way; a blob as much; a pile ends where it ends.
+    // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
-    const float margin = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : sprite.kind == VIRGA_SPRITE_PUFF ? 0.5 * widest : widest;
+    const float margin = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : sprite.kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
     const float own = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
     const vec2 corner = (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;

@@ -40,11 +40,15 @@ float pile_cover()
     return clamp(pile_half_width() + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends;
 }
 
+// A crown from afar: it flares, its sides are looked along and so are thicker, its rim is torn.
 float puff_cover()
 {
-    const float half_width = shape.x + 0.25, half_way = 0.5 * shape.z + 0.5 * half_width;
-    const float x = place.x / half_width, y = (place.y - 0.5 * shape.z) / half_way;
-    return max(1.0 - x * x - y * y, 0.0);
+    const float v = clamp((place.y + 0.5) / (shape.z + 1.0), 0.0, 1.0);
+    const float half_width = (shape.x + 0.25) * (0.7 + 0.3 * v), x = min(abs(place.x) / half_width, 1.0);
+    const float torn = shape.x > 2.0 ? 0.25 * sin(9.0 * place.x / half_width + 7.0 * fract(shape.x)) : 0.0;
+    const float across = smoothstep(1.0, 0.6, x) * (0.6 + 0.7 * x * x);
+    const float up = smoothstep(0.0, 0.2, v) * smoothstep(1.0, 0.45 + torn, v);
+    return 1.6 * across * up;
 }
 
 float sprite_cover()

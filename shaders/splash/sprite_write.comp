@@ -11,13 +11,15 @@
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 layout(scalar, set = 0, binding = 14) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
-void set_light(inout virga_sprite_gpu record, vec3 middle)
+// A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines of
+// those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is white and
+// lies level, whose lobe is the cosine (moments 2/3 and 1/4).
+void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
-    const vec3 glitter = lamps(middle, d);
-    // Near the middle rays are bent by up to 16 degrees, at the rim by 50 and more (Legendre: cosines of those).
-    const vec3 centre = environment(d, vec2(0.97, 0.90)) + glitter;
-    const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
+    const vec3 glitter = lamps(middle, d), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
+    const vec3 centre = mix(environment(d, vec2(0.97, 0.90)), sky, torn) + glitter;
+    const vec3 rim = mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) + 0.6 * glitter;
     record.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
@@ -39,6 +41,7 @@ void main()
     record.kind = sprite.kind;
     record.solid = halves(sprite.solid, 0.0);
     record.id = sprite.id;
-    set_light(record, 0.5 * (sprite.head + sprite.tail));
+    const float torn = sprite.kind == VIRGA_SPRITE_PUFF ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
+    set_light(record, 0.5 * (sprite.head + sprite.tail), torn);
     sprites[gl_GlobalInvocationID.x] = record;
 }

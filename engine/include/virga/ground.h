@@ -100,6 +100,15 @@ VIRGA_API virga_result virga_ground_set(virga_ground *ground, const virga_ground
 /* Device memory in bytes that virga_ground_create will take. */
 VIRGA_API VkDeviceSize virga_ground_estimate(const virga_ground_def *def);
 
+/* Materials from a picture, over those of meshes. */
+typedef struct virga_ground_material_map {
+    virga_image image; /* 2D, any format of one unsigned integer (R8_UINT): a material a texel, below
+                        * VIRGA_GROUND_MATERIALS; above: the mesh's own. Read in the stages of compute, in the layout of
+                        * `before`. view VK_NULL_HANDLE: no map, the default */
+    double low_m[2], high_m[2]; /* corners in x and z of the place that it covers in the world: its first texel lies at
+                                 * low_m, its rows go along x. Outside of it meshes decide */
+} virga_ground_material_map;
+
 /* One step. */
 typedef struct virga_ground_step_info {
     double camera_m[3];           /* middle of the window, which follows in whole tiles */
@@ -107,6 +116,7 @@ typedef struct virga_ground_step_info {
                                    * they can be seen */
     const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
     uint32_t mesh_count;
+    virga_ground_material_map materials; /* (optional) looked at where the window moves, see virga_ground_survey */
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
     VkDeviceSize impacts_offset;
     uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks */

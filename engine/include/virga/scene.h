@@ -49,6 +49,7 @@ typedef struct virga_scene_frame {
     double focus_m[3];               /* middle of what is near enough for ripples, see virga_ground_step_info */
     const virga_occluder *occluders; /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
     uint32_t occluder_count;
+    virga_ground_material_map materials; /* (optional) of the ground, over its meshes' */
     const virga_view *view; /* (optional) the view to prepare; NULL: the scene is stepped only */
 } virga_scene_frame;
 
