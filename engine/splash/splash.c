@@ -238,6 +238,13 @@ static virga_bound image_or_blank(const virga_image *image, const virga_image_2d
                              given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
+/* Not every device filters four whole floats. */
+static VkSampler color_sampler(const virga_splash *splash, const virga_view *view)
+{
+    const bool whole_floats = view && view->color.format == VK_FORMAT_R32G32B32A32_SFLOAT;
+    return whole_floats ? splash->context->nearest : splash->context->linear;
+}
+
 uint32_t splash_current(const virga_splash *splash)
 {
     return splash->droplets == splash->droplet_buffers[1];
@@ -264,7 +271,7 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
         whole(splash->prepared_buffer),
         whole(splash->index_buffer),
         image_or_blank(view ? &view->depth : NULL, splash->blank_depth, splash->context->nearest),
-        image_or_blank(view ? &view->color : NULL, splash->blank_color, splash->context->linear),
+        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view)),
         whole(splash->droplet_buffers[current ^ 1])};
     return virga_bindings_write(splash->context, splash->bindings, index, bound);
 }

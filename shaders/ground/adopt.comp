@@ -44,7 +44,8 @@ uint material_of(ivec3 texel)
     const uint mesh = min(surface_material(texelFetch(survey_surface, texel, 0).r), VIRGA_GROUND_MATERIALS - 1u);
     const vec2 at = (vec2(texel.xy) + 0.5) * vec2(tick.material_scale[0], tick.material_scale[1]) +
                     vec2(tick.material_offset[0], tick.material_offset[1]);
-    if (min(at.x, at.y) < 0.0 || max(at.x, at.y) >= 1.0)
+    // Asked so that it is false of what is not a number, as the place in a map without extent is.
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))))
         return mesh;
     const uint mapped = texelFetch(material_map, ivec2(at * vec2(textureSize(material_map, 0))), 0).r;
     return mapped < VIRGA_GROUND_MATERIALS ? mapped : mesh;

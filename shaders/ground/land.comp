@@ -50,7 +50,7 @@ void record_landing(uint index, Piece piece, virga_impact_gpu impact)
         landings[index].first_spawn = NO_SPAWN;
 }
 
-void write_spawn(uint index, virga_impact_gpu impact, Piece piece, Spawning plan, float drops)
+void write_spawn(uint index, virga_impact_gpu impact, Piece piece, uint i, Spawning plan, float drops)
 {
     const uint state = state_at(piece.place);
     virga_spawn_gpu spawn;
@@ -71,7 +71,7 @@ void write_spawn(uint index, virga_impact_gpu impact, Piece piece, Spawning plan
     spawn.tick = tick.tick;
     spawn.water_nl = plan.water_nl;
     spawn.random = virga_hash2(plan.hash, 1u);
-    spawn.kind = state | material_at(piece.place, impact) << 8 | plan.model << 16;
+    spawn.kind = state | material_at(piece.place, impact) << 8 | plan.model << 16 | i << 24;
     spawns[index] = spawn;
 }
 
@@ -104,9 +104,9 @@ void main()
             record_landing(landing, piece, impact);
         uint water = piece.water_nl;
         if (next != NO_SPAWN) {
-            const Spawning plan = plan_spawn(impact, piece, i, NEAR_OF_TICK);
+            const Spawning plan = plan_spawn(impact, piece, i, spawns_head.near_of_tick_m);
             if (plan.model != VIRGA_SPLASH_NONE) {
-                write_spawn(next++, impact, piece, plan, drops);
+                write_spawn(next++, impact, piece, i, plan, drops);
                 water -= plan.water_nl;
                 flown += plan.water_nl;
             }

@@ -65,7 +65,8 @@ void main()
         spawns_head.first_tick = tick.tick;
     if (head.is_return == 0u) {
         spawns_head.origin = head.origin;
-        spawns_head.pad[0] = floatBitsToUint(spawns_head.near_m);
+        // land.comp plans by the radius that spawn_find.comp had.
+        spawns_head.near_of_tick_m = spawns_head.near_m;
         spawns_head.near_m = next_near(spawns_head.near_m, float(found));
     }
 }

@@ -11,8 +11,6 @@ layout(scalar, set = 0, binding = 19) buffer Spawns
 };
 
 #define NO_SPAWN 0xffffffffu
-// spawn_scan.comp puts the radius of the next tick in near_m; land.comp must plan by that which spawn_find.comp had.
-#define NEAR_OF_TICK uintBitsToFloat(spawns_head.pad[0])
 #define FIRST_HASH 128u // of the numbers of hashes for a piece's splash
 
 struct Spawning {

@@ -20,7 +20,7 @@ struct virga_droplet_gpu {
     float base[3];      /* of its pile: on the surface that it came from, and falls back on */
     uint slopes;        /* of that surface: height a metre in x and z, two halves */
     uint kind;          /* VIRGA_DROPLET_... below */
-    uint id;            /* of the drop that it came from; its own is virga_hash2(id, index) */
+    uint id;            /* of the drop that it came from; its own is virga_hash2(id, VIRGA_DROPLET_NUMBER(kind)) */
     uint water_nl;
     uint weight_free;   /* two halves: how many it stands for in the picture; age at which it left its pile (s) */
 };
@@ -29,6 +29,7 @@ struct virga_droplet_gpu {
 #define VIRGA_DROPLET_MATERIAL(kind) (((kind) >> 3) & 31u)
 #define VIRGA_DROPLET_STATE(kind)    (((kind) >> 8) & 7u)  /* ground_limits.h, where it came from */
 #define VIRGA_DROPLET_INDEX(kind)    (((kind) >> 16) & 255u) /* among those of its splash */
+#define VIRGA_DROPLET_NUMBER(kind)   (((kind) >> 16) & 8191u) /* among all of its drop, which may stand for many splashes */
 #define VIRGA_DROPLET_ALIVE          0x80000000u
 #define VIRGA_DROPLET_FREE           0x40000000u /* has left its pile */
 #define VIRGA_DROPLET_FALLEN         0x20000000u /* down again: its water is about to be given back */

@@ -25,7 +25,7 @@ struct virga_spawn_gpu {
     uint water_nl;      /* that flies up, of all the drops that it stands for in the budget; 0: no droplets */
     uint random;        /* a hash of its own: all chance in its splash comes from it */
     uint kind;          /* bits 0 to 7 the state (ground_limits.h), 8 to 15 the material, 16 to 23 the model
-                         * (splash_rule.h) */
+                         * (splash_rule.h), 24 to 28 which of the splashes of its drop, where that stands for many */
 };
 
 /* Head of the spawns, 64 bytes; they follow, those of a tick after those of the tick before. */
@@ -40,7 +40,8 @@ struct virga_spawns_gpu {
     uint group_count[3]; /* ceil(count / 64), 1, 1: for an indirect dispatch */
     uint first_tick;     /* of those that are here */
     uint ticks;
-    uint pad[3];
+    float near_of_tick_m; /* near_m as it was for the newest tick */
+    uint pad[2];
 };
 
 #ifndef VIRGA_GLSL

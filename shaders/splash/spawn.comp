@@ -83,7 +83,7 @@ float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
     const float diameter = pow(6.0 / 3.14159265 * flown / (WATER_DENSITY * float(n)), 1.0 / 3.0);
     const float energy = 0.1 * mass * speed * speed - float(n) * 3.14159265 * diameter * diameter * 0.0728;
     const float fastest = sqrt(2.0 * max(energy, 0.0) / max(flown, 1e-12));
-    return clamp(fastest * normal_between(0.08, 0.5, hash), 0.1, 0.35 * speed);
+    return clamp(fastest * normal_between(0.08, 0.5, hash), 0.1, max(0.35 * speed, 0.1));
 }
 
 // A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the next.
@@ -159,7 +159,7 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
         droplet.age_s = -spawn.share * tick.tick_s;
         droplet.diameter_m = pow(6e-12 / 3.14159265 * float(water) / max(spawn.drops, 1e-3), 1.0 / 3.0);
         droplet.slopes = halves(slopes.x, slopes.y);
-        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 | VIRGA_DROPLET_ALIVE;
+        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 | ((spawn.kind >> 24) & 31u) << 24 | VIRGA_DROPLET_ALIVE;
         droplet.id = spawn.id;
         droplet.weight_free = halves(spawn.weight, 0.0);
         if (cone && i == 0u)

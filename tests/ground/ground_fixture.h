@@ -11,6 +11,7 @@
 #include "../host/plate_fixture.h"
 
 #include "ground/ground_internal.h"
+#include "splash/splash_internal.h"
 
 #include <virga/virga.h>
 
@@ -21,9 +22,14 @@ typedef struct ground_fixture {
     virga_context *context;
     virga_ground *ground;
     virga_ground_settings settings;
+    virga_splash *splash; /* NULL: nothing splashes */
+    bool flying;          /* its droplets do fly, and their water comes back */
+    VkBuffer returns;     /* instead of what it gives back */
     host_buffer vertices, indices, impacts, upload, download;
     virga_occluder meshes[8];
     uint32_t mesh_count;
+    virga_ground_material_map materials; /* over those of meshes */
+    char logged[512];                    /* the last error */
     virga_impact_gpu drops[MOST_DROPS]; /* of the next step */
     uint32_t drop_count;
     double camera[3];
@@ -31,6 +37,8 @@ typedef struct ground_fixture {
     virga_cell_gpu *cells;   /* read back */
     virga_floor_gpu *floors; /* read back */
     virga_landing_gpu *landings;
+    virga_spawns_gpu *spawns_head;
+    virga_spawn_gpu *spawns;
 } ground_fixture;
 
 #define REQUIRE(condition)                      \
@@ -41,9 +49,11 @@ typedef struct ground_fixture {
 
 static inline void ground_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
-    (void)user;
-    if (level == VIRGA_LOG_ERROR)
-        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
+    ground_fixture *f = user;
+    if (level != VIRGA_LOG_ERROR)
+        return;
+    snprintf(f->logged, sizeof f->logged, "%s", text);
+    fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
 }
 
 static inline void ground_fixture_open(ground_fixture *f)
@@ -60,6 +70,7 @@ static inline void ground_fixture_open(ground_fixture *f)
     def.queue_family = f->gpu.device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.log = ground_fixture_log;
+    def.log_user = f;
     REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
 }
 
@@ -120,8 +131,23 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
     REQUIRE(host_buffer_create(
         &f->gpu.device,
         cells * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu)) +
-            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu),
+            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + f->ground->spawns->size,
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "cells down", &f->download, error, size));
+}
+
+/* Splashes by the paper's table, on ground that is there. */
+static inline void ground_fixture_splash(ground_fixture *f, bool flying)
+{
+    virga_splash_def def = virga_default_splash_def();
+    virga_splash_settings settings = virga_default_splash_settings();
+    settings.mode = VIRGA_SPLASH_MODE_PAPER;
+    settings.droplets_m = 12;
+    settings.dot_mm = 0.3f;
+    def.max_spawns = f->ground->def.max_spawns > 256 ? f->ground->def.max_spawns : 256;
+    def.max_returns = f->ground->def.max_returns;
+    REQUIRE(virga_splash_create(f->context, &def, &f->splash) == VIRGA_OK);
+    REQUIRE(virga_splash_set(f->splash, &settings) == VIRGA_OK);
+    f->flying = flying;
 }
 
 /* A drop on the middle of a cell (numbers of the world), falling straight. */
@@ -160,7 +186,45 @@ static inline void ground_fixture_submit(ground_fixture *f)
     REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
 }
 
-/* One frame of `ticks` ticks; the drops set are all of its first. Reads back cells, floors and landings. */
+static inline void ground_fixture_read(ground_fixture *f, VkCommandBuffer cmd)
+{
+    const VkDeviceSize cells = f->ground->floors->size, landings = f->ground->landings->size;
+    char *there = f->download.mapped;
+    ground_fixture_copy(cmd, f->ground->cells[f->ground->parity]->buffer, 0, f->download.buffer, 0, cells);
+    ground_fixture_copy(cmd, f->ground->floors->buffer, 0, f->download.buffer, cells, cells);
+    ground_fixture_copy(cmd, f->ground->landings->buffer, 0, f->download.buffer, 2 * cells, landings);
+    ground_fixture_copy(cmd, f->ground->spawns->buffer, 0, f->download.buffer, 2 * cells + landings,
+                        f->ground->spawns->size);
+    f->cells = f->download.mapped;
+    f->floors = (virga_floor_gpu *)(there + cells);
+    f->landings = (virga_landing_gpu *)(there + 2 * cells);
+    f->spawns_head = (virga_spawns_gpu *)(there + 2 * cells + landings);
+    f->spawns = (virga_spawn_gpu *)(f->spawns_head + 1);
+}
+
+static inline void ground_fixture_ask_splash(ground_fixture *f, virga_ground_step_info *info)
+{
+    virga_splash_buffer rules = {0}, returns = {0};
+    if (f->splash) {
+        virga_splash_rules(f->splash, &rules);
+        virga_splash_returns(f->splash, &returns);
+    }
+    info->splash_rules = rules.buffer;
+    info->splash_rules_offset = rules.offset;
+    info->returns = f->returns ? f->returns : returns.buffer;
+    info->returns_offset = f->returns ? 0 : returns.offset;
+}
+
+static inline void ground_fixture_fly(ground_fixture *f, VkCommandBuffer cmd, uint32_t ticks)
+{
+    virga_splash_step_info info = {
+        .camera_m = {f->camera[0], f->camera[1], f->camera[2]}, .first_tick = f->tick, .ticks = ticks};
+    virga_ground_spawns(f->ground, &info.spawns, NULL);
+    REQUIRE(virga_splash_step(f->splash, cmd, &info) == VIRGA_OK);
+}
+
+/* One frame of `ticks` ticks; the drops set are of its first, or so many ticks later as their `tick` says. Reads back
+ * cells, floors, landings and spawns. */
 static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
     VkCommandBuffer cmd;
@@ -170,26 +234,24 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
     head->group_count[0] = (f->drop_count + 63) / 64;
     head->group_count[1] = head->group_count[2] = 1;
     for (uint32_t i = 0; i < f->drop_count; i++)
-        f->drops[i].tick = f->tick;
+        f->drops[i].tick += f->tick;
     memcpy(head + 1, f->drops, f->drop_count * sizeof f->drops[0]);
     REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
     REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
-    const virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
-                                         .meshes = f->meshes,
-                                         .mesh_count = f->mesh_count,
-                                         .impacts = f->impacts.buffer,
-                                         .first_tick = f->tick,
-                                         .ticks = ticks};
+    virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
+                                   .meshes = f->meshes,
+                                   .mesh_count = f->mesh_count,
+                                   .materials = f->materials,
+                                   .impacts = f->impacts.buffer,
+                                   .first_tick = f->tick,
+                                   .ticks = ticks};
+    ground_fixture_ask_splash(f, &info);
     REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
-    const VkDeviceSize cells = f->ground->floors->size;
-    ground_fixture_copy(cmd, f->ground->cells[f->ground->parity]->buffer, 0, f->download.buffer, 0, cells);
-    ground_fixture_copy(cmd, f->ground->floors->buffer, 0, f->download.buffer, cells, cells);
-    ground_fixture_copy(cmd, f->ground->landings->buffer, 0, f->download.buffer, 2 * cells, f->ground->landings->size);
+    if (f->flying)
+        ground_fixture_fly(f, cmd, ticks);
+    ground_fixture_read(f, cmd);
     ground_fixture_submit(f);
     host_buffer_invalidate(&f->gpu.device, &f->download);
-    f->cells = f->download.mapped;
-    f->floors = (virga_floor_gpu *)((char *)f->download.mapped + cells);
-    f->landings = (virga_landing_gpu *)((char *)f->download.mapped + 2 * cells);
     f->tick += ticks;
     f->drop_count = 0;
 }
@@ -228,6 +290,7 @@ static inline uint64_t ground_fixture_sum(const ground_fixture *f)
 
 static inline void ground_fixture_close(ground_fixture *f)
 {
+    virga_splash_destroy(&f->splash);
     virga_ground_destroy(&f->ground);
     virga_context_destroy(&f->context);
     host_buffer *buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->upload, &f->download};

@@ -93,6 +93,14 @@ static bool build(scene *s)
            host_accumulator_create(&s->picture, WIDTH, HEIGHT, error, size);
 }
 
+static void fill_layer(VkCommandBuffer cmd, float value)
+{
+    const VkClearAttachment clear = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color.float32 = {value, value, value, value}}};
+    const VkClearRect all = {{{0, 0}, {WIDTH, HEIGHT}}, 0, 1};
+    vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
+}
+
+/* The layer of splashes, where there is one, is filled with 0.25 in the first sub-frame and twice that in the next. */
 static bool draw(scene *s, uint32_t samples)
 {
     host_device *device = &s->base.device;
@@ -107,6 +115,11 @@ static bool draw(scene *s, uint32_t samples)
         if (!host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
             return false;
         host_renderer_plate(s->renderer, cmd, &s->target, &now, &before);
+        if (s->target.images[HOST_SPLASH].image) {
+            host_target_begin_splash(&s->target, cmd);
+            fill_layer(cmd, 0.25f * (float)(i + 1));
+            host_target_end_layer(&s->target, cmd);
+        }
         host_target_begin_layer(&s->target, cmd);
         host_target_end_layer(&s->target, cmd);
         host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
@@ -249,11 +262,29 @@ static void sub_frames(void **state)
     assert_int_equal(s->picture.samples, 8);
 }
 
+/* Its sub-frames are averaged like all others, and nothing of it is in the layers beside it. */
+static void splash_layer(void **state)
+{
+    scene *s = *state;
+    assert_true(draw(s, 2));
+    const size_t pixel = at(4, HEIGHT - 3) * 4;
+    const float plate = s->picture.color[pixel];
+    assert_float_equal(s->picture.splash[pixel], 0.0, 0.0);
+    assert_true(host_target_add_splash(&s->base.device, &s->target, s->base.error, sizeof s->base.error));
+    assert_true(draw(s, 2));
+    for (size_t c = 0; c < 4; c++) {
+        assert_float_equal(s->picture.splash[pixel + c], 0.375, 1e-6);
+        assert_float_equal(s->picture.layer[pixel + c], 0.0, 0.0);
+    }
+    assert_float_equal(s->picture.color[pixel], plate, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_pixel), cmocka_unit_test(plane_pixel), cmocka_unit_test(shade_under_cube),
         cmocka_unit_test(sky_pixel),  cmocka_unit_test(lamp_light),  cmocka_unit_test(sub_frames),
+        cmocka_unit_test(splash_layer),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

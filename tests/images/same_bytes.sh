@@ -21,7 +21,8 @@ same() { # folder file...
     done
 }
 
-frames="frame.0001.exr frame.0002.exr frame.0003.exr rain.0001.ply rain.0002.ply rain.0003.ply"
+points="rain.0001.ply rain.0002.ply rain.0003.ply splash.0001.ply splash.0002.ply splash.0003.ply"
+frames="frame.0001.exr frame.0002.exr frame.0003.exr $points"
 render once 1-3 LP_NUM_THREADS=2
 render again 1-3 LP_NUM_THREADS=2
 same again $frames
@@ -31,7 +32,7 @@ for threads in 1 4; do
 done
 # Software Vulkan's shader cache does not know the vector width, so it is off here.
 render narrow 1-3 LP_NATIVE_VECTOR_WIDTH=128 MESA_SHADER_CACHE_DISABLE=true
-for file in rain.0001.ply rain.0002.ply rain.0003.ply; do same narrow "$file"; done
+same narrow $points
 render alone 3
-same alone frame.0003.exr rain.0003.ply
+same alone frame.0003.exr rain.0003.ply splash.0003.ply
 echo "same bytes"

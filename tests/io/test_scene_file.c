@@ -35,7 +35,11 @@ static const char full[] =
     "  wind_m_s: [3, 0, -1]\n"
     "  seed: 4294967295\n"
     "  occlusion_size: 0\n"
-    "  keys: [{time_s: 0}, {time_s: 2, rate_mm_h: 80}, {time_s: 4, rate_mm_h: 0, wind_m_s: [5, 0, 1]}]\n";
+    "  keys: [{time_s: 0}, {time_s: 2, rate_mm_h: 80}, {time_s: 4, rate_mm_h: 0, wind_m_s: [5, 0, 1]}]\n"
+    "ground: {on: true, cells: 256}\n"
+    "splash: {mode: paper, style: paper, max_splashes: 1000, max_droplets: 2000, droplets_m: 7,\n"
+    "  bounce: 0.5, pile_s: 0.03, pile_m: 0.01, dot_mm: 0.4, gain: 2, light_gain: 3, min_width_px: 0.5,\n"
+    "  soft_m: 0.01, near_m: 0.1}\n";
 
 static void put_text(const char *name, const char *text)
 {
@@ -92,8 +96,35 @@ static void smallest_scene_has_the_defaults(void **state)
     assert_int_equal(scene->rain.seed, 1);
     assert_int_equal(scene->rain.occlusion_size, 1024);
     assert_int_equal(scene->rain.occlusion_slants, 2);
+    assert_false(scene->ground.on);
+    assert_false(scene->splash.on);
+    assert_int_equal(scene->splash.mode, SCENE_SPLASH_MODE_PHYSICAL);
+    assert_int_equal(scene->splash.style, SCENE_SPLASH_STYLE_FILM);
+    assert_int_equal(scene->splash.max_splashes, 65536);
+    near(scene->splash.gain, 1);
     scene_file_free(scene);
     scene_file_free(NULL);
+}
+
+static void every_value_of_splash_arrives(const scene_splash *splash)
+{
+    assert_true(splash->on);
+    assert_int_equal(splash->mode, SCENE_SPLASH_MODE_PAPER);
+    assert_string_equal(scene_splash_mode_name(splash->mode), "paper");
+    assert_int_equal(splash->style, SCENE_SPLASH_STYLE_PAPER);
+    assert_string_equal(scene_splash_style_name(SCENE_SPLASH_STYLE_FILM), "film");
+    assert_int_equal(splash->max_splashes, 1000);
+    assert_int_equal(splash->max_droplets, 2000);
+    near(splash->droplets_m, 7);
+    near(splash->bounce, 0.5);
+    near(splash->pile_s, 0.03);
+    near(splash->pile_m, 0.01);
+    near(splash->dot_mm, 0.4);
+    near(splash->gain, 2);
+    near(splash->light_gain, 3);
+    near(splash->min_width_px, 0.5);
+    near(splash->soft_m, 0.01);
+    near(splash->near_m, 0.1);
 }
 
 static void every_value_arrives(void **state)
@@ -130,6 +161,7 @@ static void every_value_arrives(void **state)
     assert_int_equal(scene->rain.key_count, 3);
     near(scene->rain.keys[0].rate_mm_h, 40);
     near(scene->rain.keys[1].wind_m_s[2], -1);
+    every_value_of_splash_arrives(&scene->splash);
     scene_file_free(scene);
     unlink(in_folder("sub/with \"quotes\" and ~.obj"));
     rmdir(in_folder("sub"));
@@ -191,6 +223,37 @@ static void overrides_change_values(void **state)
     assert_int_equal(scene->lights[1].type, SCENE_LIGHT_SPOT);
     near(scene->camera.keys[0].look_at_m[1], 7);
     scene_file_free(scene);
+}
+
+/* Wherever they stand in the file, and whoever says it. */
+static void splashes_are_on_where_the_ground_is(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *overrides[2];
+        bool on;
+    } cases[] = {
+        {"ground: {on: true}\n", {0}, true},
+        {"splash: {gain: 2}\nground: {on: true}\n", {0}, true},
+        {"splash:\nground: {on: true}\n", {0}, true},
+        {"ground: {on: true}\nsplash: {on: false}\n", {0}, false},
+        {"ground: {on: false}\nsplash: {on: false}\n", {0}, false},
+        {"splash: {gain: 2}\n", {0}, false},
+        {"", {"ground.on=true"}, true},
+        {"", {"ground.on=true", "splash.on=false"}, false},
+        {"", {"splash.on=true", "ground.on=true"}, true},
+        {"ground: {on: true}\n", {"splash.on=false"}, false},
+        {"ground: {on: true}\n", {"ground.on=false"}, false},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s%s", smallest, cases[i].text);
+        const char *const *overrides = cases[i].overrides;
+        scene_file *scene = loaded(text, overrides, overrides[1] ? 2 : overrides[0] ? 1 : 0);
+        if (scene->splash.on != cases[i].on)
+            fail_msg("splash.on is %d in case %zu", scene->splash.on, i);
+        scene_file_free(scene);
+    }
 }
 
 static uint64_t hash_with_mesh(const char *bytes)
@@ -268,6 +331,31 @@ static const struct {
     {"rain: {keys: [{time_s: 1}, {time_s: 1}]}\n", "rain.keys.1.time_s: expected more than the key before has (1)"},
     {"frames: {first: 9, last: 3}\n", "frames.last: expected at least frames.first (9), got 3"},
     {"frames: {size: [0, 360]}\n", "frames.size.0: expected a whole number from 16 to 16384, got '0'"},
+    {"splash: {on: true}\n",
+     "s.yaml:5: splash.on: expected ground.on: true too, as it is the ground that drops splash on"},
+    {"ground: {on: false}\nsplash:\n  on: true\n", "s.yaml:7: splash.on: expected ground.on: true too"},
+    {"splash: {on: maybe}\n", "s.yaml:5: splash.on: expected true or false, got 'maybe'"},
+    {"ground: {on: maybe}\n", "s.yaml:5: ground.on: expected true or false, got 'maybe'"},
+    {"splash: {mode: papers}\n",
+     "s.yaml:5: splash.mode: expected one of paper, physical, got 'papers', did you mean 'paper'?"},
+    {"splash: {style: 1}\n", "splash.style: expected one of paper, film, got '1'"},
+    {"splash: {max_splashes: 255}\n", "splash.max_splashes: expected a whole number from 256 to 1048576, got '255'"},
+    {"splash: {max_droplets: 4194305}\n",
+     "splash.max_droplets: expected a whole number from 256 to 4194304, got '4194305'"},
+    {"splash: {max_droplets: 1e6}\n", "splash.max_droplets: expected a whole number from 256 to 4194304, got '1e6'"},
+    {"splash: {droplets_m: -1}\n", "splash.droplets_m: expected a number from 0 to 1000, got '-1'"},
+    {"splash: {droplets_cm: 1}\n", "splash.droplets_cm: unknown key, did you mean 'droplets_m' (in m)?"},
+    {"splash: {bounce: 1.1}\n", "splash.bounce: expected a number from 0 to 1, got '1.1'"},
+    {"splash: {pile_s: 0}\n", "splash.pile_s: expected a number from 0.001 to 0.2, got '0'"},
+    {"splash: {pile_m: 0.3}\n", "splash.pile_m: expected a number from 0.001 to 0.2, got '0.3'"},
+    {"splash: {dot_mm: 6}\n", "splash.dot_mm: expected a number from 0.05 to 5, got '6'"},
+    {"splash: {gain: -1}\n", "splash.gain: expected a number from 0 to 100, got '-1'"},
+    {"splash: {light_gain: much}\n", "splash.light_gain: expected a number from 0 to 100, got 'much'"},
+    {"splash: {min_width_px: 0}\n", "splash.min_width_px: expected a number from 0.5 to 4, got '0'"},
+    {"splash: {soft_m: 2}\n", "splash.soft_m: expected a number from 0 to 1, got '2'"},
+    {"splash: {near_m: 6}\n", "splash.near_m: expected a number from 0 to 5, got '6'"},
+    {"splash: on\n", "splash: expected keys with values, as in 'key: value', got 'on'"},
+    {"splahs: {}\n", "s.yaml:5: splahs: unknown key, did you mean 'splash'?"},
     {"lights: {type: point}\n", "lights: expected a list, with entries that begin with '- ', got a group of keys"},
     {"lights: [{type: point}]\n", "s.yaml:5: lights.0.position_m: is missing"},
     {"lights: [3]\n", "lights.0: expected keys with values"},
@@ -346,6 +434,9 @@ static const struct {
     {"camera.keys.0=7", "camera.keys.0: expected keys with values"},
     {"meshes.0.file=x.glb", "--set meshes.0.file=x.glb: meshes.0.file: cannot read"},
     {"frames.last=0", "--set frames.last=0: frames.last: expected at least frames.first (1), got 0"},
+    {"splash.gain=lots", "--set splash.gain=lots: splash.gain: expected a number from 0 to 100, got 'lots'"},
+    {"splash.on=true", "--set splash.on=true: splash.on: expected ground.on: true too"},
+    {"splash.modes=paper", "--set splash.modes=paper: splash.modes: unknown key, did you mean 'mode'?"},
     {"rain=&a [*a]", "anchors and aliases are not read here"},
 };
 
@@ -433,6 +524,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(weather_is_linear_between_keys, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(empty_groups_and_lists_are_as_if_left_out, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(overrides_change_values, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(splashes_are_on_where_the_ground_is, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(hash_is_of_the_meshes_bytes_too, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(hash_is_of_bytes_and_overrides, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(mistakes_are_one_line_with_file_line_and_key, make_folder, remove_folder),

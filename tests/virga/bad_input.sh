@@ -90,6 +90,12 @@ scene 'doubled key' 's/^virga: 1/virga: 1\nvirga: 1/'
 scene 'frames backwards' 's/first: 1, last: 2/first: 9, last: 2/'
 scene 'size of zero' 's/\[32, 32\]/[0, 32]/'
 scene 'fov of 180' 's/camera: {/camera: {fov_deg: 180, /'
+scene 'splash without ground' '$a splash: {on: true}'
+scene 'unknown key of splash' '$a ground: {on: true}\nsplash: {droplet_m: 3}'
+scene 'unknown mode of splash' '$a ground: {on: true}\nsplash: {mode: real}'
+scene 'too many droplets' '$a ground: {on: true}\nsplash: {max_droplets: 99999999}'
+scene 'splash that is no group' '$a splash: true'
+scene 'unknown material' '$a ground: {on: true, materials: [{match: default, material: asphlat}]}'
 scene 'looks at itself' 's/look_at_m: \[0, 1, 0\]/look_at_m: [0, 1, 3]/'
 : >"$work/empty.yaml"
 bad 'empty scene' render "$work/empty.yaml" -o "$work/out"
@@ -136,6 +142,10 @@ bad 'wrong frames' render "$good" -o "$work/out" --frames 5-2
 bad 'frames of text' render "$good" -o "$work/out" --frames one
 bad 'no samples' render "$good" -o "$work/out" --samples 0
 bad 'unknown layer' render "$good" -o "$work/out" --layers beuty
+bad 'splash layer without splashes' render "$good" -o "$work/out" --layers splash
+bad 'splash layer where they are off' render "$good" -o "$work/out" --set ground.on=true --set splash.on=false \
+    --layers splash
+bad 'set of splash' render "$good" -o "$work/out" --set ground.on=true --set splash.pile_s=0
 bad 'unknown device' render "$good" -o "$work/out" --device 99
 bad 'wrong set' render "$good" -o "$work/out" --set rain.rate=5
 bad 'set without value' render "$good" -o "$work/out" --set rain.rate_mm_h
@@ -163,6 +173,14 @@ failures=$? count=$((count + 2))
 # And the good one still works, so that none of the above failed for another reason.
 "$virga" render "$good" -o "$work/fine" >"$work/stdout" 2>"$work/err" || complain 'the good scene'
 [ -f "$work/fine/frame.0002.exr" ] || complain 'the good scene wrote no frame'
+"$virga" render "$good" -o "$work/wet" --points --stats --set ground.on=true --set ground.cells=128 \
+    --set ground.start_water_mm=3 --set rain.rate_mm_h=100 >"$work/stdout" 2>"$work/err" ||
+    complain 'the good scene with splashes'
+[ -f "$work/wet/splash.0002.ply" ] || complain 'the good scene with splashes wrote no droplets'
+"$virga" check "$good" --set ground.on=true --set splash.mode=paper >"$work/stdout" 2>"$work/err" ||
+    complain 'the good scene with splashes, checked'
+grep -q '^  splash *paper, film style, [0-9]* splashes, [0-9]* droplets$' "$work/stdout" ||
+    complain 'splashes are not in what check says'
 bad 'going on with another seed' render "$good" -o "$work/fine" --resume --seed 9
 "$virga" render "$good" -o "$work/fine" --resume --points --stats >"$work/stdout" 2>"$work/err" ||
     complain 'going on with the good scene'

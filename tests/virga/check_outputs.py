@@ -1,6 +1,7 @@
 """What the files of three frames of the street must hold. Standard library only; called by outputs.sh.
 
-Usage: check_outputs.py headers|pixels|points|stats|previews FILE...
+Usage: check_outputs.py headers|pixels|points|droplets|stats|previews FILE...
+       check_outputs.py near FILE X Y Z
 """
 import json
 import math
@@ -14,8 +15,8 @@ SIZE = (160, 90)
 CAMERA = (1.5, 1.7, 8.0)  # of frame 1, looking at
 TARGET = (-0.5, 2.2, -12.0)
 
-HALF = ["A", "B", "G", "R", "normal.X", "normal.Y", "normal.Z", "rain.A", "rain.B", "rain.G", "rain.R", "velocity.X",
-        "velocity.Y"]
+HALF = ["A", "B", "G", "R", "normal.X", "normal.Y", "normal.Z", "rain.A", "rain.B", "rain.G", "rain.R", "splash.A",
+        "splash.B", "splash.G", "splash.R", "velocity.X", "velocity.Y"]
 CHANNELS = dict([(name, "half") for name in HALF + ["wetness.Y"]] +
                 [("Z", "float"), ("id.Y", "uint"), ("waterdepth.Y", "float")])
 
@@ -23,6 +24,13 @@ CHANNELS = dict([(name, "half") for name in HALF + ["wetness.Y"]] +
 SPEEDS = [(0.2, 0.72), (0.3, 1.17), (0.4, 1.62), (0.5, 2.06), (0.6, 2.47), (0.8, 3.27), (1.0, 4.03), (1.2, 4.64),
           (1.4, 5.17), (1.6, 5.65), (1.8, 6.09), (2.0, 6.49), (2.4, 7.27), (2.8, 7.82), (3.2, 8.26), (3.6, 8.60),
           (4.0, 8.83), (4.4, 8.98), (4.8, 9.07), (5.2, 9.12), (5.8, 9.17)]
+
+# What point caches have behind x y z vx vy vz radius id age.
+DROP = [("float", "weight")]
+DROPLET = [("uint", name) for name in "model material state parent index".split()] + [("float", "water_ul")]
+
+MATERIALS = ("default asphalt concrete stone brick grass sand soil wood metal glass water leaves cloth plastic tile "
+             "drain").split()
 
 failures = 0
 
@@ -105,6 +113,12 @@ def check_pixels(paths):
             expect(of["rain." + name]["Max"] > 0.001, f"frame {number}: no rain in {name}")
         expect(of["A"]["Min"] == of["A"]["Max"] == 1, f"frame {number}: beauty is not opaque")
         expect(of["rain.A"]["Min"] >= 0 and 0.01 < of["rain.A"]["Max"] <= 1, f"frame {number}: rain.A {of['rain.A']}")
+        # Nothing has fallen at the first frame.
+        expect(of["splash.A"]["Min"] == 0 and of["splash.A"]["Max"] <= 1 and
+               (of["splash.A"]["Max"] > 0.01) == (number > 1), f"frame {number}: splash.A {of['splash.A']}")
+        for name in "RGB":
+            expect(of["splash." + name]["Min"] == 0 and (of["splash." + name]["Max"] > 0.001) == (number > 1),
+                   f"frame {number}: splash.{name} {of['splash.' + name]}")
         expect(1 < of["Z"]["Min"] < 20, f"frame {number}: nearest depth {of['Z']['Min']}")
         moved = max(of["velocity.X"]["Max"], -of["velocity.X"]["Min"])
         # A dolly of 2.5 cm a frame moves what is 4 m away at the edge by half a pixel. At the first frame it begins.
@@ -114,7 +128,7 @@ def check_pixels(paths):
 # ---- points
 
 
-def read_points(path):
+def read_points(path, more):
     data = open(path, "rb").read()
     head, mark, body = data.partition(b"end_header\n")
     lines = [line for line in head.decode("ascii").split("\n") if line and not line.startswith("comment")]
@@ -122,8 +136,7 @@ def read_points(path):
     count = int(lines[2].split()[2]) if lines[2].startswith("element vertex ") else -1
     properties = [tuple(line.split()[1:]) for line in lines[3:]]
     wanted = [("float", name) for name in "x y z vx vy vz radius".split()] + [("uint", "id"), ("float", "age")]
-    expect(properties[:9] == wanted, f"{path}: properties {properties}")
-    expect(all(kind in ("float", "uint") for kind, _ in properties[9:]), f"{path}: properties {properties}")
+    expect(properties == wanted + more, f"{path}: properties {properties}")
     form = "<" + "".join("f" if kind == "float" else "I" for kind, _ in properties)
     expect(len(body) == count * struct.calcsize(form), f"{path}: {len(body)} bytes for {count} points")
     return list(struct.iter_unpack(form, body)) if failures == 0 else []
@@ -161,16 +174,21 @@ def check_motion(one, other):
     expect(astray <= 0.001 * len(both), f"{astray} of {len(both)} drops are not where their velocity takes them")
 
 
+def check_seen(path, points, seen):
+    """What another reader has found: how many, the first and the last."""
+    words = open(seen).read().split()
+    ends = [value for point in (points[0], points[-1]) for value in point[:3]]
+    expect(int(words[0]) == len(points), f"{path}: assimp sees {words[0]} points, expected {len(points)}")
+    expect(all(near(float(a), b, 1e-6 * max(1, abs(b))) for a, b in zip(words[1:], ends)),
+           f"{path}: assimp sees {words[1:]}, expected {ends}")
+
+
 def check_points(paths):
-    frames = [read_points(path) for path in paths[:3]]
+    frames = [read_points(path, DROP) for path in paths[:3]]
     if failures:
         return
     for path, points, seen in zip(paths, frames, paths[3:]):
-        words = open(seen).read().split()
-        ends = [value for point in (points[0], points[-1]) for value in point[:3]]
-        expect(int(words[0]) == len(points), f"{path}: assimp sees {words[0]} points, expected {len(points)}")
-        expect(all(near(float(a), b, 1e-6 * max(1, abs(b))) for a, b in zip(words[1:], ends)),
-               f"{path}: assimp sees {words[1:]}, expected {ends}")
+        check_seen(path, points, seen)
         expect(all(math.isfinite(value) for point in points for value in point), f"{path}: not finite")
         expect(len({point[7] for point in points}) == len(points), f"{path}: ids occur twice")
         expect(all(0.0001 <= point[6] <= 0.0034 for point in points), f"{path}: radius outside 0.1 to 3.4 mm")
@@ -180,7 +198,118 @@ def check_points(paths):
     check_motion(frames[1], frames[2])
 
 
+# ---- droplets
+
+X, V, RADIUS, ID, AGE, MODEL, MATERIAL, STATE, PARENT, INDEX, WATER = 0, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14
+
+
+def absorb(state, word):
+    """virga_hash_absorb of shaders/shared/random.h."""
+    x = (word + state) & 0xffffffff
+    x = (x ^ x >> 17) * 0xed5ad4bb & 0xffffffff
+    x = x + state * 0x9e3779b1 & 0xffffffff
+    x = (x ^ x >> 11) * 0xac4c1b51 & 0xffffffff
+    x = (x ^ x >> 15) * 0x31848bab & 0xffffffff
+    return x ^ x >> 14
+
+
+def hash2(a, b):
+    return absorb(absorb(0x9e3779b9, a), b)
+
+
+def check_droplet(path, d, age):
+    kinds = d[MODEL], d[MATERIAL], d[STATE], d[INDEX]
+    expect(d[MODEL] in (1, 2) and d[MATERIAL] < 17 and d[STATE] < 6, f"{path}: kinds {kinds}")
+    # Up to 32 splashes of a drop that stands for many, 64 droplets each.
+    expect(d[INDEX] % 256 < 64 and d[INDEX] < 32 * 256, f"{path}: droplet {d[INDEX]} of {d[PARENT]}")
+    expect(d[ID] == hash2(d[PARENT], d[INDEX]), f"{path}: id {d[ID]} of droplet {d[INDEX]} of {d[PARENT]}")
+    expect(0 <= d[AGE] <= age + 1e-6, f"{path}: age {d[AGE]} at {age} s")
+    expect(0.00001 < d[RADIUS] < 0.002 and d[WATER] > 0, f"{path}: radius {d[RADIUS]}, water {d[WATER]}")
+    expect(math.dist(d[V:V + 3], (0, 0, 0)) < 10 and -2 < d[X + 1] < 40, f"{path}: at {d[:3]}, velocity {d[3:6]}")
+
+
+def check_water(path, points):
+    """A point stands for as many droplets as its water fills: the same for all of a drop."""
+    filled = {}
+    for d in points:
+        filled.setdefault(d[PARENT], []).append(d[WATER] * 1e-9 / (4 / 3 * math.pi * d[RADIUS] ** 3))
+    for parent, counts in filled.items():
+        expect(max(counts) < 1.0001 * min(counts), f"{path}: droplets of {parent} stand for {counts}")
+        expect(min(counts) > 0.0009 and max(counts) < 1000, f"{path}: droplets of {parent} stand for {counts}")
+
+
+def check_parents(path, points, before, now):
+    """Drops that were in the air in a frame before, and are no more."""
+    falling, fell = {point[ID] for point in now}, {point[ID] for points in before for point in points}
+    expect(not any(d[PARENT] in falling for d in points), f"{path}: droplets of drops that have not landed")
+    known = sum(d[PARENT] in fell for d in points)
+    expect(len(points) > 1000 and known > 0.99 * len(points), f"{path}: {known} of {len(points)} have a drop that fell")
+
+
+def check_flight(one, other):
+    """Drag and gravity in a frame are less than a few centimetres."""
+    sides = [{d[ID]: d for d in points} for points in (one, other)]
+    both = sides[0].keys() & sides[1].keys()
+    pairs = [(sides[0][i], sides[1][i]) for i in both if near(sides[1][i][AGE] - sides[0][i][AGE], 1 / FPS, 1e-5)]
+    astray = sum(any(not near(b[X + i] - a[X + i], (a[V + i] + b[V + i]) / 2 / FPS, 0.02) for i in range(3))
+                 for a, b in pairs)
+    expect(len(pairs) > 200, f"{len(pairs)} droplets live for a frame")
+    expect(astray <= 0.01 * len(pairs), f"{astray} of {len(pairs)} droplets are not where they fly to")
+
+
+def check_droplets(paths):
+    """Point caches of three frames, what assimp sees in the last two, those of the drops, and the statistics."""
+    frames = [read_points(path, DROPLET) for path in paths[:3]]
+    falling = [read_points(path, DROP) for path in paths[5:8]]
+    lines = [json.loads(line) for line in open(paths[8])]
+    if failures:
+        return
+    expect(not frames[0], f"{paths[0]}: {len(frames[0])} droplets before any rain has fallen")
+    for i in (1, 2):
+        path, points, splash = paths[i], frames[i], lines[i]["splash"]
+        check_seen(path, points, paths[2 + i])
+        for droplet in points:
+            check_droplet(path, droplet, i / FPS)
+        expect(len({droplet[ID] for droplet in points}) == len(points), f"{path}: ids occur twice")
+        check_water(path, points)
+        check_parents(path, points, falling[:i], falling[i])
+        living = splash["droplets"] - splash["fallen"]
+        # Of a far drop that stands for many, some splash later: those are not yet there.
+        expect(0.1 * living <= len(points) <= living, f"{path}: {len(points)} droplets, told {living}")
+        water, aloft = sum(d[WATER] for d in points), lines[i]["water_ul"]["aloft"]
+        expect(0 < water < aloft * 1.0001, f"{path}: droplets of {water} microlitres, aloft {aloft}")
+    if not failures:
+        check_flight(frames[1], frames[2])
+
+
+def check_near(arguments):
+    """Only what is near the camera has droplets."""
+    points, camera = read_points(arguments[0], DROPLET), [float(word) for word in arguments[1:]]
+    expect(len(points) > 200, f"{len(points)} droplets")
+    expect(all(math.dist(d[X:X + 3], camera) < 5 for d in points), f"droplets far from the camera at {camera}")
+
+
 # ---- statistics and previews
+
+BUDGET = ("elsewhere", "absorbed", "film", "puddle", "run_off", "evaporated", "kept", "forgotten", "aloft")
+
+
+def nanolitres(microlitres):
+    return round(microlitres * 1000)
+
+
+def check_splash_stats(splash, before):
+    models = splash["splashes"]
+    expect(list(models) == ["scattering", "crown_cone", "disk", "dot"], f"models {list(models)}")
+    for model, counts in models.items():
+        expect(all(name in MATERIALS and count > 0 for name, count in counts.items()), f"{model}: {counts}")
+        for name, count in before["splashes"][model].items() if before else ():
+            expect(counts.get(name, 0) >= count, f"{model} on {name}: {counts.get(name)} after {count}")
+    total = sum(sum(counts.values()) for counts in models.values())
+    expect((total > 0) == (splash["droplets"] > 0) == (before is not None), f"{total} splashes: {splash}")
+    expect(splash["fallen"] <= splash["droplets"] and splash["splashes_alive"] <= total, f"splash {splash}")
+    expect(splash["droplets"] - splash["fallen"] <= splash["droplets_alive"] <= splash["droplets"], f"splash {splash}")
+    expect(splash["crowded"] <= total and (splash["sprites"] > 0) == (total > 0), f"splash {splash}")
 
 
 def check_stats(paths):
@@ -188,7 +317,7 @@ def check_stats(paths):
     expect(text.endswith("\n"), "the last line has no end")
     lines = [json.loads(line) for line in text.splitlines()]
     expect([line.get("frame") for line in lines] == [1, 2, 3], f"frames {[line.get('frame') for line in lines]}")
-    total = 0
+    total, splash = 0, None
     for i, line in enumerate(lines):
         rain, water, times = line["rain"], line["water_ul"], line["milliseconds"]
         total += water["rained"]
@@ -198,9 +327,12 @@ def check_stats(paths):
         expect(rain["impacts_dropped"] == 0, f"impacts dropped {rain['impacts_dropped']}")
         expect((rain["impacts"] > 0) == (water["rained"] > 0) == (i > 0), f"impacts {rain['impacts']}, {water}")
         expect(near(water["rained_total"], total, 1e-6 * (1 + total)), f"rained {total}, told {water['rained_total']}")
-        left = sum(water[name] for name in ("elsewhere", "absorbed", "film", "puddle", "run_off", "evaporated", "kept",
-                                            "forgotten"))
-        expect(near(water["start"] + water["rained_total"], left, 0.0015), f"the budget of water is off: {water}")
+        off = nanolitres(water["start"]) + nanolitres(water["rained_total"]) - sum(nanolitres(water[name])
+                                                                                   for name in BUDGET)
+        expect(off == 0, f"the budget of water is off by {off} nl: {water}")
+        expect((water["aloft"] > 0) == (i > 0), f"frame {i + 1}: {water['aloft']} microlitres aloft")
+        check_splash_stats(line["splash"], splash)
+        splash = line["splash"]
         for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.streaks", "rain.points"):
             expect(0 <= times.get(name, -1) < 60000, f"milliseconds of {name}: {times.get(name)}")
         expect(line["device_bytes"] > 0, "no device memory")
@@ -213,7 +345,7 @@ def check_previews(paths):
         expect(struct.unpack(">II", data[16:24]) == SIZE, f"{path} is {struct.unpack('>II', data[16:24])}")
 
 
-CHECKS = {"headers": check_headers, "pixels": check_pixels, "points": check_points, "stats": check_stats,
-          "previews": check_previews}
+CHECKS = {"headers": check_headers, "pixels": check_pixels, "points": check_points, "droplets": check_droplets,
+          "near": check_near, "stats": check_stats, "previews": check_previews}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)

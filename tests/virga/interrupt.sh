@@ -28,6 +28,7 @@ meshes: [{file: box.obj}]
 camera: {keys: [{time_s: 0, position_m: [0, 1, 3], look_at_m: [0, 1, 0]}]}
 frames: {fps: 24, first: 1, last: $frames, size: [64, 36]}
 rain: {rate_mm_h: 10, gust_m_s: 1, max_drops: 4096, occlusion_size: 64}
+ground: {on: true, cells: 128, start_water_mm: 3}
 YAML
 
 failures=0
@@ -106,7 +107,8 @@ whole() {
 # complete FOLDER: whole, and all of it.
 complete() {
     whole "$1"
-    [ "$(count "$1" 'frame.*.exr')" = "$frames" ] && [ "$(count "$1" 'rain.*.ply')" = "$frames" ] ||
+    [ "$(count "$1" 'frame.*.exr')" = "$frames" ] && [ "$(count "$1" 'rain.*.ply')" = "$frames" ] &&
+        [ "$(count "$1" 'splash.*.ply')" = "$frames" ] ||
         fail "$1: is not complete"
     python3 "$here/check_lines.py" "$work/once/stats.jsonl" "$work/$1/stats.jsonl" >"$work/err" 2>&1 ||
         fail "$1: stats.jsonl"
@@ -135,7 +137,8 @@ until_there test -e "$work/interrupted/frame.0002.exr"
 stop INT 130
 done=$(count interrupted 'frame.*.exr')
 [ "$done" -ge 2 ] && [ "$done" -lt "$frames" ] || fail "$done frames before the interruption"
-[ "$(count interrupted 'rain.*.ply')" = "$done" ] && [ "$(count interrupted 'preview.*.png')" = "$done" ] ||
+[ "$(count interrupted 'rain.*.ply')" = "$done" ] && [ "$(count interrupted 'splash.*.ply')" = "$done" ] &&
+    [ "$(count interrupted 'preview.*.png')" = "$done" ] ||
     fail "a frame was left half-way"
 [ "$(wc -l <"$work/interrupted/stats.jsonl")" = "$done" ] || fail "not one line of statistics a frame"
 said 2 "interrupted: $done frames are in .*; --resume goes on with frame $((done + 1))$"
@@ -159,7 +162,7 @@ complete killed
 
 begin "what a kill may leave at worst is put right"
 broken=$work/broken
-rm "$broken/frame.0004.exr" "$broken/rain.0007.ply" "$broken/preview.0008.png"
+rm "$broken/frame.0004.exr" "$broken/rain.0007.ply" "$broken/preview.0008.png" "$broken/splash.0011.ply"
 : >"$broken/frame.0005.exr"
 head -c 300 "$work/once/frame.0006.exr" >"$broken/frame.0006.exr"
 sed -i 9d "$broken/stats.jsonl"
@@ -189,7 +192,7 @@ find "$work/once" -type f -exec md5sum {} + | sort >"$work/before"
 refused 'seed 1, expected 4294967295; ' --seed 4294967295
 refused 'size 64x36, expected 32x32; ' --size 32x32
 refused 'samples 1, expected 2; ' --samples 2
-refused 'layers beauty,depth,rain,velocity,normal,id, expected rain; ' --layers rain
+refused 'layers beauty,depth,rain,splash,velocity,normal,id,wetness,waterdepth, expected rain; ' --layers rain
 refused 'scene hash [0-9a-f]{16}, expected [0-9a-f]{16}; ' --set rain.rate_mm_h=11
 find "$work/once" -type f -exec md5sum {} + | sort >"$work/after"
 cmp -s "$work/before" "$work/after" || fail "a refused render has changed files"

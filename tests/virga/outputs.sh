@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every file that a render leaves, opened by programs that are not ours: layers, types and attributes of the frames,
-# the drops in the point caches, the lines of statistics.
+# drops and droplets in the point caches, the lines of statistics.
 # Usage: outputs.sh VIRGA SOURCE_ROOT OPEN_POINTS
 set -u
 virga=$1 source=$2 open_points=$3
@@ -21,6 +21,7 @@ render() {
     shift
     timeout 120 "$virga" render "$source/assets/scenes/street.yaml" -o "$folder" --size 160x90 --device "$device" \
         --set rain.gust_m_s=0 "$@" 2>"$work/log" || { cat "$work/log"; fail "render $*"; exit 1; }
+    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
 }
 
 python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
@@ -59,6 +60,34 @@ for frame in 1 2 3; do
     "$open_points" "$out/rain.000$frame.ply" >"$work/points.$frame" || fail "assimp opens rain.000$frame.ply"
 done
 python3 "$here/check_outputs.py" points "$out"/rain.000{1,2,3}.ply "$work"/points.{1,2,3} || fail "point caches"
+
+# Droplets. At the first frame there are none.
+for frame in 2 3; do
+    "$open_points" "$out/splash.000$frame.ply" >"$work/droplets.$frame" || fail "assimp opens splash.000$frame.ply"
+done
+python3 "$here/check_outputs.py" droplets "$out"/splash.000{1,2,3}.ply "$work"/droplets.{2,3} \
+    "$out"/rain.000{1,2,3}.ply "$out/stats.jsonl" || fail "point caches of droplets"
+
+# Far from the origin they are where they are near it.
+render far --frames 2 --points --layers depth --set 'meshes.0.position_m=[1000, 0, -600]' \
+    --set 'camera.keys=[{position_m: [1001.5, 1.7, -592], look_at_m: [999.5, 2.2, -612]}]'
+python3 "$here/check_outputs.py" near "$work/far/splash.0002.ply" 1001.5 1.7 -592 || fail "droplets far from the origin"
+
+# The beauty is the rain over the splashes over the plate. Splashes that cover nothing leave it as it would be without.
+if command -v oiiotool >/dev/null; then
+    render bare --frames 3 --set splash.gain=0
+    oiiotool "$out/frame.0003.exr" -label full "$work/bare/frame.0003.exr" -label bare \
+        full --ch R=splash.A,G=splash.A,B=splash.A --mulc -1 --addc 1 -label shown \
+        full --ch R=rain.A,G=rain.A,B=rain.A --mulc -1 --addc 1 -label seen \
+        full --ch R=rain.R,G=rain.G,B=rain.B -label rain \
+        bare --ch R,G,B rain --sub shown --mul \
+        full --ch R=splash.R,G=splash.G,B=splash.B seen --mul --add rain --add -d float -o "$work/composed.exr" &&
+        oiiotool "$work/bare/frame.0003.exr" --ch splash.R,splash.G,splash.B,splash.A -d float -o "$work/none.exr" &&
+        oiiotool "$out/frame.0003.exr" --ch R,G,B -d float -o "$work/beauty.exr" || fail "taking frames apart"
+    oiiotool --stats "$work/none.exr" | grep -q 'Constant: Yes' || fail "splashes without gain are drawn"
+    idiff -q -fail 0.004 -failpercent 0.02 "$work/composed.exr" "$work/beauty.exr" >"$work/log" ||
+        { cat "$work/log"; fail "the beauty is not the rain over the splashes over the plate"; }
+fi
 
 # Statistics and previews.
 python3 "$here/check_outputs.py" stats "$out/stats.jsonl" || fail "stats.jsonl"

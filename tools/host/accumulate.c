@@ -10,13 +10,14 @@ bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t heigh
     size_t pixels = (size_t)width * height;
     *a = (host_accumulator){.width = width, .height = height};
     a->color = calloc(pixels, 4 * sizeof(float));
+    a->splash = calloc(pixels, 4 * sizeof(float));
     a->layer = calloc(pixels, 4 * sizeof(float));
     a->normal = calloc(pixels, 4 * sizeof(float));
     a->velocity = calloc(pixels, 2 * sizeof(float));
     a->water = calloc(pixels, 2 * sizeof(float));
     a->depth = calloc(pixels, sizeof(float));
     a->id = calloc(pixels, sizeof(uint32_t));
-    if (a->color && a->layer && a->normal && a->velocity && a->water && a->depth && a->id)
+    if (a->color && a->splash && a->layer && a->normal && a->velocity && a->water && a->depth && a->id)
         return true;
     host_accumulator_destroy(a);
     return host_fail(error, error_size, "no memory for a picture of %u x %u", width, height);
@@ -25,6 +26,7 @@ bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t heigh
 void host_accumulator_destroy(host_accumulator *a)
 {
     free(a->color);
+    free(a->splash);
     free(a->layer);
     free(a->normal);
     free(a->velocity);
@@ -55,6 +57,8 @@ void host_accumulator_add(host_accumulator *a, const host_device *device, const 
     size_t pixels = (size_t)a->width * a->height;
     bool first = a->samples == 0;
     add(a->color, host_target_floats(device, target, HOST_COLOR), pixels * 4, first);
+    if (target->images[HOST_SPLASH].image)
+        add(a->splash, host_target_floats(device, target, HOST_SPLASH), pixels * 4, first);
     add(a->layer, host_target_floats(device, target, HOST_LAYER), pixels * 4, first);
     add(a->normal, host_target_floats(device, target, HOST_NORMAL), pixels * 4, first);
     add(a->velocity, host_target_floats(device, target, HOST_VELOCITY), pixels * 2, first);
@@ -79,6 +83,7 @@ void host_accumulator_finish(host_accumulator *a)
         return;
     float factor = 1.0f / (float)a->samples;
     scale(a->color, pixels * 4, factor);
+    scale(a->splash, pixels * 4, factor);
     scale(a->layer, pixels * 4, factor);
     scale(a->normal, pixels * 4, factor);
     scale(a->velocity, pixels * 2, factor);

@@ -9,7 +9,8 @@ typedef struct host_accumulator {
     uint32_t width, height;
     uint32_t samples;
     float *color;    /* RGBA */
-    float *layer;    /* RGBA, premultiplied */
+    float *splash;   /* RGBA, premultiplied, over color; stays zero where the target has no such layer */
+    float *layer;    /* RGBA, premultiplied, over both */
     float *normal;   /* RGBA: unit length again after finish */
     float *velocity; /* XY */
     float *water;    /* wetness, depth (m) */

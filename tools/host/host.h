@@ -3,14 +3,15 @@
  * From nothing to pixels:
  *
  *     host_instance_create -> host_devices_list -> host_device_pick -> host_device_create
- *     host_target_create, host_renderer_create
+ *     host_target_create, host_target_add_splash, host_renderer_create
  *     host_mesh_load + host_renderer_add, host_environment_create + host_renderer_set_environment, ..._set_lights
  *     for each (sub)frame:
  *         host_camera_at (now, and one frame ago)
  *         host_begin_frame            -> virga_frame_begin(context, device.frame, device.completed), step, prepare
  *         host_renderer_plate
- *         host_target_begin_layer     -> virga_rain_draw; the pass keeps the plate's depth, readable as a texture
- *         host_target_end_layer, host_target_copy_out
+ *         host_target_begin_splash    -> virga_splash_draw; the plate's color and depth are readable as textures
+ *         host_target_begin_layer     -> virga_rain_draw; the same
+ *         host_target_end_layer (after each), host_target_copy_out
  *         host_submit, host_wait      -> host_target_floats, host_accumulator_add
  *
  * Every function that can fail returns false and leaves one line in `error`.

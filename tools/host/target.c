@@ -1,4 +1,4 @@
-/* target.c - images, the two render passes between them, and copies to the CPU. */
+/* target.c - images, the render passes between them, and copies to the CPU. */
 #include "target.h"
 
 #include <string.h>
@@ -15,7 +15,16 @@ static const struct {
     [HOST_ID] = {VK_FORMAT_R32_UINT, 1, "plate id"},
     [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
     [HOST_LAYER] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "rain layer"},
+    [HOST_SPLASH] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "splash layer"}, /* as the rain's: one pass does for both */
 };
+
+/* What is sampled while layers are drawn, and its layout then. The others are ready to be copied from the start. */
+static bool is_sampled(host_output output, VkImageLayout *layout)
+{
+    *layout = output == HOST_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
+                                   : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return output == HOST_DEPTH || output == HOST_COLOR;
+}
 
 uint32_t host_output_channels(host_output output)
 {
@@ -24,9 +33,12 @@ uint32_t host_output_channels(host_output output)
 
 /* ---- passes ------------------------------------------------------------------------------------------------- */
 
-/* An attachment that is cleared, drawn, and left ready to be copied. */
-static VkAttachmentDescription drawn(host_output output, VkImageLayout final)
+/* An attachment that is cleared, drawn, and left ready to be sampled or copied. */
+static VkAttachmentDescription drawn(host_output output)
 {
+    VkImageLayout final;
+    if (!is_sampled(output, &final))
+        final = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     return (VkAttachmentDescription){
         .format = outputs_table[output].format,
         .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -40,17 +52,17 @@ static VkAttachmentDescription drawn(host_output output, VkImageLayout final)
 }
 
 #define DEPTH_STAGES (VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT)
-#define DEPTH_READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
+#define READERS      (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
 
 static bool create_plate_pass(host_device *device, host_target *target, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[HOST_PLATE_COLORS + 1];
     VkAttachmentReference colors[HOST_PLATE_COLORS];
     for (uint32_t i = 0; i < HOST_PLATE_COLORS; i++) {
-        attachments[i] = drawn((host_output)i, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        attachments[i] = drawn((host_output)i);
         colors[i] = (VkAttachmentReference){i, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     }
-    attachments[HOST_DEPTH] = drawn(HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    attachments[HOST_DEPTH] = drawn(HOST_DEPTH);
     VkAttachmentReference depth = {HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass = {
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
@@ -60,24 +72,23 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
     };
     const VkSubpassDependency dependencies[] = {
         {
-            /* After the copies and the depth reads of the frame before. */
+            /* After the copies of the frame before, and its layers' reads. */
             .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                            DEPTH_STAGES | DEPTH_READERS,
+            .srcStageMask =
+                VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES | READERS,
             .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
             .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
-                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
         },
         {
-            /* Before the copies, the layer's depth test and whoever samples the depth. */
+            /* Before the copies, the layers' depth test and whoever samples depth or color. */
             .dstSubpass = VK_SUBPASS_EXTERNAL,
             .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_STAGES | DEPTH_READERS,
+            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_STAGES | READERS,
             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+            .dstAccessMask =
+                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
         },
     };
     VkRenderPassCreateInfo info = {
@@ -93,11 +104,11 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
     return true;
 }
 
-/* The layer is tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
+/* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
  * as well, its store at the end would be a write that hazards with those reads; only Vulkan 1.3 can store nothing. */
 static bool create_layer_pass(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    const VkAttachmentDescription attachment = drawn(HOST_LAYER, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    const VkAttachmentDescription attachment = drawn(HOST_LAYER);
     const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass = {
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
@@ -171,7 +182,7 @@ static bool create_output(host_device *device, host_target *target, host_output 
 
 static bool create_parts(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+    for (int i = 0; i < HOST_SPLASH; i++)
         if (!create_output(device, target, (host_output)i, error, error_size))
             return false;
     if (!create_plate_pass(device, target, error, error_size) || !create_layer_pass(device, target, error, error_size))
@@ -202,8 +213,16 @@ bool host_target_create(host_device *device, uint32_t width, uint32_t height, ho
     return false;
 }
 
+bool host_target_add_splash(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    return create_output(device, target, HOST_SPLASH, error, error_size) &&
+           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_SPLASH].view, 1,
+                              &target->splash_framebuffer, error, error_size);
+}
+
 void host_target_destroy(host_device *device, host_target *target)
 {
+    vkDestroyFramebuffer(device->device, target->splash_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->layer_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->plate_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->layer_pass, NULL);
@@ -248,11 +267,21 @@ void host_target_end_plate(const host_target *target, VkCommandBuffer cmd)
     vkCmdEndRenderPass(cmd);
 }
 
-void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
+static void begin_layer(const host_target *target, VkCommandBuffer cmd, VkFramebuffer framebuffer)
 {
     VkClearValue clear;
     memset(&clear, 0, sizeof clear);
-    begin_pass(target, cmd, target->layer_pass, target->layer_framebuffer, &clear, 1);
+    begin_pass(target, cmd, target->layer_pass, framebuffer, &clear, 1);
+}
+
+void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
+{
+    begin_layer(target, cmd, target->layer_framebuffer);
+}
+
+void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd)
+{
+    begin_layer(target, cmd, target->splash_framebuffer);
 }
 
 void host_target_end_layer(const host_target *target, VkCommandBuffer cmd)
@@ -261,23 +290,30 @@ void host_target_end_layer(const host_target *target, VkCommandBuffer cmd)
     vkCmdEndRenderPass(cmd);
 }
 
-virga_image host_target_depth(const host_target *target)
+static virga_image sampled(const host_target *target, host_output output)
 {
-    const host_image *depth = &target->images[HOST_DEPTH];
-    const virga_image_state state = {
-        .layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-        .stage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-        .access = VK_ACCESS_SHADER_READ_BIT,
-    };
+    const host_image *image = &target->images[output];
+    virga_image_state state = {.stage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, .access = VK_ACCESS_SHADER_READ_BIT};
+    is_sampled(output, &state.layout);
     return (virga_image){
-        .image = depth->image,
-        .view = depth->view,
-        .format = depth->format,
-        .extent = depth->extent,
+        .image = image->image,
+        .view = image->view,
+        .format = image->format,
+        .extent = image->extent,
         .layers = 1,
         .before = state,
         .after = state,
     };
+}
+
+virga_image host_target_depth(const host_target *target)
+{
+    return sampled(target, HOST_DEPTH);
+}
+
+virga_image host_target_color(const host_target *target)
+{
+    return sampled(target, HOST_COLOR);
 }
 
 void host_target_describe_layer(const host_target *target, virga_target_def *def)
@@ -303,22 +339,36 @@ static void copy_image(const host_target *target, VkCommandBuffer cmd, host_outp
                            &region);
 }
 
+/* To where it can be copied from. */
+static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
+{
+    VkImageLayout layout;
+    if (is_sampled(output, &layout))
+        host_image_barrier(cmd, &target->images[output], layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES | READERS,
+                           VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+/* And back. */
+static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
+{
+    VkImageLayout layout;
+    if (is_sampled(output, &layout))
+        host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, DEPTH_STAGES | READERS,
+                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+}
+
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs)
 {
-    const host_image *depth = &target->images[HOST_DEPTH];
-    const VkImageLayout read_only = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    bool with_depth = outputs & (1u << HOST_DEPTH);
-    if (with_depth)
-        host_image_barrier(cmd, depth, read_only, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, DEPTH_STAGES | DEPTH_READERS,
-                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                           VK_ACCESS_TRANSFER_READ_BIT);
-    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
-        if (outputs & (1u << i))
-            copy_image(target, cmd, (host_output)i);
-    if (with_depth)
-        host_image_barrier(cmd, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, read_only,
-                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, DEPTH_STAGES | DEPTH_READERS,
-                           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++) {
+        if (!(outputs & (1u << i)) || !target->images[i].image)
+            continue;
+        begin_copy(target, cmd, (host_output)i);
+        copy_image(target, cmd, (host_output)i);
+        end_copy(target, cmd, (host_output)i);
+    }
     VkMemoryBarrier to_cpu = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
         .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,

@@ -1,4 +1,4 @@
-/* target.h - what a frame is drawn into: the plate, the rain layer over it, and their way back to the CPU. */
+/* target.h - what a frame is drawn into: the plate, the layers over it, and their way back to the CPU. */
 #ifndef VIRGA_HOST_TARGET_H
 #define VIRGA_HOST_TARGET_H
 
@@ -13,7 +13,8 @@ typedef enum host_output {
     HOST_WATER,    /* XY float: wetness, depth of water (m) */
     HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
     HOST_DEPTH,    /* one float: 0 near to 1 far */
-    HOST_LAYER,    /* RGBA float: premultiplied layer over the plate */
+    HOST_LAYER,    /* RGBA float: premultiplied layer over the plate and the splashes */
+    HOST_SPLASH,   /* RGBA float: premultiplied layer over the plate; there after host_target_add_splash */
     HOST_OUTPUT_COUNT,
 } host_output;
 
@@ -24,27 +25,33 @@ typedef struct host_target {
     host_image images[HOST_OUTPUT_COUNT];
     host_buffer copies[HOST_OUTPUT_COUNT];
     VkRenderPass plate_pass; /* clears and draws color, normal, velocity, water, id and depth */
-    VkRenderPass layer_pass; /* clears the layer; the plate's depth may be sampled */
-    VkFramebuffer plate_framebuffer, layer_framebuffer;
+    VkRenderPass layer_pass; /* clears a layer; the plate's color and depth may be sampled */
+    VkFramebuffer plate_framebuffer, layer_framebuffer, splash_framebuffer;
 } host_target;
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
                         size_t error_size);
 void host_target_destroy(host_device *device, host_target *target);
 
+/* Adds the layer of splashes. Drawing into it is as drawing into the other: one virga_target does for both. */
+bool host_target_add_splash(host_device *device, host_target *target, char *error, size_t error_size);
+
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd);
-void host_target_end_layer(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd);
+void host_target_end_layer(const host_target *target, VkCommandBuffer cmd); /* either of them */
 
-/* The plate's depth as Virga sees it while the layer is drawn. */
+/* The plate's depth and color as Virga sees them while layers are drawn. */
 virga_image host_target_depth(const host_target *target);
+virga_image host_target_color(const host_target *target);
 
 /* What virga_target_create needs for the layer pass: fills render pass and formats into a default definition. */
 void host_target_describe_layer(const host_target *target, virga_target_def *def);
 
-/* Records copies of the outputs whose bit (1u << output) is set. After rendering; once in a command buffer. */
+/* Records copies of the outputs whose bit (1u << output) is set and that are there. After rendering; once in a command
+ * buffer. */
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs);
 
 /* Pixels of an output that was copied out, once the device has completed it: rows from the top, tightly packed,

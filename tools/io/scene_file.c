@@ -208,6 +208,8 @@ static bool check_together(scene_document *document, const scene_file *scene)
     if (scene->frames.last < scene->frames.first)
         return refuse(document, "frames.last", "expected at least frames.first (%u), got %u", scene->frames.first,
                       scene->frames.last);
+    if (scene->splash.on && !scene->ground.on)
+        return refuse(document, "splash.on", "expected ground.on: true too, as it is the ground that drops splash on");
     return check_camera(document, &scene->camera) && check_lights(document, scene) &&
            check_rain(document, &scene->rain);
 }

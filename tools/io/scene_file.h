@@ -1,8 +1,9 @@
 /* scene_file.h - scene files: YAML by schema, checked to the last key.
  *
- * A file names meshes, an environment, lights, a camera's path, the frames to render and the rain. All lengths in
- * metres, angles in degrees, Y up. Every key but `virga` and `camera.keys` has a default; see scene_schema.c for the
- * ranges and defaults. What is wrong is told in one line with file, line and key:
+ * A file names meshes, an environment, lights, a camera's path, the frames to render, the rain, the ground that it wets
+ * and the splashes that it makes there. All lengths in metres, angles in degrees, Y up. Every key but `virga` and
+ * `camera.keys` has a default; see scene_schema.c for the ranges and defaults. What is wrong is told in one line with
+ * file, line and key:
  *
  *     street.yaml:12: rain.rate_mm_h: expected a number from 0 to 200, got 'lots'
  */
@@ -116,6 +117,21 @@ typedef struct scene_ground {
     uint32_t material_count;
 } scene_ground;
 
+typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYSICAL } scene_splash_mode;
+typedef enum scene_splash_style { SCENE_SPLASH_STYLE_PAPER, SCENE_SPLASH_STYLE_FILM } scene_splash_style;
+
+typedef struct scene_splash {
+    bool on;        /* only where the ground is on too */
+    uint32_t mode;  /* scene_splash_mode */
+    uint32_t style; /* scene_splash_style */
+    uint32_t max_splashes, max_droplets;
+    double droplets_m;
+    double bounce;
+    double pile_s, pile_m;
+    double dot_mm;
+    double gain, light_gain, min_width_px, soft_m, near_m;
+} scene_splash;
+
 typedef struct scene_file {
     uint32_t version;
     scene_mesh *meshes;
@@ -128,6 +144,7 @@ typedef struct scene_file {
     scene_preview preview;
     scene_rain rain;
     scene_ground ground;
+    scene_splash splash;
     uint64_t hash; /* see scene_file_hash */
 } scene_file;
 
@@ -144,6 +161,10 @@ void scene_file_free(scene_file *scene);
  * same for the same scene anywhere, another one where any of them was changed. Included files of a mesh (textures beside
  * it) do not count. */
 uint64_t scene_file_hash(const scene_file *scene);
+
+/* The words that a file has for them. */
+const char *scene_splash_mode_name(uint32_t mode);
+const char *scene_splash_style_name(uint32_t style);
 
 /* Rate and wind at a time, from the rain's keys or without them. */
 void scene_file_weather(const scene_file *scene, double time_s, double *rate_mm_h, double wind_m_s[3]);

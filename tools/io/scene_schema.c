@@ -150,6 +150,34 @@ static const cyaml_schema_field_t ground_fields[] = {
     CYAML_FIELD_END,
 };
 
+static const cyaml_strval_t splash_modes[] = {
+    {"paper", SCENE_SPLASH_MODE_PAPER},
+    {"physical", SCENE_SPLASH_MODE_PHYSICAL},
+};
+static const cyaml_strval_t splash_styles[] = {
+    {"paper", SCENE_SPLASH_STYLE_PAPER},
+    {"film", SCENE_SPLASH_STYLE_FILM},
+};
+static const cyaml_schema_field_t splash_fields[] = {
+    CYAML_FIELD_BOOL("on", D, scene_splash, on),
+    CHOICE(scene_splash, mode, splash_modes),
+    CHOICE(scene_splash, style, splash_styles),
+    WHOLE(scene_splash, max_splashes),
+    WHOLE(scene_splash, max_droplets),
+    NUMBER(scene_splash, droplets_m),
+    NUMBER(scene_splash, bounce),
+    NUMBER(scene_splash, pile_s),
+    NUMBER(scene_splash, pile_m),
+    NUMBER(scene_splash, dot_mm),
+    NUMBER(scene_splash, gain),
+    NUMBER(scene_splash, light_gain),
+    NUMBER(scene_splash, min_width_px),
+    NUMBER(scene_splash, soft_m),
+    NUMBER(scene_splash, near_m),
+    CYAML_FIELD_END,
+};
+
+/* The ground stands before the splashes, which take a default from it. */
 static const cyaml_schema_field_t scene_fields[] = {
     CYAML_FIELD_UINT("virga", D, scene_file, version),
     LIST("meshes", scene_file, meshes, mesh_count, &mesh, 0, 1024),
@@ -160,6 +188,7 @@ static const cyaml_schema_field_t scene_fields[] = {
     GROUP(scene_file, preview, preview_fields),
     GROUP(scene_file, rain, rain_fields),
     GROUP(scene_file, ground, ground_fields),
+    GROUP(scene_file, splash, splash_fields),
     CYAML_FIELD_END,
 };
 const cyaml_schema_value_t scene_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, scene_file, scene_fields)};
@@ -258,7 +287,47 @@ static const scene_rule rules[] = {
     {"ground.materials[].match", 0, 0, NULL},
     {"ground.materials[].material", 0, 0, NULL},
     {"ground.materials[].walkable", 0, 0, "true"},
+
+    /* Ranges and defaults of the splashes are the library's own: virga/splash.h. */
+    {"splash", 0, 0, "{}"},
+    {"splash.on", 0, 0, "@ground.on"},
+    {"splash.mode", 0, 0, "physical"},
+    {"splash.style", 0, 0, "film"},
+    {"splash.max_splashes", 256, 1048576, "65536"},
+    {"splash.max_droplets", 256, 4194304, "131072"},
+    {"splash.droplets_m", 0, 1000, "2.5"},
+    {"splash.bounce", 0, 1, "0.25"},
+    {"splash.pile_s", 0.001, 0.2, "0.012"},
+    {"splash.pile_m", 0.001, 0.2, "0.008"},
+    {"splash.dot_mm", 0.05, 5, "0.5"},
+    {"splash.gain", 0, 100, "1"},
+    {"splash.light_gain", 0, 100, "1"},
+    {"splash.min_width_px", 0.5, 4, "1"},
+    {"splash.soft_m", 0, 1, "0.002"},
+    {"splash.near_m", 0, 5, "0.05"},
 };
+
+/* ---- words ----------------------------------------------------------------------------------------------------- */
+
+static const char *word_of(const cyaml_strval_t *words, size_t count, uint32_t value)
+{
+    for (size_t i = 0; i < count; i++)
+        if (words[i].val == (int64_t)value)
+            return words[i].str;
+    return "";
+}
+
+const char *scene_splash_mode_name(uint32_t mode)
+{
+    return word_of(splash_modes, CYAML_ARRAY_LEN(splash_modes), mode);
+}
+
+const char *scene_splash_style_name(uint32_t style)
+{
+    return word_of(splash_styles, CYAML_ARRAY_LEN(splash_styles), style);
+}
+
+/* ---- finding --------------------------------------------------------------------------------------------------- */
 
 const scene_rule *scene_rules(size_t *count)
 {

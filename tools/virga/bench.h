@@ -35,8 +35,17 @@ bool bench_submit(bench *b, double *milliseconds);
 /* Time of a pass of the newest frame; 0 if it was not recorded. */
 double bench_pass_ms(const bench *b, const char *name);
 
+/* What bench_splash measures. */
+typedef struct bench_splash_choice {
+    uint32_t only; /* splashes; 0: the usual numbers */
+    virga_splash_mode mode;
+    virga_splash_style style;
+    bool film_too; /* a short table in that style after the other */
+} bench_splash_choice;
+
 /* Measure and print. `only` 0: the usual sizes. */
 bool bench_rain(bench *b, uint32_t only);
 bool bench_ground(bench *b);
+bool bench_splash(bench *b, const bench_splash_choice *choice);
 
 #endif

@@ -10,15 +10,19 @@
 
 static const option_row rows[] = {
     {"--drops", 0, "N", "rain: measure this many drops only. Default: 1000, 10000, 100000 and 1000000", false},
+    {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
+    {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
+    {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
 };
 
 void bench_help(void)
 {
     printf(
-        "virga bench rain|ground [options]\n\n"
+        "virga bench rain|ground|splash [options]\n\n"
         "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
-        "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n\n"
+        "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
+        "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's table\n\n"
         "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a dispatch and\n"
         "a full fill of the picture in the same run. Absolute times are noisy: compare ratios inside one run.\n\n",
         BENCH_RUNS);
@@ -117,16 +121,40 @@ bool bench_begin(bench *b, VkCommandBuffer *cmd)
            virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
 }
 
+/* Whether the value of an option is the second of its two words; the first where it was not given. */
+static bool second_word(const options *parsed, const char *name, const char *first, const char *second, bool *is_second)
+{
+    const char *value = options_value(parsed, name);
+    *is_second = value && !strcmp(value, second);
+    return !value || *is_second || !strcmp(value, first) ||
+           options_complain("bench", "%s: expected %s or %s, got '%s'", name, first, second, value);
+}
+
+static bool parse_splash(const options *parsed, bench_splash_choice *choice)
+{
+    bool physical, film;
+    *choice = (bench_splash_choice){0};
+    if (!options_uint(parsed, "--splashes", 1, 1000000, &choice->only) ||
+        !second_word(parsed, "--mode", "paper", "physical", &physical) ||
+        !second_word(parsed, "--style", "paper", "film", &film))
+        return false;
+    choice->mode = physical ? VIRGA_SPLASH_MODE_PHYSICAL : VIRGA_SPLASH_MODE_PAPER;
+    choice->style = film ? VIRGA_SPLASH_STYLE_FILM : VIRGA_SPLASH_STYLE_PAPER;
+    choice->film_too = !choice->only && !options_value(parsed, "--style");
+    return true;
+}
+
 int bench_run(int argc, char **argv)
 {
     options parsed;
     uint32_t only = 0;
+    bench_splash_choice splashes;
     if (!options_parse(&parsed, "bench", rows, sizeof rows / sizeof rows[0], argc, argv) ||
-        !options_uint(&parsed, "--drops", 1024, 4194304, &only))
+        !options_uint(&parsed, "--drops", 1024, 4194304, &only) || !parse_splash(&parsed, &splashes))
         return EXIT_USAGE;
     const char *what = parsed.argument_count == 1 ? parsed.arguments[0] : "";
-    if (strcmp(what, "rain") && strcmp(what, "ground")) {
-        options_complain("bench", "expected what to measure: rain or ground");
+    if (strcmp(what, "rain") && strcmp(what, "ground") && strcmp(what, "splash")) {
+        options_complain("bench", "expected what to measure: rain, ground or splash");
         return EXIT_USAGE;
     }
     bench *b = calloc(1, sizeof *b);
@@ -136,7 +164,9 @@ int bench_run(int argc, char **argv)
     if (good)
         printf("virga %s on %s (%s), medians of %d\n", virga_version(), b->info.name, b->info.driver, BENCH_RUNS);
     if (good)
-        good = !strcmp(what, "rain") ? bench_rain(b, only) : bench_ground(b);
+        good = !strcmp(what, "rain")     ? bench_rain(b, only)
+               : !strcmp(what, "ground") ? bench_ground(b)
+                                         : bench_splash(b, &splashes);
     close_bench(b);
     free(b);
     return !good ? EXIT_FAILED : interrupt_asked() ? EXIT_INTERRUPTED : EXIT_OK;

@@ -59,6 +59,21 @@ static bool check_files(const scene_file *scene)
     return check_environment(scene->environment.file);
 }
 
+static void print_ground(const scene_file *scene)
+{
+    const scene_ground *ground = &scene->ground;
+    const scene_splash *splash = &scene->splash;
+    if (ground->on)
+        printf("  ground       %u x %u cells of %g m\n", ground->cells, ground->cells, ground->cell_m);
+    else
+        printf("  ground       off\n");
+    if (splash->on)
+        printf("  splash       %s, %s style, %u splashes, %u droplets\n", scene_splash_mode_name(splash->mode),
+               scene_splash_style_name(splash->style), splash->max_splashes, splash->max_droplets);
+    else
+        printf("  splash       off\n");
+}
+
 int check_run(int argc, char **argv)
 {
     options parsed;
@@ -79,6 +94,7 @@ int check_run(int argc, char **argv)
            scene->frames.fps, scene->frames.size[0], scene->frames.size[1]);
     printf("  rain         %g mm/h, %u drops, seed %u\n", scene->rain.rate_mm_h, scene->rain.max_drops,
            scene->rain.seed);
+    print_ground(scene);
     printf("  lights       %u\n", scene->light_count);
     const bool good = check_files(scene);
     scene_file_free(scene);

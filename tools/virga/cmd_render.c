@@ -25,9 +25,12 @@ static const option_row rows[] = {
      "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
      "Default 1; 16 for film",
      false},
-    {"--layers", 0, "A,B", "of beauty, depth, rain, velocity, normal, id, wetness, waterdepth. Default: all", false},
-    {"--points", 0, NULL, "also write rain.%04d.ply, a point cache of the drops", false},
-    {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, water, milliseconds", false},
+    {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
+    {"--points", 0, NULL,
+     "also write point caches: rain.%04d.ply of the drops and, where the scene has splashes, "
+     "splash.%04d.ply of their droplets",
+     false},
+    {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, splashes, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
     {"--resume", 0, NULL,
      "render only what is not there yet; refuses a folder in which these frames are of another "
@@ -43,10 +46,11 @@ static const option_row rows[] = {
 void render_help(void)
 {
     printf("virga render SCENE.yaml -o DIR [options]\n\n"
-           "Renders a scene to DIR/frame.%%04d.exr: the beauty (R G B A: rain over the plate), the rain alone as a\n"
-           "premultiplied layer (rain.RGBA), depth in metres (Z), velocity in pixels a frame, normals and object ids.\n"
+           "Renders a scene to DIR/frame.%%04d.exr: the beauty, and in layers beside it all that it is made of.\n"
            "The same scene, seed and frame give the same file, however many frames are rendered before it.\n\n");
     options_print(rows, ROW_COUNT);
+    printf("\nLayers, and their channels:\n");
+    frame_layers_help();
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
@@ -106,9 +110,7 @@ static bool load_scene(render_job *job)
         fprintf(stderr, "%s\n", job->error);
         return false;
     }
-    if (!job->scene->ground.on)
-        job->layers &= ~(uint32_t)(LAYER_WETNESS | LAYER_DEPTHS);
-    return job->layers || options_complain("render", "--layers: the scene has no ground; expected ground.on: true");
+    return frame_layers_narrow(job->scene, &job->layers);
 }
 
 static bool read_ranges(render_job *job)

@@ -6,48 +6,125 @@
 #include "ply.h"
 #include "png.h"
 #include "suggest.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const layer_names[] = {"beauty", "depth", "rain",    "velocity",
-                                          "normal", "id",    "wetness", "waterdepth"};
+/* ---- layers */
 
-#define LAYER_COUNT (sizeof layer_names / sizeof layer_names[0])
+/* In the order of lists; bit 1u << index of masks. */
+enum {
+    LAYER_BEAUTY,
+    LAYER_DEPTH,
+    LAYER_RAIN,
+    LAYER_SPLASH,
+    LAYER_VELOCITY,
+    LAYER_NORMAL,
+    LAYER_ID,
+    LAYER_WETNESS,
+    LAYER_WATER_DEPTH,
+    LAYER_COUNT,
+};
+
+#define ALL_LAYERS ((1u << LAYER_COUNT) - 1)
+
+typedef enum layer_need { NEEDS_NOTHING, NEEDS_GROUND, NEEDS_SPLASH } layer_need; /* of the scene */
+
+typedef struct layer_row {
+    const char *name;
+    const char *channels[4];
+    exr_sample type;
+    layer_need needs;
+    const char *help;
+} layer_row;
+
+/* The one list of layers. */
+static const layer_row layer_rows[LAYER_COUNT] = {
+    [LAYER_BEAUTY] =
+        {"beauty", {"R", "G", "B", "A"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "the rain over the splashes over the plate"},
+    [LAYER_DEPTH] = {"depth", {"Z"}, EXR_SAMPLE_FLOAT, NEEDS_NOTHING, "metres from the camera"},
+    [LAYER_RAIN] = {"rain",
+                    {"rain.R", "rain.G", "rain.B", "rain.A"},
+                    EXR_SAMPLE_HALF,
+                    NEEDS_NOTHING,
+                    "the falling drops alone, premultiplied"},
+    [LAYER_SPLASH] = {"splash",
+                      {"splash.R", "splash.G", "splash.B", "splash.A"},
+                      EXR_SAMPLE_HALF,
+                      NEEDS_SPLASH,
+                      "the splashes alone, premultiplied"},
+    [LAYER_VELOCITY] = {"velocity",
+                        {"velocity.X", "velocity.Y"},
+                        EXR_SAMPLE_HALF,
+                        NEEDS_NOTHING,
+                        "of the plate, in pixels a frame, right and down"},
+    [LAYER_NORMAL] =
+        {"normal", {"normal.X", "normal.Y", "normal.Z"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "of the plate, in the world"},
+    [LAYER_ID] = {"id", {"id.Y"}, EXR_SAMPLE_UINT, NEEDS_NOTHING, "of the plate's objects; the sky is 0"},
+    [LAYER_WETNESS] = {"wetness", {"wetness.Y"}, EXR_SAMPLE_HALF, NEEDS_GROUND, "of the ground, 0 to 1"},
+    [LAYER_WATER_DEPTH] =
+        {"waterdepth", {"waterdepth.Y"}, EXR_SAMPLE_FLOAT, NEEDS_GROUND, "metres of water on the ground"},
+};
+
+/* A name that no layer has. */
+static bool refuse_layer(const char *word)
+{
+    const char *names[LAYER_COUNT];
+    char all[256];
+    for (uint32_t i = 0; i < LAYER_COUNT; i++)
+        names[i] = layer_rows[i].name;
+    const char *near = suggest_nearest(word, names, LAYER_COUNT);
+    frame_layers_print(ALL_LAYERS, all, sizeof all);
+    return options_complain("render", "--layers: no layer '%s'%s%s; there are %s", word, near ? "; did you mean " : "",
+                            near ? near : "", all);
+}
 
 bool frame_layers_parse(const char *list, uint32_t *layers)
 {
-    *layers = list ? 0 : LAYER_ALL;
+    *layers = list ? 0 : ALL_LAYERS;
     while (list && *list) {
         char word[32];
         const size_t length = strcspn(list, ",");
         snprintf(word, sizeof word, "%.*s", (int)length, list);
-        size_t i = 0;
-        while (i < LAYER_COUNT && strcmp(word, layer_names[i]))
+        uint32_t i = 0;
+        while (i < LAYER_COUNT && strcmp(word, layer_rows[i].name))
             i++;
-        if (i == LAYER_COUNT) {
-            const char *near = suggest_nearest(word, layer_names, LAYER_COUNT);
-            return options_complain("render",
-                                    "--layers: no layer '%s'%s%s; there are beauty, depth, rain, velocity, "
-                                    "normal, id, wetness, waterdepth",
-                                    word, near ? "; did you mean " : "", near ? near : "");
-        }
+        if (i == LAYER_COUNT)
+            return refuse_layer(word);
         *layers |= 1u << i;
         list += length + (list[length] == ',');
     }
     return *layers || options_complain("render", "--layers: expected at least one layer");
 }
 
+bool frame_layers_narrow(const scene_file *scene, uint32_t *layers)
+{
+    const char *lacking = "";
+    for (uint32_t i = 0; i < LAYER_COUNT; i++) {
+        const bool there = layer_rows[i].needs == NEEDS_GROUND   ? scene->ground.on
+                           : layer_rows[i].needs == NEEDS_SPLASH ? scene->splash.on
+                                                                 : true;
+        if (there || !(*layers & 1u << i))
+            continue;
+        lacking = layer_rows[i].needs == NEEDS_GROUND ? "ground; expected ground.on: true"
+                                                      : "splashes; expected splash.on: true";
+        *layers &= ~(1u << i);
+    }
+    return *layers || options_complain("render", "--layers: the scene has no %s", lacking);
+}
+
 uint32_t frame_layers_in(const char *channels)
 {
-    static const char *const first[LAYER_COUNT] = {",R,",        ",Z,",    ",rain.R,",    ",velocity.X,",
-                                                   ",normal.X,", ",id.Y,", ",wetness.Y,", ",waterdepth.Y,"};
     uint32_t layers = 0;
-    for (size_t i = 0; i < LAYER_COUNT; i++)
-        if (strstr(channels, first[i]))
+    for (uint32_t i = 0; i < LAYER_COUNT; i++) {
+        char first[EXR_MAX_NAME + 3];
+        snprintf(first, sizeof first, ",%s,", layer_rows[i].channels[0]);
+        if (strstr(channels, first))
             layers |= 1u << i;
+    }
     return layers;
 }
 
@@ -55,57 +132,82 @@ void frame_layers_print(uint32_t layers, char *text, size_t size)
 {
     size_t used = 0;
     snprintf(text, size, "none");
-    for (size_t i = 0; i < LAYER_COUNT && used < size; i++)
+    for (uint32_t i = 0; i < LAYER_COUNT && used < size; i++)
         if (layers & 1u << i)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer_names[i]);
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer_rows[i].name);
+}
+
+void frame_layers_help(void)
+{
+    for (uint32_t i = 0; i < LAYER_COUNT; i++) {
+        const layer_row *row = &layer_rows[i];
+        char channels[64] = "";
+        for (uint32_t c = 0; c < 4 && row->channels[c]; c++) {
+            const char *dot = c ? strchr(row->channels[c], '.') : NULL;
+            const size_t used = strlen(channels);
+            snprintf(channels + used, sizeof channels - used, "%s%s", c ? " " : "", dot ? dot + 1 : row->channels[c]);
+        }
+        printf("      %-12s %-16s %s%s\n", row->name, channels, row->help,
+               row->needs == NEEDS_SPLASH ? ", where the scene has some" : "");
+    }
 }
 
 /* ---- EXR */
 
 typedef struct exr_parts {
-    exr_channel channels[20];
+    exr_channel channels[LAYER_COUNT * 4];
     uint32_t count;
 } exr_parts;
 
-static void add(exr_parts *parts, const char *name, exr_sample type, const void *data, uint32_t stride_values,
-                uint32_t offset)
+/* The first pixel of a layer, and how many values a pixel has there. */
+static const void *layer_pixels(const shot *s, uint32_t layer, const float *beauty, const float *distance,
+                                uint32_t *values)
 {
-    parts->channels[parts->count++] = (exr_channel){
-        .name = name, .type = type, .data = (const char *)data + offset * 4, .stride = stride_values * 4u};
+    const host_accumulator *frame = &s->frame;
+    const struct {
+        const void *pixels;
+        uint32_t values;
+    } rows[LAYER_COUNT] = {
+        [LAYER_BEAUTY] = {beauty, 4},
+        [LAYER_DEPTH] = {distance, 1},
+        [LAYER_RAIN] = {frame->layer, 4},
+        [LAYER_SPLASH] = {frame->splash, 4},
+        [LAYER_VELOCITY] = {frame->velocity, 2},
+        [LAYER_NORMAL] = {frame->normal, 4},
+        [LAYER_ID] = {frame->id, 1},
+        [LAYER_WETNESS] = {frame->water, 2},
+        [LAYER_WATER_DEPTH] = {frame->water + 1, 2},
+    };
+    *values = rows[layer].values;
+    return rows[layer].pixels;
 }
 
 static void collect(const shot *s, uint32_t layers, const float *beauty, const float *distance, exr_parts *parts)
 {
-    static const char *const rgba[4] = {"R", "G", "B", "A"}, *const rain[4] = {"rain.R", "rain.G", "rain.B", "rain.A"},
-                             *const normal[3] = {"normal.X", "normal.Y", "normal.Z"},
-                             *const velocity[2] = {"velocity.X", "velocity.Y"};
-    for (uint32_t i = 0; i < 4; i++) {
-        if (layers & LAYER_BEAUTY)
-            add(parts, rgba[i], EXR_SAMPLE_HALF, beauty, 4, i);
-        if (layers & LAYER_RAIN)
-            add(parts, rain[i], EXR_SAMPLE_HALF, s->frame.layer, 4, i);
-        if (layers & LAYER_NORMAL && i < 3)
-            add(parts, normal[i], EXR_SAMPLE_HALF, s->frame.normal, 4, i);
-        if (layers & LAYER_WETNESS && s->ground && i < 1)
-            add(parts, "wetness.Y", EXR_SAMPLE_HALF, s->frame.water, 2, 0);
-        if (layers & LAYER_DEPTHS && s->ground && i < 1)
-            add(parts, "waterdepth.Y", EXR_SAMPLE_FLOAT, s->frame.water, 2, 1);
-        if (layers & LAYER_VELOCITY && i < 2)
-            add(parts, velocity[i], EXR_SAMPLE_HALF, s->frame.velocity, 2, i);
+    for (uint32_t layer = 0; layer < LAYER_COUNT; layer++) {
+        const layer_row *row = &layer_rows[layer];
+        uint32_t values;
+        const char *pixels = layer_pixels(s, layer, beauty, distance, &values);
+        if (!(layers & 1u << layer))
+            continue;
+        for (size_t c = 0; c < 4 && row->channels[c]; c++)
+            parts->channels[parts->count++] = (exr_channel){
+                .name = row->channels[c], .type = row->type, .data = pixels + c * 4, .stride = values * 4u};
     }
-    if (layers & LAYER_DEPTH)
-        add(parts, "Z", EXR_SAMPLE_FLOAT, distance, 1, 0);
-    if (layers & LAYER_ID)
-        add(parts, "id.Y", EXR_SAMPLE_UINT, s->frame.id, 1, 0);
 }
 
-/* The rain over the plate. */
+static float over(const float *layer, size_t c, float below)
+{
+    return layer[c] + below * (1 - layer[3]);
+}
+
+/* The rain over the splashes over the plate. Without splashes their layer is zero. */
 static void compose(const shot *s, float *beauty)
 {
-    const size_t pixels = (size_t)s->frame.width * s->frame.height;
-    for (size_t i = 0; i < pixels; i++)
+    const size_t values = (size_t)s->frame.width * s->frame.height * 4;
+    for (size_t i = 0; i < values; i += 4)
         for (size_t c = 0; c < 4; c++)
-            beauty[i * 4 + c] = s->frame.layer[i * 4 + c] + s->frame.color[i * 4 + c] * (1 - s->frame.layer[i * 4 + 3]);
+            beauty[i + c] = over(&s->frame.layer[i], c, over(&s->frame.splash[i], c, s->frame.color[i + c]));
 }
 
 static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32_t frame, exr_attribute *out,
@@ -180,31 +282,85 @@ bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *e
     return written;
 }
 
-bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+/* ---- points */
+
+/* By system, in the order of frame_points_name. */
+static const char *const points_names[] = {"rain.%04u.ply", "splash.%04u.ply"};
+
+const char *frame_points_name(const scene_file *scene, uint32_t system)
+{
+    const uint32_t count = scene->splash.on ? 2 : 1;
+    return system < count ? points_names[system] : NULL;
+}
+
+static bool write_points(const char *directory, uint32_t system, uint32_t frame, const ply_property *properties,
+                         uint32_t property_count, const void *rows, size_t stride, uint32_t count, const char *comment,
+                         char *error, size_t error_size)
+{
+    const char *const comments[] = {comment, NULL};
+    char path[4096], name[64];
+    snprintf(name, sizeof name, points_names[system], frame);
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    return ply_write(path, properties, property_count, rows, stride, count, comments, error, error_size);
+}
+
+#define AT(type, member, place) (offsetof(type, member) + 4 * (place))
+
+static bool write_drops(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     static const ply_property properties[] = {
-        {"x", PLY_FLOAT, offsetof(shot_point, position)},      {"y", PLY_FLOAT, offsetof(shot_point, position) + 4},
-        {"z", PLY_FLOAT, offsetof(shot_point, position) + 8},  {"vx", PLY_FLOAT, offsetof(shot_point, velocity)},
-        {"vy", PLY_FLOAT, offsetof(shot_point, velocity) + 4}, {"vz", PLY_FLOAT, offsetof(shot_point, velocity) + 8},
-        {"radius", PLY_FLOAT, offsetof(shot_point, radius_m)}, {"id", PLY_UINT, offsetof(shot_point, id)},
-        {"age", PLY_FLOAT, offsetof(shot_point, age_s)},       {"weight", PLY_FLOAT, offsetof(shot_point, weight)},
+        {"x", PLY_FLOAT, AT(shot_point, position, 0)},      {"y", PLY_FLOAT, AT(shot_point, position, 1)},
+        {"z", PLY_FLOAT, AT(shot_point, position, 2)},      {"vx", PLY_FLOAT, AT(shot_point, velocity, 0)},
+        {"vy", PLY_FLOAT, AT(shot_point, velocity, 1)},     {"vz", PLY_FLOAT, AT(shot_point, velocity, 2)},
+        {"radius", PLY_FLOAT, AT(shot_point, radius_m, 0)}, {"id", PLY_UINT, AT(shot_point, id, 0)},
+        {"age", PLY_FLOAT, AT(shot_point, age_s, 0)},       {"weight", PLY_FLOAT, AT(shot_point, weight, 0)},
     };
-    static const char *const comments[] = {"virga rain: metres, seconds; weight is the drops that a point stands for",
-                                           NULL};
     shot_point *points;
     uint32_t count;
-    char path[4096];
-    if (!shot_points(s, &points, &count, error, error_size))
-        return false;
-    snprintf(path, sizeof path, "%s/rain.%04u.ply", directory, frame);
-    const bool written = ply_write(path, properties, sizeof properties / sizeof properties[0], points, sizeof *points,
-                                   count, comments, error, error_size);
+    const bool written =
+        shot_points(s, &points, &count, error, error_size) &&
+        write_points(directory, 0, frame, properties, sizeof properties / sizeof properties[0], points, sizeof *points,
+                     count, "virga rain: metres, seconds; weight is the drops that a point stands for", error,
+                     error_size);
     free(points);
     return written;
 }
 
-/* The budget: start + rained_total = elsewhere + absorbed + film + puddle + run_off + evaporated + kept + forgotten, to
- * the last nanolitre. */
+static bool write_droplets(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    static const ply_property properties[] = {
+        {"x", PLY_FLOAT, AT(shot_droplet, position, 0)},        {"y", PLY_FLOAT, AT(shot_droplet, position, 1)},
+        {"z", PLY_FLOAT, AT(shot_droplet, position, 2)},        {"vx", PLY_FLOAT, AT(shot_droplet, velocity, 0)},
+        {"vy", PLY_FLOAT, AT(shot_droplet, velocity, 1)},       {"vz", PLY_FLOAT, AT(shot_droplet, velocity, 2)},
+        {"radius", PLY_FLOAT, AT(shot_droplet, radius_m, 0)},   {"id", PLY_UINT, AT(shot_droplet, id, 0)},
+        {"age", PLY_FLOAT, AT(shot_droplet, age_s, 0)},         {"model", PLY_UINT, AT(shot_droplet, model, 0)},
+        {"material", PLY_UINT, AT(shot_droplet, material, 0)},  {"state", PLY_UINT, AT(shot_droplet, state, 0)},
+        {"parent", PLY_UINT, AT(shot_droplet, parent, 0)},      {"index", PLY_UINT, AT(shot_droplet, index, 0)},
+        {"water_ul", PLY_FLOAT, AT(shot_droplet, water_ul, 0)},
+    };
+    shot_droplet *droplets;
+    uint32_t count;
+    const bool written =
+        shot_droplets(s, &droplets, &count, error, error_size) &&
+        write_points(directory, 1, frame, properties, sizeof properties / sizeof properties[0], droplets,
+                     sizeof *droplets, count,
+                     "virga splash: metres, seconds, microlitres; parent is the drop's id; water_ul is of all the "
+                     "droplets that a point stands for",
+                     error, error_size);
+    free(droplets);
+    return written;
+}
+
+bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    return write_drops(s, directory, frame, error, error_size) &&
+           (!s->splash || write_droplets(s, directory, frame, error, error_size));
+}
+
+/* ---- statistics */
+
+/* The budget: start + rained_total = elsewhere + absorbed + film + puddle + run_off + evaporated + kept + forgotten +
+ * aloft, to the last nanolitre. What is aloft flew up in splashes and has not fallen back. */
 static void write_water(shot *s, jsonl *stats, const virga_rain_stats *rain)
 {
     static const char *const states[VIRGA_GROUND_STATES] = {"none",       "dry",        "wet",
@@ -224,6 +380,7 @@ static void write_water(shot *s, jsonl *stats, const virga_rain_stats *rain)
         jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
         jsonl_number(stats, "kept", (double)g.kept_nl * 1e-3);
         jsonl_number(stats, "forgotten", (double)g.forgotten_nl * 1e-3);
+        jsonl_number(stats, "aloft", (double)(g.flown_nl - g.returned_nl) * 1e-3);
     }
     jsonl_end(stats);
     if (!s->ground)
@@ -234,29 +391,72 @@ static void write_water(shot *s, jsonl *stats, const virga_rain_stats *rain)
     jsonl_end(stats);
 }
 
+/* Splashes of a model by what they are on. Materials without a name count as the default one. */
+static void write_materials(jsonl *stats, uint32_t model, const uint64_t counts[VIRGA_GROUND_MATERIALS])
+{
+    const char *other = host_material_name(0);
+    jsonl_begin_object(stats, host_splash_model_name(model));
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
+        uint64_t count = counts[i];
+        if (i && host_material_name(i) == other)
+            continue;
+        for (uint32_t more = 1; !i && more < VIRGA_GROUND_MATERIALS; more++)
+            count += host_material_name(more) == other ? counts[more] : 0;
+        if (count)
+            jsonl_uint64(stats, host_material_name(i), count);
+    }
+    jsonl_end(stats);
+}
+
+static void write_splash(shot *s, jsonl *stats)
+{
+    virga_splash_stats splash;
+    if (!s->splash)
+        return;
+    virga_splash_stats_get(s->splash, &splash);
+    jsonl_begin_object(stats, "splash");
+    jsonl_begin_object(stats, "splashes");
+    for (uint32_t model = VIRGA_SPLASH_NONE + 1; model < VIRGA_SPLASH_MODELS; model++)
+        write_materials(stats, model, splash.splashes[model]);
+    jsonl_end(stats);
+    jsonl_uint64(stats, "splashes_alive", splash.splashes_alive);
+    jsonl_uint64(stats, "droplets_alive", splash.droplets_alive);
+    jsonl_uint64(stats, "droplets", splash.droplets);
+    jsonl_uint64(stats, "fallen", splash.fallen);
+    jsonl_uint64(stats, "crowded", splash.crowded);
+    jsonl_uint64(stats, "sprites", splash.sprites);
+    jsonl_end(stats);
+}
+
+static void write_rain(const shot *s, jsonl *stats, const virga_rain_stats *rain)
+{
+    jsonl_begin_object(stats, "rain");
+    jsonl_number(stats, "rate_mm_h", (double)s->settings.rate_mm_h);
+    jsonl_uint64(stats, "slots", rain->slots);
+    jsonl_uint64(stats, "streaks", rain->streaks);
+    jsonl_uint64(stats, "impacts", rain->impacts);
+    jsonl_uint64(stats, "impacts_dropped", rain->impacts_dropped);
+    jsonl_number(stats, "bodies_radius_m", (double)rain->bodies_radius_m);
+    jsonl_begin_array(stats, "wind_m_s");
+    for (int axis = 0; axis < 3; axis++)
+        jsonl_number(stats, NULL, (double)rain->wind_m_s[axis]);
+    jsonl_end(stats);
+    jsonl_end(stats);
+}
+
 bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_t error_size)
 {
     virga_rain_stats rain;
-    virga_pass_time times[32];
+    virga_pass_time times[64];
     virga_memory_stats memory;
     virga_rain_stats_get(s->rain, &rain);
     virga_memory_get(s->context, &memory);
-    const uint32_t passes = virga_timings_get(s->context, times, 32);
+    const uint32_t passes = virga_timings_get(s->context, times, 64);
     jsonl_begin(stats);
     jsonl_uint64(stats, "frame", frame);
     jsonl_number(stats, "time_s", shot_time(s, frame));
-    jsonl_begin_object(stats, "rain");
-    jsonl_number(stats, "rate_mm_h", (double)s->settings.rate_mm_h);
-    jsonl_uint64(stats, "slots", rain.slots);
-    jsonl_uint64(stats, "streaks", rain.streaks);
-    jsonl_uint64(stats, "impacts", rain.impacts);
-    jsonl_uint64(stats, "impacts_dropped", rain.impacts_dropped);
-    jsonl_number(stats, "bodies_radius_m", (double)rain.bodies_radius_m);
-    jsonl_begin_array(stats, "wind_m_s");
-    for (int axis = 0; axis < 3; axis++)
-        jsonl_number(stats, NULL, (double)rain.wind_m_s[axis]);
-    jsonl_end(stats);
-    jsonl_end(stats);
+    write_rain(s, stats, &rain);
+    write_splash(s, stats);
     write_water(s, stats, &rain);
     jsonl_begin_object(stats, "milliseconds");
     for (uint32_t i = 0; i < passes; i++)

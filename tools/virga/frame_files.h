@@ -1,29 +1,23 @@
-/* frame_files.h - what a rendered frame leaves on disk: layered EXR, point cache, preview, a line of statistics. */
+/* frame_files.h - what a rendered frame leaves on disk: layered EXR, point caches, preview, a line of statistics. */
 #ifndef VIRGA_TOOL_FRAME_FILES_H
 #define VIRGA_TOOL_FRAME_FILES_H
 
 #include "jsonl.h"
 #include "shot.h"
 
-/* Layers that may be asked for, in the order of --layers. */
-enum {
-    LAYER_BEAUTY = 1 << 0,   /* R G B A */
-    LAYER_DEPTH = 1 << 1,    /* Z */
-    LAYER_RAIN = 1 << 2,     /* rain.R G B A */
-    LAYER_VELOCITY = 1 << 3, /* velocity.X Y */
-    LAYER_NORMAL = 1 << 4,   /* normal.X Y Z */
-    LAYER_ID = 1 << 5,       /* id.Y */
-    LAYER_WETNESS = 1 << 6,  /* wetness.Y */
-    LAYER_DEPTHS = 1 << 7,   /* waterdepth.Y */
-    LAYER_ALL = (1 << 8) - 1,
-};
-
-/* Bits of a list such as "beauty,rain"; NULL: all. Says one line and returns false for a wrong name. */
+/* Layers are bits; which there are is for frame_files.c to know. Bits of a list such as "beauty,rain"; NULL: all. Says
+ * one line and returns false for a wrong name. */
 bool frame_layers_parse(const char *list, uint32_t *layers);
+
+/* Leaves out the layers that the scene has nothing for. Says one line and returns false where none is left. */
+bool frame_layers_narrow(const scene_file *scene, uint32_t *layers);
 
 /* Layers that a picture with these channels (as exr_header has them) holds, and their list as --layers takes it. */
 uint32_t frame_layers_in(const char *channels);
 void frame_layers_print(uint32_t layers, char *text, size_t size);
+
+/* Prints what layers there are: a line each, with channels. */
+void frame_layers_help(void);
 
 /* Writes s->frame as DIR/frame.%04u.exr. */
 bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
@@ -32,7 +26,10 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
 /* Writes DIR/preview.%04u.png. */
 bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
-/* Writes DIR/rain.%04u.ply. */
+/* Point caches of a scene's frame: "rain.%04u.ply", "splash.%04u.ply"; NULL behind the last. */
+const char *frame_points_name(const scene_file *scene, uint32_t system);
+
+/* Writes all of them to DIR. */
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
 /* Adds the frame's object to stats.jsonl. */

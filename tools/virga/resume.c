@@ -70,8 +70,9 @@ static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, cha
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }
-    *there = (!wish->points || has_file(wish->directory, "rain.%04u.ply", frame)) &&
-             (!wish->preview || has_file(wish->directory, "preview.%04u.png", frame));
+    *there = !wish->preview || has_file(wish->directory, "preview.%04u.png", frame);
+    for (uint32_t i = 0; wish->points && frame_points_name(wish->scene, i); i++)
+        *there = *there && has_file(wish->directory, frame_points_name(wish->scene, i), frame);
     return is_of_wish(wish, path, &header, texts, error, error_size);
 }
 

@@ -1,4 +1,5 @@
-/* shot.c - a scene file brought to life: device, meshes, light, rain; and a frame of it as an average of sub-frames. */
+/* shot.c - a scene file brought to life: device, meshes, light, rain and what it does; and a frame of it as an average
+ * of sub-frames. */
 #include "shot.h"
 
 #include "exr.h"
@@ -7,6 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <virga/shared/random.h>
 
 /* ---- loading */
 
@@ -88,6 +91,15 @@ static void place_mesh(const scene_mesh *mesh, float out[12])
     }
 }
 
+static bool refuse_material(const char *name, char *error, size_t error_size)
+{
+    char all[256] = "";
+    size_t used = 0;
+    for (uint32_t i = 0; used < sizeof all && (!i || host_material_name(i) != host_material_name(0)); i++)
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", host_material_name(i));
+    return host_fail(error, error_size, "ground.materials: no material '%s'; there are %s", name, all);
+}
+
 /* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
 static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *occluders, uint32_t count, char *error,
                         size_t error_size)
@@ -102,11 +114,7 @@ static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *oc
         if (rule == end)
             continue;
         if (rule->material && !host_material_find(rule->material, &occluders[i].material))
-            return host_fail(error, error_size,
-                             "ground.materials: no material '%s'; there are default, asphalt, "
-                             "concrete, stone, brick, grass, sand, soil, wood, metal, glass, water, "
-                             "leaves, cloth, plastic, tile and drain",
-                             rule->material);
+            return refuse_material(rule->material, error, error_size);
         occluders[i].ground = rule->walkable;
     }
     return true;
@@ -128,7 +136,7 @@ static bool load_meshes(shot *s, char *error, size_t error_size)
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
         const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
         const uint32_t taken = more < room ? more : room;
-        if (!apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken, error, error_size))
+        if (!blame_input(s, apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken, error, error_size)))
             return false;
         s->occluder_count += taken;
         if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
@@ -219,7 +227,7 @@ static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error,
     return true;
 }
 
-/* Settings of a time: what the scene file animates is rate and wind. */
+/* What the scene file animates is rate and wind. */
 static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
 {
     const scene_rain *from = &s->scene->rain;
@@ -257,7 +265,46 @@ static bool set_ground(shot *s, char *error, size_t error_size)
     return !s->ground || check(s, virga_ground_set(s->ground, &settings), "setting the ground", error, error_size);
 }
 
-static bool open_rain(shot *s, char *error, size_t error_size)
+/* Lit and carried by the same air as the rain, whose settings are made before. */
+static bool set_splash(shot *s, char *error, size_t error_size)
+{
+    const scene_splash *from = &s->scene->splash;
+    virga_splash_settings settings = virga_default_splash_settings();
+    settings.mode = (virga_splash_mode)from->mode;
+    settings.style = (virga_splash_style)from->style;
+    settings.droplets_m = (float)from->droplets_m;
+    settings.bounce = (float)from->bounce;
+    settings.pile_s = (float)from->pile_s;
+    settings.pile_m = (float)from->pile_m;
+    settings.dot_mm = (float)from->dot_mm;
+    settings.gain = (float)from->gain;
+    settings.light_gain = (float)from->light_gain;
+    settings.min_width_px = (float)from->min_width_px;
+    settings.soft_m = (float)from->soft_m;
+    settings.near_m = (float)from->near_m;
+    settings.air_density = s->settings.air_density;
+    settings.lighting = s->settings.lighting;
+    return !s->splash || check(s, virga_splash_set(s->splash, &settings), "setting the splashes", error, error_size);
+}
+
+/* Settings of a time. */
+static bool set_weather(shot *s, double time_s, char *error, size_t error_size)
+{
+    return set_rain(s, time_s, error, error_size) && set_splash(s, error, error_size);
+}
+
+/* How far ahead the middle of the map of ripples lies: where the camera looks, up to a distance that the lower part of
+ * a wide picture shows. */
+static double ripples_ahead(const shot *s, double time_s)
+{
+    const host_camera_key *key = s->camera_keys;
+    for (uint32_t i = 1; i < s->path.count && s->camera_keys[i].time_s <= time_s; i++)
+        key = &s->camera_keys[i];
+    const double way = hypot(key->look_at_m[0] - key->position_m[0], key->look_at_m[2] - key->position_m[2]);
+    return way < SHOT_RIPPLES_AHEAD_M ? way : SHOT_RIPPLES_AHEAD_M;
+}
+
+static virga_scene_def define_scene(const shot *s)
 {
     const scene_rain *from = &s->scene->rain;
     virga_scene_def def = virga_default_scene_def();
@@ -273,14 +320,25 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     def.ground.cells = s->scene->ground.cells;
     def.ground.cell_m = (float)s->scene->ground.cell_m;
     def.ground.kept_tiles = s->scene->ground.kept_tiles;
-    def.ground.ripple_texel_m = 0.006f;
+    /* A close-up sees finer waves of a smaller place. */
+    def.ground.ripple_texel_m = (float)fmax(0.006 * ripples_ahead(s, 0) / SHOT_RIPPLES_AHEAD_M, 0.002);
+    def.with_splash = s->scene->splash.on;
+    def.splash.max_splashes = s->scene->splash.max_splashes;
+    def.splash.max_droplets = s->scene->splash.max_droplets;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
+    return def;
+}
+
+static bool open_rain(shot *s, char *error, size_t error_size)
+{
+    const virga_scene_def def = define_scene(s);
     if (!check(s, virga_scene_create(s->context, &def, &s->rain_scene), "making the rain", error, error_size))
         return false;
     s->rain = virga_scene_rain(s->rain_scene);
     s->ground = virga_scene_ground(s->rain_scene);
+    s->splash = virga_scene_splash(s->rain_scene);
     s->settings = virga_default_rain_settings();
     if (!set_ground(s, error, error_size))
         return false;
@@ -301,7 +359,7 @@ static bool make_target(shot *s, char *error, size_t error_size)
     const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
     const bool made = host_target_create(&s->device, width, height, &s->target, error, error_size);
     s->input_wrong = !made && (width > limit || height > limit);
-    return made;
+    return made && (!s->scene->splash.on || host_target_add_splash(&s->device, &s->target, error, error_size));
 }
 
 static bool open_all(shot *s, char *error, size_t error_size)
@@ -318,7 +376,7 @@ static bool open_all(shot *s, char *error, size_t error_size)
          !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
         return false;
     return load_meshes(s, error, error_size) && load_environment(s, error, error_size) &&
-           open_rain(s, error, error_size) && set_rain(s, 0, error, error_size);
+           open_rain(s, error, error_size) && set_weather(s, 0, error, error_size);
 }
 
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size)
@@ -352,8 +410,8 @@ void shot_close(shot *s)
         host_environment_destroy(&s->device, &s->environment);
         if (s->target.width)
             host_target_destroy(&s->device, &s->target);
-        if (s->points_read.buffer)
-            host_buffer_destroy(&s->device, &s->points_read);
+        host_buffer_destroy(&s->device, &s->drops_read.buffer);
+        host_buffer_destroy(&s->device, &s->droplets_read.buffer);
         host_device_destroy(&s->device);
     }
     if (s->instance.instance)
@@ -378,18 +436,17 @@ static bool begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size)
                  error_size);
 }
 
-/* Copies the drops of the step just recorded to where the host reads them. */
-static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+/* ---- points */
+
+/* Copies points that the step just recorded has left ready for it to where the host reads them. */
+static bool record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
+                        shot_read *read, char *error, size_t error_size)
 {
-    virga_rain_buffer points;
-    if (!check(s, virga_rain_points(s->rain, cmd, &points, &s->point_count, s->points_origin), "reading drops", error,
-               error_size))
+    if (!read->buffer.buffer &&
+        !host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "points read",
+                            &read->buffer, error, error_size))
         return false;
-    if (!s->points_read.buffer &&
-        !host_buffer_create(&s->device, points.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
-                            "points read", &s->points_read, error, error_size))
-        return false;
-    const VkBufferCopy copy = {points.offset, 0, points.size};
+    const VkBufferCopy copy = {offset, 0, size};
     const VkMemoryBarrier before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                     .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
                                     .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
@@ -398,48 +455,109 @@ static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t erro
                                    .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0,
                          NULL);
-    vkCmdCopyBuffer(cmd, points.buffer, s->points_read.buffer, 1, &copy);
+    vkCmdCopyBuffer(cmd, from, read->buffer.buffer, 1, &copy);
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0,
                          NULL);
     return true;
 }
 
+static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    virga_rain_buffer drops;
+    virga_splash_buffer droplets;
+    shot_read *read = &s->drops_read;
+    if (!check(s, virga_rain_points(s->rain, cmd, &drops, &read->count, read->origin_m), "reading drops", error,
+               error_size) ||
+        !record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
+        return false;
+    read = &s->droplets_read;
+    virga_splash_droplets(s->splash, &droplets, &read->count, read->origin_m);
+    return !s->splash || record_read(s, cmd, droplets.buffer, droplets.offset, droplets.size, read, error, error_size);
+}
+
+/* What was read back, and room for as many points of `size` bytes. */
+static const void *open_read(shot *s, shot_read *read, size_t size, void **room, char *error, size_t error_size)
+{
+    *room = NULL;
+    if (!read->buffer.buffer || !host_wait(&s->device, error, error_size)) {
+        host_fail(error, error_size, "no points were read back");
+        return NULL;
+    }
+    host_buffer_invalidate(&s->device, &read->buffer);
+    *room = malloc(read->count * size + 1);
+    if (*room)
+        return read->buffer.mapped;
+    host_fail(error, error_size, "no memory for %u points", read->count);
+    return NULL;
+}
+
+/* To the world. */
+static void place_point(const shot_read *read, const float position[3], float out[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        out[axis] = (float)((double)position[axis] + read->origin_m[axis]);
+}
+
 bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, size_t error_size)
 {
-    *points = NULL;
+    void *room;
+    const virga_point_gpu *from = open_read(s, &s->drops_read, sizeof **points, &room, error, error_size);
+    *points = room;
     *count = 0;
-    if (!s->points_read.buffer || !host_wait(&s->device, error, error_size))
-        return host_fail(error, error_size, "no drops were read back");
-    host_buffer_invalidate(&s->device, &s->points_read);
-    shot_point *kept = malloc((size_t)s->point_count * sizeof *kept + 1);
-    if (!kept)
-        return host_fail(error, error_size, "no memory for %u drops", s->point_count);
-    const virga_point_gpu *from = s->points_read.mapped;
-    for (uint32_t i = 0; i < s->point_count; i++) {
+    if (!from)
+        return false;
+    for (uint32_t i = 0; i < s->drops_read.count; i++) {
         if (from[i].weight <= 0)
             continue;
-        shot_point *to = &kept[(*count)++];
-        for (int axis = 0; axis < 3; axis++) {
-            to->position[axis] = (float)((double)from[i].position[axis] + s->points_origin[axis]);
-            to->velocity[axis] = from[i].velocity[axis];
-        }
+        shot_point *to = &(*points)[(*count)++];
+        place_point(&s->drops_read, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
         to->radius_m = 0.5f * from[i].diameter_m;
         to->id = from[i].id;
         to->age_s = from[i].age_s;
         to->weight = from[i].weight;
     }
-    *points = kept;
     return true;
 }
 
-/* Where ripples are worth drawing: ahead of the camera, from its feet on. */
-static void place_focus(const host_camera *camera, double focus_m[3])
+bool shot_droplets(shot *s, shot_droplet **droplets, uint32_t *count, char *error, size_t error_size)
 {
+    void *room;
+    const virga_droplet_gpu *from = open_read(s, &s->droplets_read, sizeof **droplets, &room, error, error_size);
+    *droplets = room;
+    *count = 0;
+    if (!from)
+        return false;
+    for (uint32_t i = 0; i < s->droplets_read.count; i++) {
+        if (!(from[i].kind & VIRGA_DROPLET_ALIVE) || from[i].age_s < 0)
+            continue;
+        shot_droplet *to = &(*droplets)[(*count)++];
+        place_point(&s->droplets_read, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->age_s = from[i].age_s;
+        to->model = VIRGA_DROPLET_MODEL(from[i].kind);
+        to->material = VIRGA_DROPLET_MATERIAL(from[i].kind);
+        to->state = VIRGA_DROPLET_STATE(from[i].kind);
+        to->parent = from[i].id;
+        to->index = VIRGA_DROPLET_NUMBER(from[i].kind);
+        to->id = virga_hash2(to->parent, to->index);
+        to->water_ul = (float)(from[i].water_nl * 1e-3);
+    }
+    return true;
+}
+
+/* ---- stepping */
+
+/* Where ripples are worth drawing: ahead of the camera, from its feet on. */
+static void place_focus(const shot *s, const host_camera *camera, double time_s, double focus_m[3])
+{
+    const double ahead_m = ripples_ahead(s, time_s);
     const float *m = camera->view_from_world; /* its third row points back */
     const double back[2] = {(double)m[2], (double)m[10]}, length = hypot(back[0], back[1]);
     memcpy(focus_m, camera->position_m, 3 * sizeof focus_m[0]);
     for (int axis = 0; axis < 2 && length > 1e-3; axis++)
-        focus_m[axis * 2] -= back[axis] / length * SHOT_RIPPLES_AHEAD_M;
+        focus_m[axis * 2] -= back[axis] / length * ahead_m;
 }
 
 /* Time passes to the frame: occlusion around its camera, and the ticks of one frame. */
@@ -452,8 +570,8 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
     virga_scene_frame info = {
         .dt_s = first ? 0 : 1 / s->scene->frames.fps, .occluders = s->occluders, .occluder_count = s->occluder_count};
     memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
-    place_focus(&camera, info.focus_m);
-    if (!set_rain(s, time_s, error, error_size) ||
+    place_focus(s, &camera, time_s, info.focus_m);
+    if (!set_weather(s, time_s, error, error_size) ||
         !check(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size))
         return false;
     s->frame_index++;
@@ -470,6 +588,46 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
         if (s->frame_index >= frame)
             break;
     }
+    return true;
+}
+
+/* ---- drawing */
+
+/* Splashes and rain as a view sees them: each into a layer of its own. The worse of the results. */
+static virga_result prepare(shot *s, VkCommandBuffer cmd, const virga_view *view, double time_s)
+{
+    const virga_result splash = s->splash ? virga_splash_prepare(s->splash, cmd, view, time_s) : VIRGA_OK;
+    return splash < 0 ? splash : virga_rain_prepare(s->rain, cmd, view, time_s);
+}
+
+static virga_result draw_layers(shot *s, VkCommandBuffer cmd)
+{
+    virga_result result = VIRGA_OK;
+    if (s->splash) {
+        host_target_begin_splash(&s->target, cmd);
+        result = virga_splash_draw(s->splash, cmd, s->layer);
+        host_target_end_layer(&s->target, cmd);
+    }
+    host_target_begin_layer(&s->target, cmd);
+    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return result < 0 ? result : rain;
+}
+
+static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view, double rain_s, const host_camera *now,
+                           const host_camera *frame_ago, char *error, size_t error_size)
+{
+    if (!check(s, prepare(s, cmd, view, rain_s), "preparing the rain", error, error_size))
+        return false;
+    if (s->ground) {
+        virga_ground_maps maps;
+        virga_ground_maps_get(s->ground, &maps);
+        host_renderer_set_ground(s->renderer, &maps);
+    }
+    host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
+    if (!check(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
+        return false;
+    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
     return true;
 }
 
@@ -491,23 +649,12 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
     VkCommandBuffer cmd;
     virga_view view = virga_default_view();
     view.depth = host_target_depth(&s->target);
+    view.color = host_target_color(&s->target);
     host_camera_view(&now, &open, part_s, &view);
     const double rain_s = virga_rain_time(s->rain) - (time_s - close_s);
-    if (!begin(s, &cmd, error, error_size))
-        return false;
-    const virga_result prepared = virga_rain_prepare(s->rain, cmd, &view, rain_s);
-    if (s->ground) {
-        virga_ground_maps maps;
-        virga_ground_maps_get(s->ground, &maps);
-        host_renderer_set_ground(s->renderer, &maps);
-    }
-    host_renderer_plate(s->renderer, cmd, &s->target, &now, &frame_ago);
-    host_target_begin_layer(&s->target, cmd);
-    const virga_result drawn = prepared < 0 ? prepared : virga_scene_draw(s->rain_scene, cmd, s->layer);
-    host_target_end_layer(&s->target, cmd);
-    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
-    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size) ||
-        !check(s, drawn, "drawing the rain", error, error_size))
+    if (!begin(s, &cmd, error, error_size) ||
+        !record_picture(s, cmd, &view, rain_s, &now, &frame_ago, error, error_size) ||
+        !host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
         return false;
     host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
     return true;

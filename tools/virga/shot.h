@@ -17,8 +17,15 @@ typedef struct shot_options {
     uint32_t samples; /* sub-frames averaged, at least 1 */
     bool draw;        /* false: simulation only */
     bool stats;       /* sums of water are wanted */
-    bool points;      /* the drops of each stepped frame are read back */
+    bool points;      /* drops and droplets of each stepped frame are read back */
 } shot_options;
+
+/* Points of the newest step, on their way to the host. */
+typedef struct shot_read {
+    host_buffer buffer; /* made on first use */
+    uint32_t count;
+    double origin_m[3]; /* that positions count from */
+} shot_read;
 
 typedef struct shot {
     const scene_file *scene;
@@ -41,11 +48,10 @@ typedef struct shot {
     virga_scene *rain_scene;
     virga_rain *rain;
     virga_ground *ground; /* NULL: none */
-    virga_target *layer;
+    virga_splash *splash; /* NULL: none */
+    virga_target *layer;  /* what rain and splash draw into, each into a layer of its own */
     virga_rain_settings settings;
-    host_buffer points_read; /* of the drops, made on first use */
-    uint32_t point_count;
-    double points_origin[3];
+    shot_read drops_read, droplets_read;
     uint32_t frame_index; /* scene frame that the simulation stands at; first - 1 before any */
     double camera_time_s; /* of the frame that the simulation stands at */
     char warning[512];    /* newest line that the library logged as warning or error */
@@ -58,6 +64,16 @@ typedef struct shot_point {
     uint32_t id;
     float age_s, weight;
 } shot_point;
+
+/* One droplet of a splash. */
+typedef struct shot_droplet {
+    float position[3], velocity[3], radius_m;
+    uint32_t id;
+    float age_s;
+    uint32_t model, material, state; /* of its splash, and of the cell that it came from */
+    uint32_t parent, index;          /* the drop, and which of its droplets this is: id is the hash of both */
+    float water_ul;
+} shot_droplet;
 
 /* Loads everything. On failure nothing is left open, `error` has one line and s->input_wrong says whose fault it is. */
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);
@@ -75,5 +91,8 @@ bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t
 /* The drops of the frame that the simulation stands at, under the open sky, in the world: an array to free(). Needs
  * options.points. */
 bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, size_t error_size);
+
+/* The same with the droplets, those on the tip of a pile among them. Needs splashes too. */
+bool shot_droplets(shot *s, shot_droplet **droplets, uint32_t *count, char *error, size_t error_size);
 
 #endif

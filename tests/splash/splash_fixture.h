@@ -1,0 +1,251 @@
+/* splash_fixture.h - splashes on a device with validation on, with spawns and droplets that a test chooses. */
+#ifndef VIRGA_TESTS_SPLASH_FIXTURE_H
+#define VIRGA_TESTS_SPLASH_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "../host/plate_fixture.h"
+
+#include "splash/splash_internal.h"
+
+#include <virga/shared/random.h>
+#include <virga/virga.h>
+
+#define JUST_BELOW_1 0x1.fffffep-1f /* share of a tick: a drop that falls then leaves its droplets no time to move */
+
+typedef struct splash_fixture {
+    fixture gpu;
+    virga_context *context;
+    virga_splash *splash;
+    virga_splash_settings settings; /* mode paper, all of the wind */
+    host_buffer spawns, upload, download;
+    uint32_t spawn_count; /* of the next step */
+    double camera[3];
+    float wind[3];
+    uint32_t tick;
+    /* Read back. */
+    const virga_splash_state_gpu *state;
+    const virga_droplet_gpu *droplets;
+    const virga_splash_gpu *splashes;
+    const virga_impacts_gpu *returns_head;
+    const virga_impact_gpu *returns;
+} splash_fixture;
+
+#define REQUIRE(condition)                      \
+    do {                                        \
+        if (!(condition))                       \
+            fail_msg("not so: %s", #condition); \
+    } while (0)
+
+static inline void splash_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    (void)user;
+    if (level == VIRGA_LOG_ERROR)
+        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
+}
+
+/* Small rings, and ticks of the default length. */
+static inline virga_splash_def splash_fixture_def(void)
+{
+    virga_splash_def def = virga_default_splash_def();
+    def.max_splashes = 4096;
+    def.max_droplets = 16384;
+    def.max_spawns = 4096;
+    def.max_returns = 16384;
+    return def;
+}
+
+static inline void splash_fixture_buffers(splash_fixture *f)
+{
+    const virga_splash *splash = f->splash;
+    const VkDeviceSize state = splash->state->size, droplets = splash->droplets->size;
+    char *error = f->gpu.error;
+    const size_t size = sizeof f->gpu.error;
+    REQUIRE(host_buffer_create(&f->gpu.device,
+                               sizeof(virga_spawns_gpu) + splash->def.max_spawns * sizeof(virga_spawn_gpu),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                               HOST_BUFFER_UPLOAD, "spawns", &f->spawns, error, size));
+    REQUIRE(host_buffer_create(&f->gpu.device, state + droplets, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD,
+                               "droplets up", &f->upload, error, size));
+    REQUIRE(host_buffer_create(&f->gpu.device, state + droplets + splash->splashes->size + splash->returns->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "droplets down", &f->download,
+                               error, size));
+}
+
+static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def *given)
+{
+    memset(f, 0, sizeof *f);
+    if (!fixture_begin(&f->gpu)) {
+        printf("skipped: %s\n", f->gpu.error);
+        exit(77);
+    }
+    virga_context_def def = virga_default_context_def();
+    def.instance = f->gpu.instance.instance;
+    def.physical_device = f->gpu.device.physical;
+    def.device = f->gpu.device.device;
+    def.queue_family = f->gpu.device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.log = splash_fixture_log;
+    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    const virga_splash_def small = splash_fixture_def();
+    REQUIRE(virga_splash_create(f->context, given ? given : &small, &f->splash) == VIRGA_OK);
+    f->settings = virga_default_splash_settings();
+    f->settings.mode = VIRGA_SPLASH_MODE_PAPER;
+    f->settings.wind_share = 1; /* as the paper has it */
+    REQUIRE(virga_splash_set(f->splash, &f->settings) == VIRGA_OK);
+    splash_fixture_buffers(f);
+}
+
+/* Another splash of the next step: a drop of 2 mm that falls straight at the origin, at the start of the step's first
+ * tick, on level ground of a material in a state. */
+static inline virga_spawn_gpu *splash_fixture_spawn(splash_fixture *f, uint32_t material, uint32_t state)
+{
+    static const float depths_m[VIRGA_GROUND_STATES] = {0, 0, 0.5e-3f, 4e-3f, 7e-3f, 20e-3f};
+    REQUIRE(f->spawn_count < f->splash->def.max_spawns);
+    virga_spawn_gpu *spawn = (virga_spawn_gpu *)((virga_spawns_gpu *)f->spawns.mapped + 1) + f->spawn_count;
+    const uint32_t model = f->settings.rows[material][state].model;
+    *spawn = (virga_spawn_gpu){.velocity = {0, -6.5f, 0},
+                               .diameter_m = 2e-3f,
+                               .normal = {0, 1, 0},
+                               .depth_m = depths_m[state],
+                               .weight = 1,
+                               .drops = 1,
+                               .id = f->spawn_count,
+                               .tick = f->tick,
+                               .water_nl = model == VIRGA_SPLASH_DISK ? 0 : 400,
+                               .random = virga_hash2(f->tick, f->spawn_count),
+                               .kind = state | material << 8 | model << 16};
+    f->spawn_count++;
+    return spawn;
+}
+
+static inline VkCommandBuffer splash_fixture_begin(splash_fixture *f)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    return cmd;
+}
+
+static inline void splash_fixture_submit(splash_fixture *f)
+{
+    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
+}
+
+static inline void splash_fixture_transfers(VkCommandBuffer cmd)
+{
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
+static inline const void *splash_fixture_copy(const splash_fixture *f, VkCommandBuffer cmd, const virga_buffer *from,
+                                              VkDeviceSize *offset)
+{
+    const VkBufferCopy copy = {0, *offset, from->size};
+    const char *there = (const char *)f->download.mapped + *offset;
+    vkCmdCopyBuffer(cmd, from->buffer, f->download.buffer, 1, &copy);
+    *offset += from->size;
+    return there;
+}
+
+static inline void splash_fixture_read(splash_fixture *f, VkCommandBuffer cmd)
+{
+    VkDeviceSize offset = 0;
+    splash_fixture_transfers(cmd);
+    f->state = splash_fixture_copy(f, cmd, f->splash->state, &offset);
+    f->droplets = splash_fixture_copy(f, cmd, f->splash->droplets, &offset);
+    f->splashes = splash_fixture_copy(f, cmd, f->splash->splashes, &offset);
+    f->returns_head = splash_fixture_copy(f, cmd, f->splash->returns, &offset);
+    f->returns = (const virga_impact_gpu *)(f->returns_head + 1);
+}
+
+/* One frame of `ticks` ticks with the spawns set. Reads back everything. */
+static inline void splash_fixture_step(splash_fixture *f, uint32_t ticks)
+{
+    *(virga_spawns_gpu *)f->spawns.mapped = (virga_spawns_gpu){.count = f->spawn_count,
+                                                               .capacity = f->splash->def.max_spawns,
+                                                               .group_count = {(f->spawn_count + 63) / 64, 1, 1},
+                                                               .tick_s = (float)f->splash->def.tick_s,
+                                                               .first_tick = f->tick,
+                                                               .ticks = ticks};
+    const VkCommandBuffer cmd = splash_fixture_begin(f);
+    const virga_splash_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
+                                         .spawns = f->spawns.buffer,
+                                         .first_tick = f->tick,
+                                         .ticks = ticks,
+                                         .wind_m_s = {f->wind[0], f->wind[1], f->wind[2]}};
+    REQUIRE(virga_splash_step(f->splash, cmd, &info) == VIRGA_OK);
+    splash_fixture_read(f, cmd);
+    splash_fixture_submit(f);
+    host_buffer_invalidate(&f->gpu.device, &f->download);
+    f->tick += ticks;
+    f->spawn_count = 0;
+}
+
+/* These droplets are in the air, and nothing else; all counts begin anew. */
+static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu *droplets, uint32_t count)
+{
+    if (!f->splash->started)
+        splash_fixture_step(f, 0);
+    const VkDeviceSize state_size = f->splash->state->size, size = f->splash->droplets->size;
+    virga_splash_state_gpu *state = f->upload.mapped;
+    memset(f->upload.mapped, 0, state_size + size);
+    state->staying = count;
+    if (count)
+        memcpy((char *)f->upload.mapped + state_size, droplets, count * sizeof *droplets);
+    const VkCommandBuffer cmd = splash_fixture_begin(f);
+    splash_fixture_transfers(cmd);
+    const VkBufferCopy copies[2] = {{0, 0, state_size}, {state_size, 0, size}};
+    vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->state->buffer, 1, &copies[0]);
+    vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->droplets->buffer, 1, &copies[1]);
+    splash_fixture_submit(f);
+}
+
+static inline void splash_fixture_clear(splash_fixture *f)
+{
+    splash_fixture_put(f, NULL, 0);
+}
+
+static inline uint64_t splash_fixture_count(const splash_fixture *f, uint32_t index)
+{
+    return (uint64_t)f->state->counts[index].high << 32 | f->state->counts[index].low;
+}
+
+/* Water of all droplets in the air. */
+static inline uint64_t splash_fixture_water(const splash_fixture *f)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < f->state->staying; i++)
+        sum += f->droplets[i].water_nl;
+    return sum;
+}
+
+/* Returns what validation said plus what is still alive: 0 is right. */
+static inline uint32_t splash_fixture_end(splash_fixture *f)
+{
+    virga_splash_destroy(&f->splash);
+    virga_context_destroy(&f->context);
+    host_buffer *buffers[] = {&f->spawns, &f->upload, &f->download};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        if (buffers[i]->buffer)
+            host_buffer_destroy(&f->gpu.device, buffers[i]);
+    if (f->gpu.instance.messages)
+        fprintf(stderr, "validation: %s\n", f->gpu.instance.first_message);
+    return fixture_end(&f->gpu);
+}
+
+static inline void splash_fixture_close(splash_fixture *f)
+{
+    assert_int_equal(splash_fixture_end(f), 0);
+}
+
+#endif
