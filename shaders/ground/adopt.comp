@@ -33,8 +33,9 @@ float bumps_um(ivec2 cell, virga_soil_gpu soil)
 {
     if (soil.bumps_um <= 0.0)
         return 0.0;
-    // Three octaves; cells are taken modulo a large period so that floats stay fine far from the origin.
-    const vec2 at = vec2(cell & 0xfffff) / soil.bump_cells;
+    // Three octaves; cells are taken modulo a large period, with its seam 26 km out, so that floats stay fine far from the
+    // origin.
+    const vec2 at = vec2((cell + 0x80000) & 0xfffff) / soil.bump_cells;
     return soil.bumps_um * (2.4 * noise(at) + 1.2 * noise(2.0 * at + 17.3) + 0.6 * noise(4.0 * at + 5.1));
 }
 
