@@ -120,7 +120,7 @@ static void fill_matrices(const virga_view *view, virga_view_gpu *out)
     const double none[3] = {0, 0, 0};
     clip_from_relative(view->clip_from_view, view->view_from_world, none, out->clip_from_rel);
     /* The open camera may be another time away than the shutter: take the part of its way that the shutter sees. */
-    const double share = view->open_camera_s > 0 ? view->shutter_s / view->open_camera_s : 1;
+    const double share = view->open_camera_s > 0 ? view->shutter_s / view->open_camera_s : view->shutter_s > 0 ? 1 : 0;
     double moved[3];
     for (int i = 0; i < 3; i++)
         moved[i] = (view->position_m[i] - view->open_position_m[i]);

@@ -62,7 +62,7 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     if (def->cells & (def->cells - 1))
         return virga_wrong_argument(log, "ground_def.cells: expected a power of two, got %u", def->cells);
     def->cell_m = (float)virga_clamp_setting(log, "ground_def.cell_m", (double)def->cell_m, 0.01, 0.1, NULL);
-    def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 65536, NULL);
+    def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 60000, NULL);
     const uint32_t tiles = def->cells / VIRGA_GROUND_TILE;
     def->kept_tiles = def->kept_tiles > 2 * tiles * tiles ? def->kept_tiles : 2 * tiles * tiles;
     if (virga_settings_finite(log, "ground_def.ripple_texel_m", &def->ripple_texel_m, 1))
@@ -72,9 +72,9 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
         (float)virga_clamp_setting(log, "ground_def.ripple_texel_m", (double)def->ripple_texel_m, 0.002, 0.05, NULL);
     def->tick_s = virga_clamp_setting(log, "ground_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     def->flow_ticks = virga_clamp_setting_u32(log, "ground_def.flow_ticks", def->flow_ticks, 1, 60, NULL);
-    def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
+    def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194240, NULL);
     def->max_spawns = virga_clamp_setting_u32(log, "ground_def.max_spawns", def->max_spawns, 0, 1048576, NULL);
-    def->max_returns = virga_clamp_setting_u32(log, "ground_def.max_returns", def->max_returns, 0, 4194304, NULL);
+    def->max_returns = virga_clamp_setting_u32(log, "ground_def.max_returns", def->max_returns, 0, 4194240, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "ground_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
     return VIRGA_OK;
@@ -194,7 +194,9 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
     const VkSampler nearest = ground->context->nearest;
     const virga_ground_step_info *info = &ground->info;
     const bool returns = source == GROUND_RETURNS, mapped = info->materials.image.view != VK_NULL_HANDLE;
-    const virga_bound rules = {.buffer = info->splash_rules, .offset = info->splash_rules_offset};
+    const virga_bound rules = {.buffer = info->splash_rules,
+                               .offset = info->splash_rules_offset,
+                               .range = sizeof(virga_splash_rules_gpu)};
     const virga_bound bound[BINDINGS] = {
         {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
         {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},

@@ -136,12 +136,11 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->start_water_um = ground->settings.start_water_mm * 1e3f;
     out->max_spawns = ground->info.splash_rules ? ground->def.max_spawns : 0;
     out->max_impacts = ground->def.max_impacts;
+    out->max_returns = ground->def.max_returns;
     out->tick_in_step = ground->tick_in_step;
     for (int axis = 0; axis < 3; axis++)
         out->camera[axis] = (float)ground->info.camera_m[axis];
     fill_material_map(ground, out);
-    out->tiles_entering = ground->move.entering_count;
-    out->tiles_forgotten = ground->move.forgotten_count;
     ground_fill_soils(&ground->settings, cell, out->soils);
 }
 
@@ -165,6 +164,13 @@ static void bind_source(virga_ground *ground, VkCommandBuffer cmd, uint32_t sour
 static void bind(virga_ground *ground, VkCommandBuffer cmd)
 {
     bind_source(ground, cmd, GROUND_DROPS);
+}
+
+/* Over cells, in rows: see group_index() in shaders/ground/cells.glsl. Groups come in whole tiles. */
+static void dispatch_cells(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
+{
+    ground->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    ground->context->vk.CmdDispatch(cmd, groups / TILE_GROUPS, TILE_GROUPS, 1);
 }
 
 static void dispatch(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
@@ -219,7 +225,7 @@ static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
     const ground_move *move = &ground->move;
     const virga_buffer *cells = ground->cells[ground->parity];
     if (move->forgotten_count) {
-        dispatch(ground, cmd, ground->forget, move->forgotten_count * TILE_GROUPS);
+        dispatch_cells(ground, cmd, ground->forget, move->forgotten_count * TILE_GROUPS);
         transfer_barrier(ground, cmd);
     }
     copy_tiles(ground, cmd, cells, ground->kept_cells, move->leaving, move->leaving_to, move->leaving_count);
@@ -245,7 +251,7 @@ static void survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     view.origin_m[1] = ground->base_m;
     view.top_m = SURVEY_TOP_M;
     virga_mesh_map_draw(ground->context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
-    dispatch(ground, cmd, ground->adopt, ground->move.entering_count * TILE_GROUPS);
+    dispatch_cells(ground, cmd, ground->adopt, ground->move.entering_count * TILE_GROUPS);
     virga_compute_barrier(ground->context, cmd);
 }
 
@@ -345,7 +351,7 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     if (ground->ticks % ground->def.flow_ticks)
         return;
     scope = virga_pass_begin(ground->context, cmd, "ground.flow");
-    dispatch(ground, cmd, ground->flow, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    dispatch_cells(ground, cmd, ground->flow, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
     virga_compute_barrier(ground->context, cmd);
     virga_pass_end(ground->context, cmd, scope);
     ground->parity ^= 1;
@@ -361,7 +367,7 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
     transfer_barrier(ground, cmd);
     const uint32_t window = ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP;
-    dispatch(ground, cmd, ground->measure, window + ground_window_kept_end(&ground->window) * TILE_GROUPS);
+    dispatch_cells(ground, cmd, ground->measure, window + ground_window_kept_end(&ground->window) * TILE_GROUPS);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -389,11 +395,11 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
 static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.map");
-    dispatch(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
     virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT);
+                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     virga_pass_end(ground->context, cmd, scope);
 }
 

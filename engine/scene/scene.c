@@ -26,6 +26,8 @@ static virga_result create_ground(virga_context *context, const virga_scene_def 
 {
     virga_ground_def taken = def->ground;
     taken.seed = def->rain.seed;
+    if (def->with_splash && taken.max_returns < taken.max_spawns)
+        taken.max_returns = taken.max_spawns; /* as splash needs */
     taken.tick_s = def->rain.tick_s;
     taken.max_impacts = def->rain.max_impacts;
     taken.max_ticks_per_step = def->rain.max_ticks_per_step;
@@ -42,7 +44,7 @@ static virga_result create_splash(virga_context *context, const virga_scene_def 
     taken.tick_s = def->rain.tick_s;
     taken.max_ticks_per_step = def->rain.max_ticks_per_step;
     taken.max_spawns = def->ground.max_spawns;
-    taken.max_returns = def->ground.max_returns;
+    taken.max_returns = def->ground.max_returns > taken.max_spawns ? def->ground.max_returns : taken.max_spawns;
     return virga_splash_create(context, &taken, splash);
 }
 

@@ -91,12 +91,19 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     return VIRGA_OK;
 }
 
-/* The rings that a storage buffer of this device can hold. */
+/* Quads of sprites, pyramids, and the mesh of a sheet. */
+static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
+{
+    return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
+}
+
+/* What storage buffers of this device can hold, and its indices count. */
 static void fit_device(const virga_context *context, virga_splash_def *def)
 {
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
     const uint32_t asked = def->max_droplets;
-    while (def->max_droplets * sizeof(virga_droplet_gpu) > most)
+    while (def->max_droplets * sizeof(virga_droplet_gpu) > most || splash_index_bytes(def) > most ||
+           8u * (uint64_t)def->max_droplets > context->properties.limits.maxDrawIndexedIndexValue)
         def->max_droplets = def->max_droplets / 2 / VIRGA_SPLASH_GROUP * VIRGA_SPLASH_GROUP;
     if (asked != def->max_droplets)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
@@ -104,12 +111,6 @@ static void fit_device(const virga_context *context, virga_splash_def *def)
                       def->max_droplets, (unsigned long long)most);
     while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
         def->max_returns /= 2;
-}
-
-/* Quads of sprites, pyramids, and the mesh of a sheet. */
-static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
-{
-    return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
 }
 
 VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
@@ -436,6 +437,8 @@ void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
         return;
     *rules = (virga_splash_buffer){0};
     if (!splash || splash->context->lost)
+        return;
+    if (!splash->context->frame_index)
         return;
     splash_push_rules(splash);
     *rules =

@@ -10,6 +10,7 @@
 #include "shaders/splash_sprite_vert.spv.h"
 #include "shaders/splash_sprite_wide_frag.spv.h"
 
+#include <math.h>
 #include <string.h>
 
 #define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
@@ -43,10 +44,7 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .max_droplets = splash->def.max_droplets,
                                         .max_sprites = splash_max_sprites(&splash->def),
                                         .max_crowns = splash_max_crowns(&splash->def),
-                                        .pile_s = settings->pile_s,
-                                        .light_gain = settings->light_gain,
-                                        .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
-                                        .circle = settings->rows[0][VIRGA_GROUND_PUDDLE_10].circle};
+                                        .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL};
 }
 
 static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
@@ -110,10 +108,10 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
         return virga_wrong_argument(&context->log, "virga_splash_prepare: NULL argument");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
+    splash->prepared = false;
     const virga_result result = virga_view_check(&context->log, view, time_s);
     if (result)
         return result;
-    splash->prepared = false;
     if (!splash->ticks || view->viewport[2] < 1 || view->viewport[3] < 1)
         return VIRGA_NOT_READY;
     if (splash->view_frame != context->frame_index)
@@ -223,11 +221,13 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     const splash_target *found = find_target(splash, target->serial);
-    if (!found || !splash->prepared)
+    /* What was prepared for an earlier frame or step is not what the buffers hold now. */
+    if (!found || !splash->prepared || splash->view_frame != context->frame_index)
         return VIRGA_NOT_READY;
     const float *box = splash->prepared_viewport;
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{(int32_t)box[0], (int32_t)box[1]}, {(uint32_t)box[2], (uint32_t)box[3]}};
+    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
+                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
     const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
     const int depth = splash->prepared_depth;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");

@@ -22,7 +22,7 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 
 /* ---- the object */
 
-#define SPLASH_MAX_VIEWS   4
+#define SPLASH_MAX_VIEWS   VIRGA_SPLASH_MAX_VIEWS
 #define SPLASH_MAX_TARGETS 8
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };

@@ -137,7 +137,8 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
                                    .pile_m = settings->pile_m,
                                    .max_splashes = splash->def.max_splashes,
                                    .max_droplets = splash->def.max_droplets,
-                                   .max_returns = splash->def.max_returns};
+                                   .max_returns = splash->def.max_returns,
+                                   .max_spawns = splash->def.max_spawns};
     for (int axis = 0; axis < 3; axis++) {
         out->anchor[axis] = (float)splash->anchor_m[axis];
         out->shift[axis] = (float)shift[axis];
@@ -280,10 +281,12 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash_push_rules(splash);
     splash->ring_frame = context->frame_index;
     splash->ring_ticks = 0;
+    splash->prepared = false;
     splash->spawns = info->spawns;
     splash->spawns_offset = info->spawns_offset;
     for (uint32_t i = 0; i < 2; i++)
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
+    splash->spawns = VK_NULL_HANDLE; /* the host's, and not to be looked at again */
     /* What read splashes and droplets in the frame before is done with them; the ground may still read the returns. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

@@ -13,7 +13,8 @@
 
 /* ---- rows by state */
 
-#define LEAST_MM 0.8f /* smaller drops are too slow to splash: Mundo's We^1/2 Re^1/4 is below 57.7 */
+#define LEAST_MM 0.8f /* smaller drops hardly splash: between 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
+                       * where Bai, Rusche and Gosman's droplets begin on a wet wall */
 
 static const virga_splash_row none = {.model = VIRGA_SPLASH_NONE};
 
@@ -60,7 +61,7 @@ static const virga_splash_row puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
 
 typedef struct splash_nature {
     float count, speed, angle;   /* times those of asphalt */
-    float wet_depth_mm;          /* of film that a wet surface needs; negative: it makes none at all */
+    float wet_depth_mm;          /* of film that a wet surface needs */
     bool dry_disk;
 } splash_nature;
 
@@ -102,8 +103,8 @@ void splash_default_rows(virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GRO
         const splash_nature *nature = natures[known];
         virga_splash_row *row = rows[i];
         row[VIRGA_GROUND_DRY] = nature->dry_disk ? disk : none;
-        row[VIRGA_GROUND_WET] = nature->wet_depth_mm < 0 ? none : natural(wet, nature);
-        row[VIRGA_GROUND_WET].least_depth_mm = fmaxf(nature->wet_depth_mm, 0);
+        row[VIRGA_GROUND_WET] = natural(wet, nature);
+        row[VIRGA_GROUND_WET].least_depth_mm = nature->wet_depth_mm;
         row[VIRGA_GROUND_PUDDLE_3] = natural(puddle_3, nature);
         row[VIRGA_GROUND_PUDDLE_5] = natural(puddle_5, nature);
         row[VIRGA_GROUND_PUDDLE_10] = puddle_10;
@@ -165,7 +166,7 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 {
     const virga_splash_settings *settings = &splash->settings;
     const float degree = 0.0174532925f;
-    /* Splashes last for a twelfth of a second or less (disks stay, on what is dry only); there are dots beside them. */
+    /* Splashes last for about a tenth of a second (disks stay, on what is dry only); there are dots beside them. */
     rules->mode = (uint32_t)settings->mode;
     rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.25);
     rules->droplets_m = fmaxf(settings->droplets_m, 1e-3f);

@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "groups.glsl"
 #include "shared/surface.glsl"
 
 #define NEVER_SEEN 0x80000000u // of an entry in the list: the tile comes without water
@@ -54,9 +55,9 @@ uint material_of(ivec3 texel)
 
 void main()
 {
-    const uint entry = entering[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
+    const uint entry = entering[group_index() / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
     const uint tile = entry & ~NEVER_SEEN;
-    const uint part = gl_WorkGroupID.x % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
+    const uint part = group_index() % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
     const uint place = (tile << (2 * TILE_SHIFT)) + part * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const ivec2 cell = cell_at_place(place);
     const ivec3 texel = ivec3(cell - (ivec2(tick.low_tile[0], tick.low_tile[1]) << TILE_SHIFT), 0);

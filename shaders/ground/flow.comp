@@ -9,6 +9,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "groups.glsl"
 #include "rings.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
@@ -80,7 +81,7 @@ void main()
         group_dried = 0u;
     }
     barrier();
-    const uint place = gl_GlobalInvocationID.x;
+    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     virga_cell_gpu cell = cells[place];
     const ivec2 where = cell_at_place(place);
     const Surface own = surface_at(place);

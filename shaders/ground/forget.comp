@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "groups.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Lists
@@ -14,8 +15,8 @@ layout(scalar, set = 0, binding = 8) buffer Kept { virga_cell_gpu kept[]; };
 
 void main()
 {
-    const uint tile = forgotten[gl_WorkGroupID.x / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
-    const uint part = gl_WorkGroupID.x % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
+    const uint tile = forgotten[group_index() / (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)];
+    const uint part = group_index() % (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP);
     const uint place = (tile << (2 * TILE_SHIFT)) + part * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const virga_cell_gpu cell = kept[place];
     kept[place] = virga_cell_gpu(0u, 0u);

@@ -97,19 +97,18 @@ void main()
     const uint n = piece_count(impact), landing = landing_index(index);
     const float drops = impact.weight / float(n);
     uint next = tick.max_spawns == 0u ? NO_SPAWN : landings[landing].first_spawn;
+    const uint splashing = landings[landing].splashing;
     uint here = 0u, flown = 0u;
     for (uint i = 0u; i < n; i++) {
         const Piece piece = get_piece(impact, i, n);
         if (i == 0u)
             record_landing(landing, piece, impact);
         uint water = piece.water_nl;
-        if (next != NO_SPAWN) {
-            const Spawning plan = plan_spawn(impact, piece, i, spawns_head.near_of_tick_m);
-            if (plan.model != VIRGA_SPLASH_NONE) {
-                write_spawn(next++, impact, piece, i, plan, drops);
-                water -= plan.water_nl;
-                flown += plan.water_nl;
-            }
+        if (next != NO_SPAWN && (splashing >> i & 1u) != 0u) {
+            const Spawning plan = plan_spawn(impact, piece, i);
+            write_spawn(next++, impact, piece, i, plan, drops);
+            water -= plan.water_nl;
+            flown += plan.water_nl;
         }
         here += arrive(impact, piece, water, drops, i);
     }

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "groups.glsl"
 #include "rings.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
@@ -19,7 +20,7 @@ uvec2 spots_left(uint place, uvec2 bits, float held_share)
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
+    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const uint side = tick.tiles * VIRGA_GROUND_TILE;
     const ivec2 cell = cell_at_place(place);
     const ivec2 texel = cell & int(side - 1u);

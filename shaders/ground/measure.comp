@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
+#include "groups.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Kept { virga_cell_gpu kept[]; };
@@ -34,7 +35,7 @@ void main()
     if (lane < VIRGA_GROUND_STATES)
         states[lane] = 0u;
     barrier();
-    const uint place = gl_GlobalInvocationID.x, window = tick.tiles * tick.tiles * VIRGA_GROUND_TILE_CELLS;
+    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex, window = tick.tiles * tick.tiles * VIRGA_GROUND_TILE_CELLS;
     if (place < window) {
         const virga_cell_gpu cell = cells[place];
         const uint material = floors[place].material;

@@ -18,10 +18,13 @@ struct Piece {
     uint water_nl;
 };
 
+// As many as there can be, whatever a host's buffer says.
+uint head_count() { return min(head.count, head.is_return != 0u ? tick.max_returns : tick.max_impacts); }
+
 // Whether an impact belongs to this tick; water that splashes give back lands whenever it comes.
 bool is_of_tick(uint index)
 {
-    return index < head.count && (head.is_return != 0u || impacts[index].tick == tick.tick);
+    return index < head_count() && (head.is_return != 0u || impacts[index].tick == tick.tick);
 }
 
 // Where an impact's landing is: those of returns lie behind those of drops.
@@ -40,7 +43,9 @@ vec2 in_window(virga_impact_gpu impact)
     const vec2 position = vec2(impact.position[0], impact.position[2]);
     const vec2 origin = vec2(head.origin[0], head.origin[2]);
     const vec2 high = vec2(tick.window_high[0], tick.window_high[2]), low = vec2(tick.window_low[0], tick.window_low[2]);
-    return (position + ((origin - high) - low)) * tick.inv_cell_m;
+    // The same in every pass that asks: one that found another cell would leave water on its way.
+    precise vec2 at = (position + ((origin - high) - low)) * tick.inv_cell_m;
+    return at;
 }
 
 Piece piece_at(vec2 cells_in_window, float height_m)
@@ -68,9 +73,10 @@ Piece get_piece(virga_impact_gpu impact, uint i, uint n)
     Piece piece = own;
     if (i > 0u) {
         const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
-        const float radius = sqrt(virga_unit(h) * float(n)) * 0.09 * tick.inv_cell_m;
-        const float angle = 6.2831853 * virga_unit(virga_hash1(h));
-        const Piece scattered = piece_at(at + radius * vec2(cos(angle), sin(angle)), height_m);
+        precise float radius = sqrt(virga_unit(h) * float(n)) * 0.09 * tick.inv_cell_m;
+        precise float angle = 6.2831853 * virga_unit(virga_hash1(h));
+        precise vec2 beside = at + radius * vec2(cos(angle), sin(angle));
+        const Piece scattered = piece_at(beside, height_m);
         if (scattered.place != NO_CELL && own.place != NO_CELL)
             piece = scattered;
     }

@@ -1,4 +1,4 @@
-// spawn_find.comp - how many splashes each impact of this tick makes.
+// spawn_find.comp - which pieces of each impact of this tick splash.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,8 +16,8 @@ void main()
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
-    uint count = 0u;
+    uint splashing = 0u;
     for (uint i = 0u; i < n; i++)
-        count += plan_spawn(impact, get_piece(impact, i, n), i, spawns_head.near_m).model != VIRGA_SPLASH_NONE ? 1u : 0u;
-    landings[landing_index(index)].first_spawn = count;
+        splashing |= is_splash(impact, get_piece(impact, i, n), i) ? 1u << i : 0u;
+    landings[landing_index(index)].splashing = splashing;
 }

@@ -23,11 +23,11 @@ float next_near(float near_m, float found)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, run = (head.count + VIRGA_GROUND_GROUP - 1u) / VIRGA_GROUND_GROUP;
-    const uint begin = min(lane * run, head.count), end = min(begin + run, head.count);
+    const uint lane = gl_LocalInvocationIndex, run = (head_count() + VIRGA_GROUND_GROUP - 1u) / VIRGA_GROUND_GROUP;
+    const uint begin = min(lane * run, head_count()), end = min(begin + run, head_count());
     uint sum = 0u;
     for (uint i = begin; i < end; i++)
-        sum += is_of_tick(i) ? landings[landing_index(i)].first_spawn : 0u;
+        sum += is_of_tick(i) ? uint(bitCount(landings[landing_index(i)].splashing)) : 0u;
     sums[lane] = sum;
     if (lane == 0u)
         filled = tick.max_spawns;
@@ -44,7 +44,7 @@ void main()
     for (uint i = begin; i < end; i++) {
         if (!is_of_tick(i))
             continue;
-        const uint count = landings[landing_index(i)].first_spawn;
+        const uint count = uint(bitCount(landings[landing_index(i)].splashing));
         const bool fits = place + count <= tick.max_spawns;
         if (!fits)
             atomicMin(filled, place); // the first that does not fit, and all after it, get none
@@ -65,7 +65,7 @@ void main()
         spawns_head.first_tick = tick.tick;
     if (head.is_return == 0u) {
         spawns_head.origin = head.origin;
-        // land.comp plans by the radius that spawn_find.comp had.
+        // land.comp weighs by the radius that spawn_find.comp chose by.
         spawns_head.near_of_tick_m = spawns_head.near_m;
         spawns_head.near_m = next_near(spawns_head.near_m, float(found));
     }

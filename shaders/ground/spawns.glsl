@@ -14,7 +14,8 @@ layout(scalar, set = 0, binding = 19) buffer Spawns
 #define FIRST_HASH 128u // of the numbers of hashes for a piece's splash
 
 struct Spawning {
-    uint model;      // VIRGA_SPLASH_NONE: nothing flies
+    uint model;
+    float distance2; // from the camera
     uint water_nl;   // that flies up
     uint hash;
     float keep;      // chance that such a splash had to be shown
@@ -54,33 +55,54 @@ uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, f
 // of its width.
 float chance_to_show(float distance2, float near_m) { return min(near_m * near_m / max(distance2, 1e-6), 1.0); }
 
-Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i, float near_m)
+// Of a piece: where it is, the hash of its chances, and the chance that such a splash is shown.
+Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
 {
-    const uint state = state_at(piece.place);
-    const virga_splash_rule_gpu rule = rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state];
     Spawning plan;
-    plan.model = tick.max_spawns == 0u ? VIRGA_SPLASH_NONE : model_of(impact, rule, state, depth_at(piece.place));
-    plan.water_nl = 0u;
-    if (plan.model == VIRGA_SPLASH_NONE)
-        return plan;
     plan.position = piece_position(impact, piece, i);
-    plan.hash = virga_hash4(tick.seed, impact.id, impact.tick, FIRST_HASH + i);
+    // Droplets of one drop may fall in one tick: their water tells them apart.
+    const uint own = head.is_return != 0u ? impact.id ^ impact.water_nl * 0x9e3779b1u : impact.id;
+    plan.hash = virga_hash4(tick.seed, own, impact.tick, FIRST_HASH + i);
     const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
                                       vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
-    const float distance2 = dot(way, way);
-    plan.keep = chance_to_show(distance2, near_m);
-    if (virga_unit(plan.hash) >= plan.keep) {
-        plan.model = VIRGA_SPLASH_NONE;
-        return plan;
-    }
+    plan.distance2 = dot(way, way);
+    plan.keep = chance_to_show(plan.distance2, near_m);
+    plan.water_nl = 0u;
+    plan.model = VIRGA_SPLASH_NONE;
+    return plan;
+}
+
+virga_splash_rule_gpu rule_at(virga_impact_gpu impact, Piece piece)
+{
+    return rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state_at(piece.place)];
+}
+
+// The decision, taken once: by spawn_find.comp.
+bool is_splash(virga_impact_gpu impact, Piece piece, uint i)
+{
+    const uint model = model_of(impact, rule_at(impact, piece), state_at(piece.place), depth_at(piece.place));
+    const Spawning plan = start_plan(impact, piece, i, spawns_head.near_m);
+    return model != VIRGA_SPLASH_NONE && virga_unit(plan.hash) < plan.keep;
+}
+
+// What a piece makes of which that decided that it splashes.
+Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
+{
+    const uint state = state_at(piece.place);
+    const virga_splash_rule_gpu rule = rule_at(impact, piece);
+    Spawning plan = start_plan(impact, piece, i, spawns_head.near_of_tick_m);
+    plan.model = model_of(impact, rule, state, depth_at(piece.place));
+    if (plan.model == VIRGA_SPLASH_NONE)
+        plan.model = VIRGA_SPLASH_DOT; // a threshold that came out otherwise this time
     const uint chance = virga_hash1(plan.hash);
-    const float near = clamp(4.0 - 4.0 * sqrt(distance2) / rules.droplets_m, 0.0, 1.0);
+    const float near = clamp(4.0 - 4.0 * sqrt(plan.distance2) / rules.droplets_m, 0.0, 1.0);
     // What flies off a wall would fall past the surface that droplets are followed to.
     const bool level = impact.normal[1] > 0.6;
     const bool flies = level && (plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE);
     if (flies && virga_unit(chance) < near) {
         const float speed = length(vec3(impact.velocity[0], impact.velocity[1], impact.velocity[2]));
-        const float share = splash_share(rule, rules.mode, impact.diameter_m, speed, state != VIRGA_GROUND_DRY, virga_hash1(chance));
+        const bool wet = state != VIRGA_GROUND_DRY;
+        const float share = splash_share(rule, rules.mode, impact.diameter_m, speed, wet, virga_hash1(chance));
         plan.water_nl = min(uint(share * float(piece.water_nl)), piece.water_nl);
     }
     return plan;

@@ -68,8 +68,6 @@ struct virga_ground_tick_gpu {
     float survey_top_m; /* height in the world of depth 0 in the survey, and metres to depth 1 */
     float survey_height_m;
     float base_m;       /* that heights in the map count from */
-    uint tiles_entering;
-    uint tiles_forgotten;
     float ripple_low_m[2];   /* low corner of the ripple map from the window's, and its side */
     float ripple_side_m;
     float tick_s;
@@ -79,6 +77,7 @@ struct virga_ground_tick_gpu {
     float start_water_um;
     uint max_spawns;         /* 0: nothing splashes */
     uint max_impacts;        /* landings of returns lie behind so many */
+    uint max_returns;
     float camera[3];         /* in the world */
     uint tick_in_step;
     float material_scale[2]; /* from cells behind the window's low corner to the material map [0; 1) */
@@ -134,7 +133,7 @@ VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 160 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 156 + 32 * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

@@ -1,4 +1,4 @@
-/* landing.h - what an impact met on the ground: what ground writes beside rain's impacts, and splash reads. */
+/* landing.h - what an impact met on the ground: what ground writes beside rain's impacts, for hosts. */
 #ifndef VIRGA_SHARED_LANDING_H
 #define VIRGA_SHARED_LANDING_H
 
@@ -10,17 +10,18 @@
 typedef struct virga_landing_gpu virga_landing_gpu;
 #endif
 
-/* The landing of the impact of the same index, 20 bytes. What was there before this tick's drops. */
+/* The landing of the impact of the same index, 24 bytes; those of returns lie behind max_impacts of drops. What was there before this tick's drops. */
 struct virga_landing_gpu {
     uint cell;      /* its place in ground's buffers; 0xffffffff: not on the ground */
     uint state;     /* VIRGA_GROUND_NONE to VIRGA_GROUND_PUDDLE_10 */
     float depth_m;  /* of the water */
     uint material;  /* [0; 31] of the cell; of the impact where there is no ground */
     uint first_spawn; /* where among the spawns its first splash is; 0xffffffff: none */
+    uint splashing;   /* which of its pieces splash, a bit each: decided once, as floats may come out otherwise elsewhere */
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_landing_gpu, 20);
+VIRGA_ASSERT_SIZE(virga_landing_gpu, 24);
 #undef uint
 #endif
 

@@ -33,7 +33,7 @@ struct virga_spawns_gpu {
     uint count;
     uint dropped;        /* that found no room */
     uint capacity;
-    float near_m;        /* drops within this of the origin all splash; farther out some stand for others, so that the
+    float near_m;        /* drops within this of the camera all splash; farther out some stand for others, so that the
                           * quota of the rules is met. Kept from tick to tick */
     float origin[3];     /* of positions, in the world */
     float tick_s;

@@ -26,7 +26,7 @@ struct virga_splash_tick_gpu {
     uint tick;
     uint tick_in_step;
     float tick_s;
-    float age_after_s;   /* time since the end of this tick that the state is of; 0 */
+    uint max_spawns;
     float anchor[3];     /* of positions, in the world */
     float air_density;
     float shift[3];      /* (rebase) anchor before minus anchor now: added to positions */
@@ -84,10 +84,7 @@ struct virga_splash_look_gpu {
     uint max_droplets;
     uint max_sprites;
     uint max_crowns;
-    float pile_s;
-    float light_gain;
     uint physical;
-    float circle;        /* (paper) radius of a crown, times the drop's diameter */
 };
 
 /* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in a
@@ -133,7 +130,7 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_PYRAMIDS 12
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);

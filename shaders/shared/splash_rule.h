@@ -41,7 +41,7 @@ struct virga_splash_rule_gpu {
 struct virga_splash_rules_gpu {
     uint mode;              /* VIRGA_SPLASH_PAPER or _PHYSICAL */
     float quota;            /* splashes a tick that there is room for */
-    float droplets_m;       /* farther than this from the impacts' origin splashes have no droplets */
+    float droplets_m;       /* farther than this from the camera splashes have no droplets */
     float dot_diameter_m;   /* droplets that are at least as large make a dot where they fall */
     virga_splash_rule_gpu rules[192]; /* material x VIRGA_GROUND_STATES + state */
 };

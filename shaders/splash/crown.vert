@@ -37,13 +37,20 @@ vec3 sheet_point(Shape s, float angle, float up)
 
 void main()
 {
-    const virga_splash_gpu splash = splashes[splash_place(listed[gl_InstanceIndex])];
+    const uint slot = splash_place(listed[gl_InstanceIndex]);
+    if (slot == NO_PLACE) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
+    const virga_splash_gpu splash = splashes[slot];
     const Crown now = crown_at(splash, view.time_close_s), before = crown_at(splash, view.time_open_s);
     Shape s;
     s.crown = now;
-    if (before.height > now.height)
+    // A disk is as it is now; a sheet reaches as high as it did at either end of the shutter.
+    const bool disk = now.model == VIRGA_SPLASH_DISK;
+    if (before.height > now.height && !disk)
         s.crown.radius = before.radius;
-    s.height = max(now.height, before.height);
+    s.height = disk ? now.height : max(now.height, before.height);
     s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0) : vec3(now.normal.z, 0.0, -now.normal.x));
     s.across = cross(s.side, now.normal);
     s.fingers = float(clamp(now.droplets, 7u, 11u));
@@ -51,7 +58,7 @@ void main()
     // Columns in turns left and right of the farthest from the camera.
     const uint vertex = uint(gl_VertexIndex), column = vertex >> 5, j = column >> 1;
     const int from = (column & 1u) == 0u ? int(j) : -int(j) - 1;
-    const float farthest = atan(dot(now.centre, s.across), dot(now.centre, s.side));
+    const float farthest = atan(dot(now.centre, s.across), dot(now.centre, s.side) + 1e-9);
     const float step_angle = 6.2831853 / float(VIRGA_CROWN_COLUMNS);
     const float angle = farthest + float(from + int((vertex >> 4) & 1u)) * step_angle;
     const float up = float(vertex & 15u) / float(VIRGA_CROWN_ROWS);

@@ -17,7 +17,7 @@ shared uvec2 sums[VIRGA_SPLASH_GROUP];
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
 uint spawns_to_come()
 {
-    uint low = 0u, high = spawns_head.count;
+    uint low = 0u, high = spawn_count();
     while (low < high) {
         const uint middle = (low + high) / 2u;
         if (int(spawns[middle].tick - tick.tick) > 0)
@@ -25,7 +25,7 @@ uint spawns_to_come()
         else
             low = middle + 1u;
     }
-    return spawns_head.count - low;
+    return spawn_count() - low;
 }
 
 void main()
@@ -68,5 +68,6 @@ void main()
     returns_head.origin = tick.anchor;
     returns_head.tick_s = tick.tick_s;
     returns_head.ticks = tick.tick_in_step + 1u;
+    returns_head.first_tick = tick.tick - tick.tick_in_step;
     returns_head.is_return = 1u;
 }

@@ -81,7 +81,7 @@ float splash_weber(virga_splash_gpu splash)
 // The low sheet of a scattering splash is as high as the water under it lets it be.
 float sheet_share(uint state)
 {
-    return state == VIRGA_GROUND_PUDDLE_5 ? 0.75 : state == VIRGA_GROUND_PUDDLE_3 ? 0.6 : 0.4;
+    return state == VIRGA_GROUND_PUDDLE_5 ? MOST_SHEET : state == VIRGA_GROUND_PUDDLE_3 ? 0.6 : 0.4;
 }
 
 Crown crown_at(virga_splash_gpu splash, float time_s)
@@ -105,7 +105,7 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
         highest = 1.5 * splash.diameter_m;
         widest = 1.5 * splash.diameter_m;
     }
-    const float life = crown.model == VIRGA_SPLASH_DOT ? DOT_S : crown_time(highest);
+    const float life = max(crown.model == VIRGA_SPLASH_DOT ? DOT_S : crown_time(highest), 1e-3);
     crown.share = age / life;
     crown.height = age < 0.0 || age > life ? 0.0 : highest * crown_rise(crown.share);
     crown.radius = widest * crown_spread(crown.share);
@@ -115,7 +115,8 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
         crown.share = age / splash.life_s;
         crown.radius = disk_radius(splash.diameter_m, weber) * spread * (1.0 - 0.35 * back);
         const float volume = 0.5235988 * splash.diameter_m * splash.diameter_m * splash.diameter_m;
-        crown.height = age < 0.0 || crown.share > 1.0 ? 0.0 : 2.0 * volume / (3.14159265 * max(crown.radius * crown.radius, 1e-9));
+        const float thick = 2.0 * volume / (3.14159265 * max(crown.radius * crown.radius, 1e-9));
+        crown.height = age < 0.0 || crown.share > 1.0 ? 0.0 : min(thick, splash.diameter_m);
     }
     return crown;
 }

@@ -24,7 +24,10 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
 
 vec3 crown_corner(uint pyramid, uint corner)
 {
-    const virga_splash_gpu splash = splashes[splash_place(listed[pyramid / VIRGA_CROWN_PYRAMIDS])];
+    const uint slot = splash_place(listed[pyramid / VIRGA_CROWN_PYRAMIDS]);
+    if (slot == NO_PLACE)
+        return vec3(0.0);
+    const virga_splash_gpu splash = splashes[slot];
     const Crown crown = crown_at(splash, view.time_close_s);
     const uint spoke = pyramid % VIRGA_CROWN_PYRAMIDS;
     const float angle = 6.2831853 * (float(spoke) + virga_unit(virga_hash2(crown.random, 5u))) / float(VIRGA_CROWN_PYRAMIDS);
@@ -32,15 +35,19 @@ vec3 crown_corner(uint pyramid, uint corner)
                                                           : vec3(crown.normal.z, 0.0, -crown.normal.x));
     const vec3 outward = cos(angle) * side + sin(angle) * cross(side, crown.normal);
     // The paper's crown stands where it is, on its initial circle; in the physical mode it widens.
-    const float radius = look.physical != 0u ? crown.radius : look.circle * crown.diameter;
+    const uint row = VIRGA_DROPLET_MATERIAL(splash.kind) * VIRGA_GROUND_STATES + VIRGA_DROPLET_STATE(splash.kind);
+    const float radius = look.physical != 0u ? crown.radius : rules.rules[row].circle * crown.diameter;
     const float height = crown.height * (0.8 + 0.4 * virga_unit(virga_hash2(crown.random, 32u + spoke)));
     const vec3 base = crown.centre + radius * outward, tip = base + height * crown.normal + 0.35 * height * outward;
-    return corner_of(base, tip, 0.28 * crown.diameter, corner);
+    return corner_of(base, tip, height > 0.0 ? 0.28 * crown.diameter : 0.0, corner);
 }
 
 vec3 pile_corner(uint pyramid, uint corner)
 {
-    const virga_droplet_gpu droplet = droplets[slot_of(listed[pyramid]).place];
+    const uint slot = slot_of(listed[pyramid]).place;
+    if (slot == NO_PLACE)
+        return vec3(0.0);
+    const virga_droplet_gpu droplet = droplets[slot];
     const vec4 tip = pile_tip(droplet, view.time_close_s);
     const float half_foot = droplet.diameter_m * (is_upright(droplet) ? 1.5 : 0.7);
     return corner_of(base_of(droplet), tip.xyz, half_foot * tip.w, corner);

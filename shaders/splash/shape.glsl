@@ -1,8 +1,8 @@
 // shape.glsl - how large crowns, cones and disks are, and how long they last.
 //
-// Crowns of rain on deep water are two to three drops high and four wide, and last 30 to 80 ms (after the pictures of
-// Worthington 1908 and of Mizukami et al., figures 2 (b) and 5). Their height is taken as 0.045 We^1/2 diameters, their
-// greatest radius as 0.55 We^1/4: the balance of the drop's energy with gravity and with surface tension.
+// Fits to pictures of drops on deep water (Worthington 1908; Mizukami et al., figures 2 (b) and 5): a crown of a drop of 2 mm
+// is 1.5 drops high and 6 wide and lasts for 50 ms, of 4 mm 3 high and 9 wide for 100 ms. The powers of the Weber number are
+// those of a height that its energy against its surface gives, and of Clanet's spread.
 
 float crown_height(float diameter_m, float weber) { return 0.045 * sqrt(weber) * diameter_m; }
 float crown_radius(float diameter_m, float weber) { return 0.55 * sqrt(sqrt(weber)) * diameter_m; }
@@ -27,4 +27,5 @@ float disk_radius(float diameter_m, float weber) { return 0.5 * diameter_m * max
 
 #define DISK_S 2.0
 #define DOT_S 0.05
+#define MOST_SHEET 0.75 // height of a low sheet over that of a crown
 #define SHEET_S 0.09 // of the low sheet of a scattering splash, and of what shows one from afar

@@ -46,7 +46,7 @@ float splash_life(virga_spawn_gpu spawn)
     case VIRGA_SPLASH_DOT:
         return DOT_S;
     }
-    return SHEET_S;
+    return max(SHEET_S, crown_time(MOST_SHEET * crown_height(spawn.diameter_m, weber_number(spawn))));
 }
 
 // Height a metre of the surface in x and z.
@@ -134,9 +134,9 @@ void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 cen
 // Parts of the water, in tenths: a droplet has between 1 and 4 times the least.
 uint part_of(virga_spawn_gpu spawn, uint i, uint n)
 {
-    const float u = virga_unit(virga_hash2(spawn.random, DROPLET_HASH + 4u * i + 1u));
+    const uint u = virga_hash2(spawn.random, DROPLET_HASH + 4u * i + 1u) >> 16;
     const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE && i == 0u;
-    return cone ? 8u * n : 10u + uint(30.0 * u * u);
+    return cone ? 8u * n : 10u + (30u * ((u * u) >> 16) >> 16);
 }
 
 void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
@@ -159,7 +159,8 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
         droplet.age_s = -spawn.share * tick.tick_s;
         droplet.diameter_m = pow(6e-12 / 3.14159265 * float(water) / max(spawn.drops, 1e-3), 1.0 / 3.0);
         droplet.slopes = halves(slopes.x, slopes.y);
-        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 | ((spawn.kind >> 24) & 31u) << 24 | VIRGA_DROPLET_ALIVE;
+        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 |
+                       ((spawn.kind >> 24) & 31u) << 24 | VIRGA_DROPLET_ALIVE;
         droplet.id = spawn.id;
         droplet.weight_free = halves(spawn.weight, 0.0);
         if (cone && i == 0u)
@@ -173,18 +174,18 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
-    if (index >= spawns_head.count || spawns[index].tick != tick.tick)
+    if (index >= spawn_count() || spawns[index].tick != tick.tick)
         return;
     const virga_spawn_gpu spawn = spawns[index];
     const uvec2 place = places[index];
     const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
     const bool crowded = place.x >= state.crowded_from;
-    const uint n = crowded ? 0u : droplet_count(spawn);
+    const uint n = crowded ? 0u : placed_droplets(place.y);
     write_splash(state.tick_splash + place.x, spawn, centre, n);
     count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
     count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
     if (n > 0u)
-        start_droplets(spawn, centre, state.tick_droplet + place.y, n);
+        start_droplets(spawn, centre, state.tick_droplet + first_droplet(place.y), n);
     const uint at = state.returns_before + (place.x - state.crowded_from);
     if (crowded && at < tick.max_returns) {
         returns[at] = make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);

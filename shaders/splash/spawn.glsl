@@ -8,9 +8,19 @@ layout(scalar, set = 0, binding = 3) readonly buffer Spawns
     virga_spawns_gpu spawns_head;
     virga_spawn_gpu spawns[];
 };
-layout(scalar, set = 0, binding = 8) buffer Places { uvec2 places[]; }; // by spawn: rank in its tick; first droplet from the tick's first
+layout(scalar, set = 0, binding = 8) buffer Places
+{
+    uvec2 places[]; // by spawn: rank in its tick; first droplet from the tick's first, and from bit 24 how many droplets
+};
 
-uint spawn_model(virga_spawn_gpu spawn) { return (spawn.kind >> 16) & 255u; }
+// Both are decided once, by spawn_scan.comp: floats may come out otherwise in another shader.
+uint first_droplet(uint place) { return place & 0xffffffu; }
+uint placed_droplets(uint place) { return place >> 24; }
+
+// A host's own list is not trusted: what is an index is kept in range.
+uint spawn_model(virga_spawn_gpu spawn) { return min((spawn.kind >> 16) & 255u, VIRGA_SPLASH_MODELS - 1u); }
+
+uint spawn_count() { return min(spawns_head.count, tick.max_spawns); }
 
 virga_splash_rule_gpu rule_of(virga_spawn_gpu spawn)
 {

@@ -42,14 +42,16 @@ void forget_splashes(uint lane)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, all = spawns_head.count;
+    const uint lane = gl_LocalInvocationIndex, all = spawn_count();
     const uint run = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
     const uint begin = min(lane * run, all), end = min(begin + run, all);
     forget_splashes(lane);
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
-        if (spawns[i].tick == tick.tick)
-            sum += uvec2(1u, droplet_count(spawns[i]));
+        if (spawns[i].tick == tick.tick) {
+            places[i].y = droplet_count(spawns[i]);
+            sum += uvec2(1u, places[i].y);
+        }
     sums[lane] = sum;
     if (lane == 0u)
         crowded_rank = NO_PLACE;
@@ -66,20 +68,19 @@ void main()
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
             continue;
-        const uint droplets = droplet_count(spawns[i]);
+        const uint droplets = places[i].y;
         if (place.y + droplets > room)
             atomicMin(crowded_rank, place.x);
-        places[i] = place;
+        places[i] = uvec2(place.x, min(place.y, 0xffffffu) | droplets << 24);
         place += uvec2(1u, droplets);
     }
     barrier();
-    place = sums[lane] - sum;
     if (lane == 0u)
         crowded_droplets = found.y;
     barrier();
     for (uint i = begin; i < end; i++)
         if (spawns[i].tick == tick.tick && places[i].x == crowded_rank)
-            crowded_droplets = places[i].y; // one invocation at most
+            crowded_droplets = first_droplet(places[i].y); // one invocation at most
     barrier();
     if (lane != 0u)
         return;

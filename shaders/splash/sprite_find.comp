@@ -9,12 +9,17 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
+// In the film's style by its sheet; in the paper's by its pyramids, those of a crown at any size.
+bool is_shown_otherwise(virga_splash_gpu splash)
+{
+    if (is_film())
+        return is_sheet(splash, crown_at(splash, view.time_close_s));
+    return splash.kind >> 16 != 0u || VIRGA_DROPLET_MODEL(splash.kind) == VIRGA_SPLASH_CROWN_CONE;
+}
+
 uint pick(Slot slot)
 {
-    // In the paper's style piles are pyramids, and crowns are their pyramids at any size.
-    if (slot.kind == SLOT_NONE || (slot.kind == SLOT_SPLASH && !is_film() && splashes[slot.place].kind >> 16 != 0u))
-        return NOT_PICKED;
-    if (slot.kind == SLOT_SPLASH && is_sheet(splashes[slot.place], crown_at(splashes[slot.place], view.time_close_s)))
+    if (slot.kind == SLOT_NONE || (slot.kind == SLOT_SPLASH && is_shown_otherwise(splashes[slot.place])))
         return NOT_PICKED;
     const Projected p = project_sprite(sprite_of(slot));
     if (p.coverage <= 0.0)

@@ -46,8 +46,8 @@ float puff_cover()
     const float v = clamp((place.y + 0.5) / (shape.z + 1.0), 0.0, 1.0);
     const float half_width = (shape.x + 0.25) * (0.7 + 0.3 * v), x = min(abs(place.x) / half_width, 1.0);
     const float torn = shape.x > 2.0 ? 0.25 * sin(9.0 * place.x / half_width + 7.0 * fract(shape.x)) : 0.0;
-    const float across = smoothstep(1.0, 0.6, x) * (0.6 + 0.7 * x * x);
-    const float up = smoothstep(0.0, 0.2, v) * smoothstep(1.0, 0.45 + torn, v);
+    const float across = (1.0 - smoothstep(0.6, 1.0, x)) * (0.6 + 0.7 * x * x);
+    const float up = smoothstep(0.0, 0.2, v) * (1.0 - smoothstep(0.45 + torn, 1.0, v));
     return 1.6 * across * up;
 }
 

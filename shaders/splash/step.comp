@@ -91,7 +91,7 @@ void main()
     if (lane < WORDS)
         fallen_bits[lane] = alive_bits[lane] = 0u;
     barrier();
-    if (place < state.end_droplet)
+    if (place < state.end_droplet && (droplets[place].kind & VIRGA_DROPLET_ALIVE) != 0u)
         step_droplet(place);
     barrier();
     if (lane < WORDS)

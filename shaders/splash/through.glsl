@@ -12,7 +12,10 @@ vec3 seen(vec3 direction)
     const vec4 clip = to_mat(view.clip_from_rel) * vec4(direction, 0.0);
     const vec2 ndc = clip.xy / max(clip.w, 1e-4);
     const float inside = clip.w > 1e-4 ? clamp(8.0 - 8.0 * max(abs(ndc.x), abs(ndc.y)), 0.0, 1.0) : 0.0;
-    return mix(around, textureLod(scene_color, 0.5 * ndc + 0.5, 0.0).rgb, inside);
+    if (inside <= 0.0)
+        return around; // whatever the picture holds there
+    const vec2 pixel = vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
+    return mix(around, textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, inside);
 }
 
 float fresnel(float cosine) { return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0); }

@@ -90,6 +90,7 @@ static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def
     def.queue_family = f->gpu.device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.log = splash_fixture_log;
+    def.timings = false; /* their barriers around each pass would hide those that are missing */
     REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
     const virga_splash_def small = splash_fixture_def();
     REQUIRE(virga_splash_create(f->context, given ? given : &small, &f->splash) == VIRGA_OK);

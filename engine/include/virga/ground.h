@@ -42,15 +42,15 @@ typedef struct virga_ground_def {
     uint32_t cells;         /* [128; 4096] along the window's side, a power of two. About 44 bytes of device memory a
                           * cell. Default 1024: 51 m at 5 cm */
     float cell_m;           /* [0.01; 0.1] side of a cell. Default 0.05 */
-    uint32_t kept_tiles;    /* [0; 65536] tiles kept when they leave the window, 64 KiB each; raised to twice the
+    uint32_t kept_tiles;    /* [0; 60000] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
     uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
     float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default 0.005 */
     double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
     uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
-    uint32_t max_impacts;   /* [256; 4194304] the same as rain's. Default 65536 */
+    uint32_t max_impacts;   /* [256; 4194240] the same as rain's. Default 65536 */
     uint32_t max_spawns;    /* [0; 1048576] drops of one step that may splash, 76 bytes each. Default 65536 */
-    uint32_t max_returns;   /* [0; 4194304] entries of the returns that a step may be given. Default 131072 */
+    uint32_t max_returns;   /* [0; 4194240] entries of the returns that a step may be given. Default 131072 */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     uint32_t occluder_strides[4]; /* vertex strides of meshes, see virga_rain_def. Default 12, 32, 0, 0 */
 } virga_ground_def;

@@ -35,6 +35,8 @@ extern "C" {
 
 typedef struct virga_splash virga_splash; /* opaque */
 
+#define VIRGA_SPLASH_MAX_VIEWS 4 /* prepares in a frame */
+
 typedef struct virga_splash_def {
     uint32_t size, cookie;
     uint32_t max_splashes; /* [256; 1048576] alive at once, raised to a power of two; 64 bytes each. The oldest make
@@ -113,12 +115,12 @@ VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_s
  * have completed. */
 VIRGA_API void virga_splash_destroy(virga_splash **splash);
 
-/* Takes new settings at once; what is in the air keeps the orbit that it started with. Out of range: clamped, logged,
+/* Takes new settings at once; what is in the air keeps what it started with, but wind, air and piles' ends are live. Out of range: clamped, logged,
  * VIRGA_DEGRADED. NaN, infinite or wrong cookie: VIRGA_ERROR_INVALID and nothing changes. */
 VIRGA_API virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings);
 VIRGA_API void virga_splash_get(const virga_splash *splash, virga_splash_settings *settings);
 
-/* Device memory in bytes that virga_splash_create will take. */
+/* Device memory in bytes that virga_splash_create will take at most, with eight frames in flight. */
 VIRGA_API VkDeviceSize virga_splash_estimate(const virga_splash_def *def);
 
 /* A part of a buffer. */
@@ -127,8 +129,8 @@ typedef struct virga_splash_buffer {
     VkDeviceSize offset, size;
 } virga_splash_buffer;
 
-/* The rules for virga_ground_step_info.splash_rules: a virga_splash_rules_gpu in a uniform buffer, as settings are now.
- * Call it after virga_frame_begin; good for that frame. */
+/* The rules for virga_ground_step_info.splash_rules: a virga_splash_rules_gpu in a uniform buffer, as settings were at the
+ * first call in a frame. Call it after virga_frame_begin (before the first: nothing); good for that frame. */
 VIRGA_API void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules);
 
 /* Water that fell back in the newest step, for virga_ground_step_info.returns of the next: a virga_impacts_gpu with
@@ -146,13 +148,13 @@ typedef struct virga_splash_step_info {
 } virga_splash_step_info;
 
 /* Starts the splashes of the spawns, moves droplets, and gives back the water of those that fell. Outside rendering.
- * A frame with 0 ticks costs nothing. */
+ * The first step's first tick is number 1, as rain's is, or times do not agree. A frame with 0 ticks costs next to nothing. */
 VIRGA_API virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
 
 /* Simulated time (s) that draw times count from: that of the newest tick, as the first step's first tick began at 0. */
 VIRGA_API double virga_splash_time(const virga_splash *splash);
 
-/* Chooses and shades what a view sees at `time_s`; normally virga_splash_time, or a part of a tick before or after.
+/* Chooses and shades what a view sees at `time_s`; at most VIRGA_SPLASH_MAX_VIEWS a frame; normally virga_splash_time, or a part of a tick before or after.
  * Outside rendering, after the step; once for each view, directly before its draw. */
 VIRGA_API virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view,
                                             double time_s);
@@ -160,13 +162,14 @@ VIRGA_API virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffe
 /* Builds the pipelines for a target; at most 8 targets. Where compiling is fine. */
 VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_target *target);
 
-/* Draws what the newest prepare chose, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of `target`; sets pipeline,
- * descriptors, viewport and scissor. VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or before
- * the first prepare. */
+/* Draws what the newest prepare of this frame chose, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of `target`; sets pipeline,
+ * descriptors, viewport and scissor. VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or without a
+ * prepare in this frame. */
 VIRGA_API virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target);
 
 /* The droplets of the newest tick: def.max_droplets (as raised) x virga_droplet_gpu, those alive first, with
- * VIRGA_DROPLET_ALIVE; positions relative to `anchor_m`. Another buffer after each step; ready to be read by transfers and
+ * VIRGA_DROPLET_ALIVE; positions relative to `anchor_m`. It may be another buffer after each
+ * step. Ready to be read by transfers and
  * compute. */
 VIRGA_API void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,
                                      double anchor_m[3]);
@@ -177,8 +180,8 @@ typedef struct virga_splash_stats {
     uint64_t splashes[VIRGA_SPLASH_MODELS][VIRGA_GROUND_MATERIALS]; /* by model and material */
     uint64_t droplets, fallen; /* that ever flew; that fell back */
     uint64_t flown_nl, returned_nl; /* water: taken up, and given back. The difference is in the air */
-    uint32_t splashes_alive, droplets_alive; /* of the newest tick: places in use from the oldest alive on */
-    uint64_t crowded;         /* splashes without droplets for want of room */
+    uint32_t splashes_alive, droplets_alive; /* of the newest tick; splashes: places in use from the oldest alive on */
+    uint64_t crowded;         /* splashes that found no room for their droplets (or had none, behind one that did not) */
     uint32_t sprites;         /* of the newest prepare */
 } virga_splash_stats;
 

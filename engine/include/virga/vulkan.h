@@ -217,12 +217,12 @@ typedef struct virga_view {
     float viewport[4];            /* x, y, width, height in pixels */
     bool reversed_depth;          /* must match the target's. Default false */
     bool infinite_far;            /* the projection has no far plane. Default false */
-    virga_image depth;            /* (optional) the scene's depth, sampled for occlusion by the scene (also where a
+    virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the scene (also where a
                                    * target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
                                    * aspect. image VK_NULL_HANDLE: hard edges by the depth test, no haze */
     virga_image color;            /* (optional) the opaque scene's colour, linear radiance, single-sampled and in the
-                                   * viewport's pixels, sampled where water refracts what is behind it; layout and
+                                   * target's pixels, sampled where water refracts what is behind it; layout and
                                    * access while drawing are `before`, and stay. image VK_NULL_HANDLE: refraction
                                    * shows the environment instead */
 } virga_view;
