@@ -218,6 +218,7 @@ typedef struct virga_graphics_def {
     uint32_t color_count;   /* those beyond the first are not written */
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
+    bool cull_back;         /* counter-clockwise on the picture is the front */
     uint32_t constant; /* specialisation constant 0 of the fragment shader, where it has one */
     VkSampleCountFlagBits samples;
     const char *name;

@@ -137,7 +137,7 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
     state->raster =
         (VkPipelineRasterizationStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
                                                  .polygonMode = VK_POLYGON_MODE_FILL,
-                                                 .cullMode = VK_CULL_MODE_NONE,
+                                                 .cullMode = (VkCullModeFlags)(def->cull_back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
                                                  .lineWidth = 1};
     state->multisample = (VkPipelineMultisampleStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,

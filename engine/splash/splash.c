@@ -6,13 +6,15 @@
 #include "shaders/splash_crown_find_comp.spv.h"
 #include "shaders/splash_crown_list_comp.spv.h"
 #include "shaders/splash_crown_scan_comp.spv.h"
+#include "shaders/splash_droplet_find_comp.spv.h"
 #include "shaders/splash_fall_comp.spv.h"
 #include "shaders/splash_fall_scan_comp.spv.h"
 #include "shaders/splash_indices_comp.spv.h"
+#include "shaders/splash_pile_find_comp.spv.h"
+#include "shaders/splash_puff_find_comp.spv.h"
 #include "shaders/splash_rebase_comp.spv.h"
 #include "shaders/splash_spawn_comp.spv.h"
 #include "shaders/splash_spawn_scan_comp.spv.h"
-#include "shaders/splash_sprite_find_comp.spv.h"
 #include "shaders/splash_sprite_list_comp.spv.h"
 #include "shaders/splash_sprite_scan_comp.spv.h"
 #include "shaders/splash_sprite_write_comp.spv.h"
@@ -130,7 +132,7 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
 
 /* ---- creating */
 
-enum { BUFFERS = 18, PASSES = 14 };
+enum { BUFFERS = 18, PASSES = 16 };
 
 static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
 {
@@ -185,7 +187,9 @@ static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
         {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
         {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
         {&splash->indices, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
-        {&splash->sprite_find, VIRGA_SPIRV(splash_sprite_find_comp), "splash.sprite_find"},
+        {&splash->droplet_find, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
+        {&splash->pile_find, VIRGA_SPIRV(splash_pile_find_comp), "splash.pile_find"},
+        {&splash->puff_find, VIRGA_SPIRV(splash_puff_find_comp), "splash.puff_find"},
         {&splash->sprite_scan, VIRGA_SPIRV(splash_sprite_scan_comp), "splash.sprite_scan"},
         {&splash->sprite_list, VIRGA_SPIRV(splash_sprite_list_comp), "splash.sprite_list"},
         {&splash->sprite_write, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},

@@ -28,6 +28,17 @@ uint32_t splash_view_bytes(void)
 
 /* ---- prepare */
 
+/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the picture's
+ * right, its down and its depth span. */
+static float handedness(const float clip_from_rel[16])
+{
+    const float *m = clip_from_rel; /* columns */
+    const float x[3] = {m[0], m[4], m[8]}, y[3] = {m[1], m[5], m[9]}, w[3] = {m[3], m[7], m[11]};
+    const float volume = x[0] * (y[1] * w[2] - y[2] * w[1]) - x[1] * (y[0] * w[2] - y[2] * w[0]) +
+                         x[2] * (y[0] * w[1] - y[1] * w[0]);
+    return volume < 0 ? -1.0f : 1.0f;
+}
+
 static void fill_view(const virga_splash *splash, const virga_view *view, double time_s, splash_view_block *out)
 {
     const virga_splash_settings *settings = &splash->settings;
@@ -44,7 +55,8 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .max_droplets = splash->def.max_droplets,
                                         .max_sprites = splash_max_sprites(&splash->def),
                                         .max_crowns = splash_max_crowns(&splash->def),
-                                        .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL};
+                                        .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
+                                        .handed = handedness(out->view.clip_from_rel)};
 }
 
 static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
@@ -65,8 +77,11 @@ static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->context;
     const size_t sprites = offsetof(virga_splash_state_gpu, sprite_groups);
+    const size_t droplets = offsetof(virga_splash_state_gpu, view_groups);
     const size_t crowns = offsetof(virga_splash_state_gpu, splash_groups);
-    over(splash, cmd, splash->sprite_find, sprites);
+    over(splash, cmd, splash->droplet_find, droplets);
+    over(splash, cmd, splash->pile_find, droplets);
+    over(splash, cmd, splash->puff_find, crowns);
     over(splash, cmd, splash->crown_find, crowns);
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, splash->sprite_scan, 1);
@@ -193,6 +208,7 @@ virga_result virga_splash_attach(virga_splash *splash, const virga_target *targe
         def.vertex = rows[i / 2].vertex;
         def.fragment = rows[i / 2].fragment;
         def.name = rows[i / 2].name;
+        def.cull_back = i / 2 == SPLASH_DRAW_PILES || i / 2 == SPLASH_DRAW_CROWNS;
         TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
     }
     slot->serial = target->serial;

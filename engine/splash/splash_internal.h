@@ -62,7 +62,7 @@ struct virga_splash {
     virga_buffer *tick_ring, *rules_ring, *view_ring, *readback_ring;
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices, *sprite_find, *sprite_scan, *sprite_list,
+    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices, *droplet_find, *pile_find, *puff_find, *sprite_scan, *sprite_list,
         *sprite_write, *crown_find, *crown_scan, *crown_list;
     splash_target targets[SPLASH_MAX_TARGETS];
 

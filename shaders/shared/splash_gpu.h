@@ -70,7 +70,7 @@ struct virga_splash_state_gpu {
     uint splash_groups[3];
     uint pad;
     uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
-    uint view_groups;       /* of droplets among them */
+    uint view_groups[3];    /* the same over droplets alone */
     virga_splash_count_gpu counts[165];
 };
 
@@ -85,6 +85,7 @@ struct virga_splash_look_gpu {
     uint max_sprites;
     uint max_crowns;
     uint physical;
+    float handed;        /* 1, or -1 where the picture is mirrored: which way round faces are the front */
 };
 
 /* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in a
@@ -127,14 +128,14 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_COLUMNS  60
 #define VIRGA_CROWN_ROWS     4
 #define VIRGA_CROWN_INDICES  1440/* columns x rows x 6 */
-#define VIRGA_CROWN_PYRAMIDS 12
+#define VIRGA_CROWN_PYRAMIDS 10
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 36);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
-VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 80 + 8 * VIRGA_SPLASH_COUNTS);
+VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 88 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, splash_groups, 48);
 #undef uint

@@ -58,8 +58,8 @@ void main()
     state.returns_before = state.returns;
     state.returns += fallen;
     state.staying = all.y - fallen;
-    state.view_groups = ring_groups(0u, state.staying)[0];
-    state.sprite_groups = uint[3](2u * state.view_groups + state.splash_groups[0], 1u, 1u);
+    state.view_groups = ring_groups(0u, state.staying);
+    state.sprite_groups = uint[3](2u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
     count(VIRGA_SPLASH_FALLEN, fallen);
     returns_head.count = state.returns;
     returns_head.dropped = 0u;

@@ -16,7 +16,7 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
 {
     const vec3 axis = distance(tip, base) > 1e-7 ? normalize(tip - base) : vec3(0.0, 1.0, 0.0);
     const vec3 side = normalize(abs(axis.y) > 0.7 ? vec3(axis.y, -axis.x, 0.0) : vec3(axis.z, 0.0, -axis.x));
-    const vec3 across = cross(side, axis);
+    const vec3 across = look.handed * cross(axis, side); // so that faces are counter-clockwise from outside
     if (corner == 4u)
         return tip;
     return base + half_foot * (((corner + 1u) & 2u) == 0u ? side : -side) + half_foot * ((corner & 2u) == 0u ? across : -across);

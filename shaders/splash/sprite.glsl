@@ -13,7 +13,7 @@ struct Slot {
 
 Slot slot_of(uint slot)
 {
-    const uint span = state.view_groups * VIRGA_SPLASH_GROUP;
+    const uint span = state.view_groups[0] * VIRGA_SPLASH_GROUP;
     Slot found = Slot(SLOT_NONE, NO_PLACE);
     if (slot < 2u * span) {
         found.kind = slot < span ? SLOT_DROPLET : SLOT_PILE;
