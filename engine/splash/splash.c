@@ -103,10 +103,12 @@ static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
 static void fit_device(const virga_context *context, virga_splash_def *def)
 {
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
-    const uint32_t asked = def->max_droplets;
-    while (def->max_droplets * sizeof(virga_droplet_gpu) > most || splash_index_bytes(def) > most ||
-           8u * (uint64_t)def->max_droplets > context->properties.limits.maxDrawIndexedIndexValue)
-        def->max_droplets = def->max_droplets / 2 / VIRGA_SPLASH_GROUP * VIRGA_SPLASH_GROUP;
+    const VkDeviceSize widest = splash_index_bytes(def) / def->max_droplets; /* wider than a droplet */
+    const VkDeviceSize counted = context->properties.limits.maxDrawIndexedIndexValue / 8;
+    const VkDeviceSize fits = most / widest < counted ? most / widest : counted;
+    const uint32_t asked = def->max_droplets, groups = (uint32_t)(fits / VIRGA_SPLASH_GROUP) - 1;
+    if (def->max_droplets > groups * VIRGA_SPLASH_GROUP)
+        def->max_droplets = groups * VIRGA_SPLASH_GROUP;
     if (asked != def->max_droplets)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
                       "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",

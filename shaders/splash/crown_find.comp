@@ -25,10 +25,9 @@ uint pick(uint place)
     const Crown crown = crown_at(splash, view.time_close_s), before = crown_at(splash, view.time_open_s);
     if (max(crown.height, before.height) <= 0.0 || !on_picture(crown))
         return NOT_PICKED;
-    // The paper has no sheet but that of crown-cones, of pyramids, and disks.
-    if (!is_film())
-        return crown.model == VIRGA_SPLASH_CROWN_CONE ? FIRST_KIND : NOT_PICKED;
-    return is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
+    // The paper has no sheets but crowns, which are pyramids.
+    const bool drawn = is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE;
+    return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
 }
 
 void main()

@@ -6,12 +6,12 @@
 #define COMPACT_FIRST_GROUP (2u * state.view_groups[0]) // behind droplets and piles
 #include "sprite_find.glsl"
 
-// In the film's style by its sheet; in the paper's by its pyramids, those of a crown at any size.
+// In the film's style by its sheet; in the paper's by its pyramids, a crown where it is large enough.
 bool is_shown_otherwise(virga_splash_gpu splash)
 {
-    if (is_film())
+    if (is_film() || VIRGA_DROPLET_MODEL(splash.kind) == VIRGA_SPLASH_CROWN_CONE)
         return is_sheet(splash, crown_at(splash, view.time_close_s));
-    return splash.kind >> 16 != 0u || VIRGA_DROPLET_MODEL(splash.kind) == VIRGA_SPLASH_CROWN_CONE;
+    return splash.kind >> 16 != 0u;
 }
 
 void main()

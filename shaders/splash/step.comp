@@ -8,7 +8,7 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-#define PARTS 4       // of a tick
+#define MOST_PARTS 4   // of a tick
 #define MOST_AGE_S 3.0 // what flies longer is blown about: its water counts as fallen where it is
 #define WORDS (VIRGA_SPLASH_GROUP / 32)
 
@@ -39,13 +39,21 @@ float height_above(virga_droplet_gpu droplet, vec3 position)
     return position.y - base.y - dot(unpackHalf2x16(droplet.slopes), position.xz - base.xz);
 }
 
+// As drag asks for; of a droplet on its pile as many as tell when it leaves that.
+int parts_of(virga_droplet_gpu droplet, float against_air, float time_s)
+{
+    const float by_drag = ceil(12.0 * drag_rate(droplet.diameter_m, against_air) * time_s);
+    return (droplet.kind & VIRGA_DROPLET_FREE) == 0u ? MOST_PARTS : int(clamp(by_drag, 1.0, float(MOST_PARTS)));
+}
+
 void move(inout virga_droplet_gpu droplet, float time_s)
 {
     vec3 position = to_vec(droplet.position), velocity = to_vec(droplet.velocity);
     const vec3 wind = is_cone(droplet) ? vec3(0.0) : to_vec(tick.wind);
-    const float part_s = time_s / float(PARTS);
+    const int parts = parts_of(droplet, distance(velocity, wind), time_s);
+    const float part_s = time_s / float(parts);
     float age = droplet.age_s - time_s;
-    for (int i = 0; i < PARTS; i++) {
+    for (int i = 0; i < parts; i++) {
         const vec3 from = position, before = velocity;
         fly(position, velocity, wind, droplet.diameter_m, part_s);
         if ((droplet.kind & VIRGA_DROPLET_FREE) == 0u) {

@@ -1,8 +1,9 @@
-/* bench_splash.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by what
- * they fall on), on from there to a million, and how far each pass is from what the machine can do.
+/* bench_splash.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by
+ * what they fall on), on from there to a million, and how far each pass is from what the machine can do.
  *
- * A splash is live from its impact until its last droplet is down. Live ones are rate x mean life (Little 1961): a warm-up
- * measures the life of a row's splashes, and the rate follows from it. How many were live is counted, not taken for granted. */
+ * A splash is live from its impact until its last droplet is down. Live ones are rate x mean life (Little 1961): a
+ * warm-up measures the life of a row's splashes, and the rate follows from it. How many were live is counted, not taken
+ * for granted. */
 #include "bench.h"
 #include "options.h"
 #include "progress.h"
@@ -22,12 +23,12 @@
 
 /* ---- what is measured */
 
-#define PICTURE       1     /* of bench_sizes */
+#define PICTURE       1 /* of bench_sizes */
 #define PAPER_COUNTS  4
 #define ROWS          4
-#define LIFE_SPLASHES 4096  /* of the warm-up */
-#define LIFE_TICKS    240   /* more than any droplet flies */
-#define MOST_TICKS    60    /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
+#define LIFE_SPLASHES 4096 /* of the warm-up */
+#define LIFE_TICKS    240  /* more than any droplet flies */
+#define MOST_TICKS    60   /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
 #define USUAL_TICKS   30
 #define LEAST_TICKS   3
 #define ENOUGH_S      2.0
@@ -36,7 +37,8 @@
 #define MOST_DROPLETS 4194304u /* virga_splash_def */
 #define MOST_PLACES   1048576u
 #define COPY_DROPLETS 262144u /* copied at the least: fewer would be in a cache */
-#define DROPLET_BYTES 72.0 /* of the largest buffer that grows with droplets: their indices */
+#define DROPLET_BYTES 72.0    /* of the largest buffer that grows with droplets: their indices */
+#define PYRAMIDS      12      /* that a crown of the paper's style is made of, and room for which droplets make */
 
 static const uint32_t usual[] = {100, 500, 1000, 3000, 10000, 100000, 1000000};
 
@@ -60,12 +62,12 @@ static const char *const pass_names[BENCH_PASSES] = {"step", "prepare", "draw"};
 
 /* What is in the air, read back. */
 typedef struct census {
-    uint32_t live;                     /* splashes with a droplet that is not down */
-    uint32_t flying, piles, crowns;    /* droplets; piles and crowns that stand, about */
+    uint32_t live;                  /* splashes with a droplet that is not down */
+    uint32_t flying, piles, crowns; /* droplets; piles and crowns that stand, about */
 } census;
 
-/* Of a splash of one row, in ticks: its mean life, those of its droplets added up, that of its crown, and how long it takes
- * until as many go as come, but for a fiftieth. */
+/* Of a splash of one row, in ticks: its mean life, those of its droplets added up, that of its crown, and how long it
+ * takes until as many go as come, but for a fiftieth. */
 typedef struct splash_life {
     double mean, droplets, crown;
     uint32_t settled;
@@ -138,11 +140,10 @@ static bool create_pass(bench *b, picture *p)
                                           .colorAttachmentCount = 1,
                                           .pColorAttachments = &color,
                                           .pDepthStencilAttachment = &depth};
-    const VkPipelineStageFlags stages =
-        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-        VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkAccessFlags writes =
-        VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+                                        VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     const VkSubpassDependency after_last = {.srcSubpass = VK_SUBPASS_EXTERNAL,
                                             .srcStageMask = stages,
                                             .dstStageMask = stages,
@@ -297,8 +298,8 @@ static bool create_quads(bench *b, picture *p)
     uint32_t indices[6 * BOX_QUADS];
     for (uint32_t i = 0; i < 6 * BOX_QUADS; i++)
         indices[i] = i / 6 * 4 + corners[i % 6];
-    return host_buffer_create_with(&b->device, indices, sizeof indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "quads", &p->quads,
-                                   b->error, sizeof b->error);
+    return host_buffer_create_with(&b->device, indices, sizeof indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "quads",
+                                   &p->quads, b->error, sizeof b->error);
 }
 
 /* Quads: with these indices fill.vert makes them, twice as large as the viewport. */
@@ -355,7 +356,8 @@ static bool measure_picture(bench *b, picture *p)
 
 static bool open_picture(bench *b, picture *p)
 {
-    if (!create_pass(b, p) || !create_images(b, p) || !create_fill(b, p) || !create_quads(b, p) || !measure_picture(b, p))
+    if (!create_pass(b, p) || !create_images(b, p) || !create_fill(b, p) || !create_quads(b, p) ||
+        !measure_picture(b, p))
         return say(b, "picture");
     virga_target_def def = virga_default_target_def();
     def.kind = VIRGA_TARGET_RENDER_PASS;
@@ -406,7 +408,8 @@ static bool open_buffers(run *r)
 static bool open_splash(run *r, double splashes, double droplets, double rate)
 {
     /* The mesh of a sheet lies behind the indices, and droplets come in whole workgroups. */
-    const double holds = floor((r->b->device.properties.limits.maxStorageBufferRange - 4096.0) / DROPLET_BYTES / 256) * 256;
+    const double holds =
+        floor((r->b->device.properties.limits.maxStorageBufferRange - 4096.0) / DROPLET_BYTES / 256) * 256;
     virga_splash_def def = virga_default_splash_def();
     def.tick_s = TICK_S;
     def.max_splashes = between(splashes, 1024, MOST_PLACES);
@@ -456,7 +459,8 @@ static void fill_view(virga_view *view)
 static void place(float far_m, float u, float v, float position[3])
 {
     const double wide = tan(FOV_DEG * 0.5 * 3.14159265358979 / 180) * bench_sizes[PICTURE][0] / bench_sizes[PICTURE][1];
-    const double slope = cos(DOWN_RAD), start = CAMERA_M * sin(DOWN_RAD); /* half the width, by `wide`: start + slope z */
+    const double slope = cos(DOWN_RAD),
+                 start = CAMERA_M * sin(DOWN_RAD); /* half the width, by `wide`: start + slope z */
     const double low = FIRST_M * (start + 0.5 * slope * FIRST_M);
     const double area = low + (double)u * ((double)far_m * (start + 0.5 * slope * (double)far_m) - low);
     const double z = (sqrt(start * start + 2 * slope * area) - start) / slope;
@@ -586,7 +590,8 @@ static bool count_air(run *r, census *air)
         return say(r->b, "droplets could not be read");
     }
     for (uint32_t i = 0; i < r->max_droplets && droplets[i].kind & VIRGA_DROPLET_ALIVE; i++) {
-        const bool cone = VIRGA_DROPLET_MODEL(droplets[i].kind) == VIRGA_SPLASH_CROWN_CONE;
+        const bool cone = VIRGA_DROPLET_MODEL(droplets[i].kind) == VIRGA_SPLASH_CROWN_CONE &&
+                          VIRGA_DROPLET_INDEX(droplets[i].kind) == 0;
         air->live += !seen[droplets[i].id];
         seen[droplets[i].id] = 1;
         air->flying += droplets[i].age_s > 0;
@@ -601,7 +606,7 @@ static bool count_air(run *r, census *air)
 /* Follows splashes of one tick until all are down. */
 static bool measure_life(run *r, splash_life *life)
 {
-    bool good = open_splash(r, LIFE_SPLASHES, 32.0 * LIFE_SPLASHES, LIFE_SPLASHES);
+    bool good = open_splash(r, LIFE_SPLASHES, 64.0 * LIFE_SPLASHES, LIFE_SPLASHES);
     census air = {.live = 1};
     double ms, lived[LIFE_TICKS];
     *life = (splash_life){0};
@@ -649,7 +654,7 @@ static bool show(run *r, bool draw, bool count, double *ms)
     return bench_submit(r->b, ms);
 }
 
-/* Timestamps lie on software Vulkan, so passes are whole submissions, less what they have in common with emptier ones. */
+/* Timestamps lie on software Vulkan, so passes are whole submissions, less what they share with emptier ones. */
 static bool time_tick(run *r, tick_times *t, uint32_t i)
 {
     if (!time_frame(r->b, &r->picture, NOTHING, &t->empty[i]) || !step(r, next_spawns(r), &t->step[i]))
@@ -673,7 +678,8 @@ static bool time_ticks(run *r, cell *c)
         if ((n >= USUAL_TICKS && passed > ENOUGH_S) || (n >= LEAST_TICKS && passed > PATIENCE_S))
             break;
     }
-    const double empty = bench_median(t.empty, n), clear = bench_median(t.clear, n), prepare = bench_median(t.prepare, n);
+    const double empty = bench_median(t.empty, n), clear = bench_median(t.clear, n),
+                 prepare = bench_median(t.prepare, n);
     c->ticks = n;
     c->clear_ms = clear - empty;
     c->ms[STEP] = bench_median(t.step, n) - empty;
@@ -706,8 +712,10 @@ static bool measure_cell(run *r, const splash_life *life, cell *c)
     double ms;
     const double rate = c->wanted / life->mean;
     r->far_m = c->wanted > 3000 ? 60 : 10;
-    /* A view has as many sprites as there is room for droplets, which may each have a pile too, and a twelfth as many crowns. */
-    bool good = open_splash(r, 1.5 * c->wanted, fmax(2.5 * life->droplets, 15 * life->crown) * rate, rate);
+    /* A view has room for as many sprites as there is for droplets, each of which may have a pile too, and for as many
+     * pyramids of crowns; a fifth of that is to spare. */
+    const double droplets = 1.2 * fmax(2 * life->droplets, PYRAMIDS * life->crown) * rate;
+    bool good = open_splash(r, 1.5 * c->wanted, droplets, rate);
     /* Pipelines are compiled while little is there. */
     good = good && step(r, next_spawns(r), &ms) && show(r, true, true, &ms);
     for (uint32_t i = 0; good && i < life->settled && !interrupt_asked(); i++)
@@ -724,9 +732,10 @@ static double frame_ms(const cell *c)
     return c->ms[STEP] + c->ms[PREPARE] + c->ms[DRAW];
 }
 
-static double paper_ms(const cell *c)
+/* 0: the paper has nothing to compare with. */
+static double paper_ms(const bench_splash_choice *choice, const cell *c)
 {
-    for (int i = 0; i < PAPER_COUNTS; i++)
+    for (int i = 0; i < PAPER_COUNTS && choice->mode == VIRGA_SPLASH_MODE_PAPER; i++)
         if (usual[i] == c->wanted)
             return 1e3 / table[c->row].paper_fps[i];
     return 0;
@@ -734,7 +743,7 @@ static double paper_ms(const cell *c)
 
 static void print_head(const bench_splash_choice *choice)
 {
-    printf("\nmode %s, style %s, %u x %u; milliseconds, medians of so many ticks of 1/60 s\n",
+    printf("\nmode %s, style %s, %u x %u; milliseconds, medians of so many ticks; a frame is step, prepare and draw\n",
            choice->mode == VIRGA_SPLASH_MODE_PAPER ? "paper" : "physical",
            choice->style == VIRGA_SPLASH_STYLE_PAPER ? "paper" : "film", bench_sizes[PICTURE][0],
            bench_sizes[PICTURE][1]);
@@ -742,9 +751,21 @@ static void print_head(const bench_splash_choice *choice)
            "ticks", "step", "prepare", "draw", "frame", "frames/s", "the paper's frame");
 }
 
-static void print_cell(const cell *c)
+/* What there was no room for. */
+static void print_lack(const cell *c)
 {
-    const double frame = frame_ms(c), paper = paper_ms(c);
+    if (c->stats.sprites == c->max_droplets || c->air.crowns > c->max_droplets / PYRAMIDS)
+        printf("%21s %u piles and droplets and %u crowns are there, and a view has room for %u sprites and %u crowns\n",
+               "", c->air.piles + c->air.flying, c->air.crowns, c->max_droplets, c->max_droplets / PYRAMIDS);
+    if (c->stats.crowded)
+        printf(
+            "%21s %.1f %% of splashes were crowded: there is room for %u droplets; up to %u more are live as sheets\n",
+            "", 100.0 * (double)c->stats.crowded / c->splashes, c->max_droplets, c->stats.splashes_alive);
+}
+
+static void print_cell(const bench_splash_choice *choice, const cell *c)
+{
+    const double frame = frame_ms(c), paper = paper_ms(choice, c);
     printf("%10u %-10s %8u %9u %9u %5u %9.3f %9.3f %9.3f %9.3f %9.2f", c->wanted, table[c->row].name, c->air.live,
            c->stats.droplets_alive, c->stats.sprites, c->ticks, c->ms[STEP], c->ms[PREPARE], c->ms[DRAW], frame,
            1e3 / frame);
@@ -752,12 +773,7 @@ static void print_cell(const cell *c)
         printf("  %.2f, %s by %.2f", paper, frame <= paper ? "ahead" : "BEHIND",
                frame <= paper ? paper / frame : frame / paper);
     printf("\n");
-    if (c->stats.sprites == c->max_droplets || c->air.crowns > c->max_droplets / 12)
-        printf("%21s %u piles and droplets and %u crowns are there, and a view has room for %u sprites and %u crowns\n", "",
-               c->air.piles + c->air.flying, c->air.crowns, c->max_droplets, c->max_droplets / 12);
-    if (c->stats.crowded)
-        printf("%21s only %.1f %% of splashes had droplets: there is room for %u; up to %u more are live as sheets alone\n",
-               "", 100 - 100.0 * (double)c->stats.crowded / c->splashes, c->max_droplets, c->stats.splashes_alive);
+    print_lack(c);
     fflush(stdout);
 }
 
@@ -777,8 +793,8 @@ static double triangles_of(const bench_splash_choice *choice, const cell *c)
     if (choice->style == VIRGA_SPLASH_STYLE_FILM)
         return 2.0 * c->stats.sprites;
     const double things = fmax(air->flying + air->piles, 1);
-    const double crowns = fmin(air->crowns, c->max_droplets / 12.0);
-    return c->stats.sprites * (2.0 * air->flying + 4.0 * air->piles) / things + 48 * crowns;
+    const double crowns = fmin(air->crowns, c->max_droplets / (double)PYRAMIDS);
+    return c->stats.sprites * (2.0 * air->flying + 4.0 * air->piles) / things + 4 * PYRAMIDS * crowns;
 }
 
 /* A step reads and writes 64 bytes a droplet; a prepare reads them and writes 64 a sprite. */
@@ -789,7 +805,8 @@ static bool measure_limits(run *r, const cell *c, cell_limits *l)
     const uint32_t droplets = c->stats.droplets_alive ? c->stats.droplets_alive : 1;
     const uint32_t copied = droplets > COPY_DROPLETS ? droplets : COPY_DROPLETS;
     /* Machines have faster and slower minutes, so this one's best is taken anew. */
-    if (!measure_picture(b, &r->picture) || !limits_create(&b->device, &b->targets[PICTURE], 4 * copied, &machine, b->error, sizeof b->error))
+    if (!measure_picture(b, &r->picture) ||
+        !limits_create(&b->device, &b->targets[PICTURE], 4 * copied, &machine, b->error, sizeof b->error))
         return say(b, "limits");
     l->copy_ms = limits_copy_ms(&b->device, machine) * droplets / copied;
     l->bare_ms = limits_bare_ms(&b->device, machine) * droplets / copied;
@@ -809,18 +826,19 @@ static bool measure_limits(run *r, const cell *c, cell_limits *l)
 
 static void print_limits(const cell *c, const cell_limits *l)
 {
-    const double timed = c->spawn_ms + c->fly_ms;
-    printf("  %s\n", table[c->row].name);
-    printf("    step     %10.3f ms  %7.2f x a copy of its droplets (%.3f ms), %.2f x a bare kernel's (%.3f ms), %.1f ns a "
-           "droplet; spawns are %.0f %% of it\n",
-           c->ms[STEP], c->ms[STEP] / l->ms[STEP], l->copy_ms, c->ms[STEP] / l->bare_ms, l->bare_ms,
-           c->ms[STEP] * 1e6 / fmax(c->stats.droplets_alive, 1), timed > 0 ? 100 * c->spawn_ms / timed : 0);
-    printf("    prepare  %10.3f ms  %7.2f x a read of droplets and a write of sprites (%.3f ms), %.1f ns a droplet\n",
-           c->ms[PREPARE], c->ms[PREPARE] / l->ms[PREPARE], l->ms[PREPARE],
-           c->ms[PREPARE] * 1e6 / fmax(c->stats.droplets_alive, 1));
-    printf("    draw     %10.3f ms  %7.2f x its %s (%.3f ms), %.0f ns a sprite; about %.0f triangles, %llu pixels\n",
-           c->ms[DRAW], c->ms[DRAW] / l->ms[DRAW], l->by_triangles ? "tiny triangles" : "pixels", l->ms[DRAW],
-           c->ms[DRAW] * 1e6 / fmax(c->stats.sprites, 1), l->triangles, (unsigned long long)c->pixels);
+    const double timed = c->spawn_ms + c->fly_ms, droplets = fmax(c->stats.droplets_alive, 1);
+    printf("  %s, %u droplets, %u sprites, about %.0f triangles, %llu pixels\n", table[c->row].name,
+           c->stats.droplets_alive, c->stats.sprites, l->triangles, (unsigned long long)c->pixels);
+    printf(
+        "    step     %10.3f ms %7.2f x a copy of its droplets (%.3f ms), %.2f x a bare kernel's; %.1f ns a droplet, "
+        "%.0f %% in spawns\n",
+        c->ms[STEP], c->ms[STEP] / l->ms[STEP], l->ms[STEP], c->ms[STEP] / l->bare_ms, c->ms[STEP] * 1e6 / droplets,
+        timed > 0 ? 100 * c->spawn_ms / timed : 0);
+    printf("    prepare  %10.3f ms %7.2f x a read of droplets and a write of sprites (%.3f ms); %.1f ns a droplet\n",
+           c->ms[PREPARE], c->ms[PREPARE] / l->ms[PREPARE], l->ms[PREPARE], c->ms[PREPARE] * 1e6 / droplets);
+    printf("    draw     %10.3f ms %7.2f x the least for its %s (%.3f ms); %.0f ns a sprite\n", c->ms[DRAW],
+           c->ms[DRAW] / l->ms[DRAW], l->by_triangles ? "triangles" : "pixels", l->ms[DRAW],
+           c->ms[DRAW] * 1e6 / fmax(c->stats.sprites, 1));
 }
 
 /* The pass that has the most to gain over all rows. */
@@ -836,17 +854,17 @@ static void print_next(const cell cells[ROWS], const cell_limits limits[ROWS])
     for (int pass = 0; pass < BENCH_PASSES; pass++)
         if (gain[pass] > gain[next])
             next = pass;
-    printf("  next to improve: %s, which is over its limit by %.0f %% of the time of all frames (step %.0f, prepare %.0f, draw "
-           "%.0f)\n",
-           pass_names[next], 100 * gain[next] / all, 100 * gain[STEP] / all, 100 * gain[PREPARE] / all,
-           100 * gain[DRAW] / all);
+    printf(
+        "  next to improve: %s. Time above the limits, of all frames': step %.0f %%, prepare %.0f %%, draw %.0f %%\n",
+        pass_names[next], 100 * gain[STEP] / all, 100 * gain[PREPARE] / all, 100 * gain[DRAW] / all);
 }
 
 static void compare(const picture *p, const cell cells[ROWS], const cell_limits limits[ROWS])
 {
     const double pixels = (double)bench_sizes[PICTURE][0] * bench_sizes[PICTURE][1];
-    printf("limits at %u splashes: copy %.2f GB/s; %.2f million triangles of a pixel a second and %.2f of none; %.0f million blended pixels a second; "
-           "a clear of the picture %.3f ms; a dispatch %.3f ms\n",
+    printf("limits at %u splashes: copy %.2f GB/s read and written; triangles of a pixel %.2f, of none %.2f million a "
+           "second;\n"
+           "  %.0f million blended pixels a second; a clear of the picture %.3f ms; a dispatch %.3f ms\n",
            cells[0].wanted, fmax(cells[0].stats.droplets_alive, 1) * 128 / (limits[0].copy_ms * 1e6),
            1e-3 / p->triangle_ms, 1e-3 / p->missing_ms, pixels * 1e-3 / p->fill_ms, p->clear_ms, limits[0].dispatch_ms);
     for (int i = 0; i < ROWS; i++)
@@ -875,11 +893,11 @@ static bool measure_table(run *r, const uint32_t *counts, uint32_t count)
         for (r->row = 0; r->row < ROWS; r->row++) {
             cell *c = &cells[r->row];
             *c = (cell){.row = r->row, .wanted = counts[i]};
-            if (interrupt_asked())
-                return true;
             if (!measure_cell(r, &lives[r->row], c))
                 return false;
-            print_cell(c);
+            if (interrupt_asked())
+                return true;
+            print_cell(r->choice, c);
             if (i + 1 == count && !measure_limits(r, c, &limits[r->row]))
                 return false;
         }

@@ -22,7 +22,7 @@ void bench_help(void)
         "virga bench rain|ground|splash [options]\n\n"
         "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
         "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
-        "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's table\n\n"
+        "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's\n\n"
         "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a dispatch and\n"
         "a full fill of the picture in the same run. Absolute times are noisy: compare ratios inside one run.\n\n",
         BENCH_RUNS);
@@ -167,6 +167,8 @@ int bench_run(int argc, char **argv)
         good = !strcmp(what, "rain")     ? bench_rain(b, only)
                : !strcmp(what, "ground") ? bench_ground(b)
                                          : bench_splash(b, &splashes);
+    if (b->instance.messages)
+        good = options_complain("bench", "validation: %s", b->instance.first_message);
     close_bench(b);
     free(b);
     return !good ? EXIT_FAILED : interrupt_asked() ? EXIT_INTERRUPTED : EXIT_OK;
