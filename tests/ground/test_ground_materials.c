@@ -10,9 +10,13 @@
 static ground_fixture f;
 static host_image picture;
 
-/* A level floor of asphalt 100 m wide around a place, and 6.4 m of cells in its middle. */
-static void begin(double x, double z)
+/* A level floor of asphalt 100 m wide around a place, and a window of cells in its middle. */
+static void begin_with(double x, double z, uint32_t cells)
 {
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = cells;
+    def.kept_tiles = 0;
+    def.max_impacts = MOST_DROPS;
     memset(&picture, 0, sizeof picture); /* a test that failed has left its own behind */
     ground_fixture_open(&f);
     ground_fixture_floor(&f, MESH);
@@ -20,7 +24,13 @@ static void begin(double x, double z)
     f.meshes[0].world_from_mesh[11] = (float)z;
     f.camera[0] = x;
     f.camera[2] = z;
-    ground_fixture_ground(&f, NULL);
+    ground_fixture_ground(&f, &def);
+}
+
+/* 6.4 m of cells. */
+static void begin(double x, double z)
+{
+    begin_with(x, z, 128);
 }
 
 static void end(void)
@@ -127,7 +137,7 @@ static void test_far_from_the_origin_they_lie_as_exactly(void **state)
     end();
 }
 
-/* 8192 texels in a row, one a cell: far along in it there are few bits left for a place in a texel. */
+/* 8192 texels in a row, one a cell, 100 km away: there are few bits for a place in a texel far along in it. */
 static void test_a_wide_picture_is_as_exact(void **state)
 {
     (void)state;
@@ -136,11 +146,17 @@ static void test_a_wide_picture_is_as_exact(void **state)
     static uint32_t same[WIDE];
     for (uint32_t i = 0; i < WIDE; i++)
         same[i] = texels[i] = (uint8_t)(i * 7 % 29 + 3);
-    begin(10000, 0);
+    begin(100000, 0);
     put_picture(VK_FORMAT_R8_UINT, WIDE, 1, texels, 1);
-    put_corners(10000 - 390.01, -1, 10000 - 390.01 + WIDE * 0.05, 1);
-    ground_fixture_step(&f, 0);
-    assert_int_equal(check_all(same, WIDE, 1), 128 * 40);
+    const double cell = (double)f.ground->def.cell_m, middle = (floor(100000 / cell) + 0.5) * cell;
+    /* Borders a third of a millimetre to the left of the middles of cells, and to the right. */
+    for (int side = -1; side <= 1; side += 2) {
+        const double low_m = middle - 7800 * cell + side * 0.00033;
+        put_corners(low_m, -1, low_m + WIDE * cell, 1);
+        virga_ground_survey(f.ground);
+        ground_fixture_step(&f, 0);
+        assert_int_equal(check_all(same, WIDE, 1), 128 * 40);
+    }
     end();
 }
 
@@ -156,7 +172,7 @@ static void test_wide_integers_and_other_layouts_are_read(void **state)
     host_image_barrier(cmd, &picture, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_READ_BIT);
-    ground_fixture_submit(&f);
+    REQUIRE(host_submit(&f.gpu.device, f.gpu.error, sizeof f.gpu.error));
     f.materials.image.before.layout = VK_IMAGE_LAYOUT_GENERAL;
     put_corners(-1.3, -0.7, 0.2, 0.3);
     ground_fixture_step(&f, 0);
@@ -169,16 +185,16 @@ static void test_a_map_is_looked_at_where_the_window_moves(void **state)
 {
     (void)state;
     static const uint8_t grass = VIRGA_MATERIAL_GRASS;
-    begin(0, 0);
+    begin_with(0, 0, 256);
     ground_fixture_step(&f, 0);
     put_picture(VK_FORMAT_R8_UINT, 1, 1, &grass, 1);
     put_corners(-50, -50, 50, 50);
     ground_fixture_step(&f, 0);
-    assert_int_equal(material_at(63, 0), MESH);
-    f.camera[0] += VIRGA_GROUND_TILE * 0.05;
+    assert_int_equal(material_at(127, 0), MESH);
+    f.camera[0] += 2.5 * VIRGA_GROUND_TILE * 0.05;
     ground_fixture_step(&f, 0);
-    assert_int_equal(material_at(63, 0), MESH);
-    assert_int_equal(material_at(64, 0), VIRGA_MATERIAL_GRASS); /* came in */
+    assert_int_equal(material_at(127, 0), MESH);
+    assert_int_equal(material_at(128, 0), VIRGA_MATERIAL_GRASS); /* came in */
     end();
 }
 

@@ -1,8 +1,9 @@
-/* test_png.c - PNG and JPEG, and the tone curve of previews. */
+/* test_png.c - PNG and JPEG, PNG as numbers, and the tone curve of previews. */
 #include "check_io.h"
 #include "png.h"
 
 #include <math.h>
+#include <zlib.h>
 
 /* A grey 8 x 8 JPEG, every sample 200. */
 static const uint8_t grey_jpeg[] = {
@@ -164,6 +165,125 @@ static void failing_in_the_middle_leaves_nothing(void **state)
     free(pixels);
 }
 
+/* ---- numbers */
+
+enum { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4 };
+
+static void put_word(uint8_t *to, size_t word)
+{
+    for (int i = 0; i < 4; i++)
+        to[i] = (uint8_t)(word >> (24 - 8 * i));
+}
+
+static void put_chunk(FILE *file, const char *name, const uint8_t *data, size_t size)
+{
+    uint8_t chunk[2048], word[4];
+    assert_true(size + 4 <= sizeof chunk);
+    memcpy(chunk, name, 4);
+    memcpy(chunk + 4, data, size);
+    put_word(word, size);
+    fwrite(word, 1, 4, file);
+    fwrite(chunk, 1, size + 4, file);
+    put_word(word, crc32(0, chunk, (uInt)(size + 4)));
+    fwrite(word, 1, 4, file);
+}
+
+/* Rows as they stand in the file, each behind a 0 that says it is unfiltered. Palettes are all white, and half clear in
+ * their first entry. */
+static void put_png(uint8_t depth, uint8_t color, uint32_t width, uint32_t height, const uint8_t *rows, size_t size)
+{
+    uint8_t head[13] = {0}, packed[1024], white[768];
+    uLongf packed_size = sizeof packed;
+    FILE *file = fopen(in_folder("p.png"), "wb");
+    assert_non_null(file);
+    put_word(head, width);
+    put_word(head + 4, height);
+    head[8] = depth;
+    head[9] = color;
+    memset(white, 0xff, sizeof white);
+    assert_int_equal(compress(packed, &packed_size, rows, size), Z_OK);
+    fwrite("\x89PNG\r\n\x1a\n", 1, 8, file);
+    put_chunk(file, "IHDR", head, sizeof head);
+    if (color == PALETTE) {
+        put_chunk(file, "PLTE", white, (size_t)3 << depth);
+        put_chunk(file, "tRNS", (const uint8_t *)"\x7f", 1);
+    }
+    put_chunk(file, "IDAT", packed, packed_size);
+    put_chunk(file, "IEND", NULL, 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void expect_numbers(uint32_t wide, uint32_t high, const uint8_t *expected)
+{
+    uint32_t width, height;
+    uint8_t *numbers;
+    if (!png_read_numbers(in_folder("p.png"), &width, &height, &numbers, error, sizeof error))
+        fail_msg("%s", error);
+    assert_int_equal(width, wide);
+    assert_int_equal(height, high);
+    assert_memory_equal(numbers, expected, (size_t)wide * high);
+    free(numbers);
+}
+
+static void entries_of_a_palette_are_numbers(void **state)
+{
+    (void)state;
+    static const uint8_t bytes[] = {0, 0, 7, 255, 0, 1, 128, 2}, bits[] = {0, 0xa0};
+    static const uint8_t pairs[] = {0, 0xe4}, halves[] = {0, 0x1f, 0x20};
+    put_png(8, PALETTE, 3, 2, bytes, sizeof bytes);
+    expect_numbers(3, 2, (const uint8_t[]){0, 7, 255, 1, 128, 2});
+    put_png(1, PALETTE, 3, 1, bits, sizeof bits);
+    expect_numbers(3, 1, (const uint8_t[]){1, 0, 1});
+    put_png(2, PALETTE, 4, 1, pairs, sizeof pairs);
+    expect_numbers(4, 1, (const uint8_t[]){3, 2, 1, 0});
+    put_png(4, PALETTE, 3, 1, halves, sizeof halves);
+    expect_numbers(3, 1, (const uint8_t[]){1, 15, 2});
+}
+
+static void first_channels_are_numbers(void **state)
+{
+    (void)state;
+    static const uint8_t grey[] = {0, 3, 255}, both[] = {0, 3, 0, 200, 9}, rgb[] = {0, 5, 90, 200, 6, 91, 201};
+    put_png(8, GREY, 2, 1, grey, sizeof grey);
+    expect_numbers(2, 1, (const uint8_t[]){3, 255});
+    put_png(8, GREY_ALPHA, 2, 1, both, sizeof both);
+    expect_numbers(2, 1, (const uint8_t[]){3, 200});
+    put_png(8, RGB, 2, 1, rgb, sizeof rgb);
+    expect_numbers(2, 1, (const uint8_t[]){5, 6});
+}
+
+static void assert_no_numbers(const char *reason)
+{
+    uint32_t width, height;
+    uint8_t *numbers;
+    assert_false(png_read_numbers(in_folder("p.png"), &width, &height, &numbers, error, sizeof error));
+    assert_error("p.png", reason);
+    assert_null(numbers);
+    assert_int_equal(width, 0);
+}
+
+static void what_has_no_numbers_is_refused(void **state)
+{
+    (void)state;
+    static const uint8_t wide[] = {0, 0, 3, 0, 255}, bytes[] = {0, 1, 2, 3};
+    size_t size;
+    put_png(16, GREY, 2, 1, wide, sizeof wide);
+    assert_no_numbers("expected 8 bits a channel, got 16");
+    put_file(in_folder("p.png"), grey_jpeg, sizeof grey_jpeg);
+    assert_no_numbers("not a PNG picture");
+    put_file(in_folder("p.png"), "", 0);
+    assert_no_numbers("not a PNG picture");
+    put_png(8, PALETTE, 3, 1, bytes, sizeof bytes);
+    char *file = get_file(in_folder("p.png"), &size);
+    for (size_t cut = 0; cut < size - 8; cut++) {
+        put_file(in_folder("p.png"), file, cut);
+        assert_no_numbers("cannot read");
+    }
+    free(file);
+    unlink(in_folder("p.png"));
+    assert_no_numbers("No such file or directory");
+}
+
 static void the_tone_curve_never_falls(void **state)
 {
     (void)state;
@@ -221,6 +341,9 @@ int main(void)
         TEST_IN_FOLDER(a_missing_folder_is_one_line),
         TEST_IN_FOLDER(a_full_disk_is_one_line),
         TEST_IN_FOLDER(failing_in_the_middle_leaves_nothing),
+        TEST_IN_FOLDER(entries_of_a_palette_are_numbers),
+        TEST_IN_FOLDER(first_channels_are_numbers),
+        TEST_IN_FOLDER(what_has_no_numbers_is_refused),
         TEST_IN_FOLDER(the_tone_curve_never_falls),
         TEST_IN_FOLDER(the_tone_curve_keeps_mid_tones),
         TEST_IN_FOLDER(light_becomes_srgb_bytes),

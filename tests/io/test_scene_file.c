@@ -36,7 +36,8 @@ static const char full[] =
     "  seed: 4294967295\n"
     "  occlusion_size: 0\n"
     "  keys: [{time_s: 0}, {time_s: 2, rate_mm_h: 80}, {time_s: 4, rate_mm_h: 0, wind_m_s: [5, 0, 1]}]\n"
-    "ground: {on: true, cells: 256}\n"
+    "ground: {on: true, cells: 256, materials: [{match: a, material: tile, walkable: false}],\n"
+    "  material_map: {file: m.png, low_m: [-4, -2.5], high_m: [4, 7], materials: [tile, any word]}}\n"
     "splash: {mode: paper, style: paper, max_splashes: 1000, max_droplets: 2000, droplets_m: 7,\n"
     "  bounce: 0.5, pile_s: 0.03, pile_m: 0.01, dot_mm: 0.4, gain: 2, light_gain: 3, min_width_px: 0.5,\n"
     "  soft_m: 0.01, near_m: 0.1}\n";
@@ -132,6 +133,7 @@ static void every_value_arrives(void **state)
     (void)state;
     put_text("street.glb", "");
     put_text("dusk.exr", "");
+    put_text("m.png", "");
     assert_int_equal(mkdir(in_folder("sub"), 0777), 0);
     put_text("sub/with \"quotes\" and ~.obj", "");
     scene_file *scene = loaded(full, NULL, 0);
@@ -256,6 +258,72 @@ static void splashes_are_on_where_the_ground_is(void **state)
     }
 }
 
+#define MAP "material_map: {file: m.png, low_m: [-4, -2.5], high_m: [4, 7], materials: [tile, any word]}"
+
+static void a_material_map_arrives(void **state)
+{
+    (void)state;
+    char text[512];
+    put_text("m.png", "");
+    snprintf(text, sizeof text, "%sground: {" MAP "}\n", smallest);
+    scene_file *scene = loaded(text, NULL, 0);
+    const scene_material_map *map = &scene->ground.material_map;
+    assert_string_equal(map->file, in_folder("m.png"));
+    near(map->low_m[0], -4);
+    near(map->low_m[1], -2.5);
+    near(map->high_m[0], 4);
+    near(map->high_m[1], 7);
+    assert_int_equal(map->material_count, 2);
+    assert_string_equal(map->materials[0], "tile");
+    assert_string_equal(map->materials[1], "any word");
+    scene_file_free(scene);
+}
+
+/* Left out, left empty, or taken away by who runs it. */
+static void a_material_map_is_optional(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *override;
+    } cases[] = {
+        {"", NULL},
+        {"ground: {material_map: }\n", NULL},
+        {"ground: {" MAP ", cells: 256}\n", "ground.material_map=~"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s%s", smallest, cases[i].text);
+        scene_file *scene = loaded(text, &cases[i].override, cases[i].override != NULL);
+        assert_null(scene->ground.material_map.file);
+        assert_int_equal(scene->ground.material_map.material_count, 0);
+        assert_int_equal(scene->ground.cells, i < 2 ? 1024 : 256);
+        scene_file_free(scene);
+    }
+}
+
+/* After loading, when file name and overrides of the call are gone. */
+static void what_only_others_can_judge_is_refused_by_line(void **state)
+{
+    (void)state;
+    char text[512], path[128], override[] = "ground.materials.1={match: b, material: y}";
+    const char *overrides[] = {override};
+    scene_file *scene;
+    snprintf(text, sizeof text, "%sground:\n  materials:\n    - match: a\n      material: x\n", smallest);
+    put_text("s.yaml", text);
+    strcpy(path, in_folder("s.yaml"));
+    assert_true(scene_file_load(path, overrides, 1, &scene, error, sizeof error));
+    memset(path, '?', strlen(path));
+    memset(override, '?', strlen(override));
+    overrides[0] = NULL;
+    assert_false(scene_file_refuse(scene, "ground.materials.0.material", error, sizeof error, "no %s", "x"));
+    assert_error(folder, "s.yaml:8: ground.materials.0.material: no x");
+    assert_false(scene_file_refuse(scene, "ground.materials.1.material", error, sizeof error, "no y"));
+    assert_string_equal(error, "--set ground.materials.1={match: b, material: y}: ground.materials.1.material: no y");
+    assert_false(scene_file_refuse(scene, "none", error, sizeof error, "no key"));
+    assert_error(folder, "s.yaml: none: no key");
+    scene_file_free(scene);
+}
+
 static uint64_t hash_with_mesh(const char *bytes)
 {
     static const char text[] = "virga: 1\n"
@@ -273,6 +341,24 @@ static void hash_is_of_the_meshes_bytes_too(void **state)
     (void)state;
     assert_true(hash_with_mesh("one") == hash_with_mesh("one"));
     assert_true(hash_with_mesh("one") != hash_with_mesh("two"));
+}
+
+static uint64_t hash_with_map(const char *bytes)
+{
+    char text[512];
+    put_text("m.png", bytes);
+    snprintf(text, sizeof text, "%sground: {" MAP "}\n", smallest);
+    scene_file *scene = loaded(text, NULL, 0);
+    const uint64_t hash = scene_file_hash(scene);
+    scene_file_free(scene);
+    return hash;
+}
+
+static void hash_is_of_the_maps_bytes_too(void **state)
+{
+    (void)state;
+    assert_true(hash_with_map("one") == hash_with_map("one"));
+    assert_true(hash_with_map("one") != hash_with_map("two"));
 }
 
 static void hash_is_of_bytes_and_overrides(void **state)
@@ -356,6 +442,39 @@ static const struct {
     {"splash: {near_m: 6}\n", "splash.near_m: expected a number from 0 to 5, got '6'"},
     {"splash: on\n", "splash: expected keys with values, as in 'key: value', got 'on'"},
     {"splahs: {}\n", "s.yaml:5: splahs: unknown key, did you mean 'splash'?"},
+    {"ground: {material_map: m.png}\n",
+     "s.yaml:5: ground.material_map: expected keys with values, as in 'key: value', got 'm.png'"},
+    {"ground: {material_map: {}}\n", "s.yaml:5: ground.material_map.file: is missing"},
+    {"ground:\n  material_map:\n    {low_m: [0, 0], high_m: [1, 1], materials: [tile]}\n",
+     "s.yaml:7: ground.material_map.file: is missing"},
+    {"ground: {material_map: {file: m.png, high_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.low_m: is missing"},
+    {"ground: {material_map: {file: m.png, low_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.high_m: is missing"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0], high_m: [1, 1]}}\n",
+     "s.yaml:5: ground.material_map.materials: is missing"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0], high_m: [1, 1], materials: []}}\n",
+     "s.yaml:5: ground.material_map.materials: expected 1 to 255 entries, got 0"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0], high_m: [1, 1], materials: [tile, [2]]}}\n",
+     "s.yaml:5: ground.material_map.materials.1: expected a name, got a list"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0], high_m: [1, 1], materials: tile}}\n",
+     "s.yaml:5: ground.material_map.materials: expected a list, with entries that begin with '- ', got 'tile'"},
+    {"ground: {material_map: {file: [m], low_m: [0, 0], high_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.file: expected the name of a file, got a list"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0, 0], high_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.low_m: expected 2 numbers, as in [-4, 7.5], got 3"},
+    {"ground: {material_map: {file: m.png, low_m: [0, .nan], high_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.low_m.1: expected a number from -1000000 to 1000000, got '.nan'"},
+    {"ground:\n  material_map:\n    file: m.png\n    low_m: [0, 2]\n    high_m: [1, 2]\n    materials: [tile]\n",
+     "s.yaml:9: ground.material_map.high_m: expected more than low_m in z (2), got 2"},
+    {"ground: {material_map: {file: m.png, low_m: [0, 0], high_m: [-1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.high_m: expected more than low_m in x (0), got -1"},
+    {"ground:\n  material_map:\n    file: none.png\n    low_m: [0, 0]\n    high_m: [1, 1]\n    materials: [tile]\n",
+     "s.yaml:7: ground.material_map.file: cannot read"},
+    {"ground: {material_map: {file: ., low_m: [0, 0], high_m: [1, 1], materials: [tile]}}\n",
+     "s.yaml:5: ground.material_map.file: expected a file"},
+    {"ground: {material_map: {low: [0, 0]}}\n",
+     "s.yaml:5: ground.material_map.low: unknown key, did you mean 'low_m' (in m)?"},
     {"lights: {type: point}\n", "lights: expected a list, with entries that begin with '- ', got a group of keys"},
     {"lights: [{type: point}]\n", "s.yaml:5: lights.0.position_m: is missing"},
     {"lights: [3]\n", "lights.0: expected keys with values"},
@@ -437,6 +556,7 @@ static const struct {
     {"splash.gain=lots", "--set splash.gain=lots: splash.gain: expected a number from 0 to 100, got 'lots'"},
     {"splash.on=true", "--set splash.on=true: splash.on: expected ground.on: true too"},
     {"splash.modes=paper", "--set splash.modes=paper: splash.modes: unknown key, did you mean 'mode'?"},
+    {"ground.material_map.file=m.png", "ground.material_map.low_m: is missing"},
     {"rain=&a [*a]", "anchors and aliases are not read here"},
 };
 
@@ -525,7 +645,11 @@ int main(void)
         cmocka_unit_test_setup_teardown(empty_groups_and_lists_are_as_if_left_out, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(overrides_change_values, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(splashes_are_on_where_the_ground_is, make_folder, remove_folder),
+        TEST_IN_FOLDER(a_material_map_arrives),
+        TEST_IN_FOLDER(a_material_map_is_optional),
+        TEST_IN_FOLDER(what_only_others_can_judge_is_refused_by_line),
         cmocka_unit_test_setup_teardown(hash_is_of_the_meshes_bytes_too, make_folder, remove_folder),
+        TEST_IN_FOLDER(hash_is_of_the_maps_bytes_too),
         cmocka_unit_test_setup_teardown(hash_is_of_bytes_and_overrides, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(mistakes_are_one_line_with_file_line_and_key, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(wrong_overrides_name_themselves, make_folder, remove_folder),

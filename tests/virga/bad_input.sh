@@ -64,6 +64,11 @@ bad() {
     fails 2 "$@"
 }
 
+# says NAME TEXT: what the line above it had to say.
+says() {
+    grep -qF -- "$2" "$work/lines" || { cp "$work/lines" "$work/err"; complain "$1: does not say '$2'"; }
+}
+
 # scene NAME SED-SCRIPT: the good scene, spoiled.
 scene() {
     sed "$2" "$work/good.yaml" >"$work/bad.yaml"
@@ -132,6 +137,49 @@ sky 'noise for a picture' noise.exr
 echo 'hello' >"$work/text.exr"
 sky 'text for a picture' text.exr
 
+# A grey picture of 0 and 255, and one of 16 bits.
+base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+vGgAAAAASUVORK5CYII=
+base64 -d >"$work/deep.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAEAAAABEAAAAABq7kcWAAAAC0lEQVR4nGNgYAQAAAQAAr96P0oAAAAASUVORK5CYII=
+cat - "$work/good.yaml" >"$work/mapped.yaml" <<'YAML'
+ground:
+  on: true
+  cells: 128
+  materials: [{match: nothing, material: sand}]
+  material_map:
+    file: map.png
+    low_m: [-1, -1]
+    high_m: [1, 1]
+    materials: [tile, drain]
+YAML
+
+# map NAME TEXT SED-SCRIPT: the scene with a map, spoiled, is refused with the same line whoever reads it.
+map() {
+    local command
+    sed "$3" "$work/mapped.yaml" >"$work/bad.yaml"
+    for command in check "render -o $work/out"; do
+        bad "$1, ${command%% *}" $command "$work/bad.yaml"
+        says "$1, ${command%% *}" "bad.yaml:$2"
+    done
+}
+names='expected one of default, asphalt, concrete, stone, brick, grass, sand, soil, wood, metal, glass, water, leaves,'
+names="$names cloth, plastic, tile, drain, got"
+map 'unknown material' "4: ground.materials.0.material: $names 'snad', did you mean 'sand'?" 's/sand/snad/'
+map 'unknown material of a map' "9: ground.material_map.materials.1: $names 'cheese'" 's/drain/cheese/'
+map 'missing map' '6: ground.material_map.file: cannot read' 's/map.png/none.png/'
+map 'folder for a map' '6: ground.material_map.file: expected a file' 's/map.png/./'
+map 'map without corner' '6: ground.material_map.low_m: is missing' '/low_m/d'
+map 'map without materials' '6: ground.material_map.materials: is missing' '/tile/d'
+map 'map without extent' '8: ground.material_map.high_m: expected more than low_m in z (-1), got -1' \
+    's/high_m.*/high_m: [1, -1]/'
+: >"$work/empty.png"
+map 'empty map' "6: ground.material_map.file: cannot read $work/empty.png: not a PNG picture" 's/map.png/empty.png/'
+map 'sky for a map' "6: ground.material_map.file: cannot read $work/sky.exr: not a PNG picture" 's/map.png/sky.exr/'
+map 'map of 16 bits' '6: ground.material_map.file: cannot read' 's/map.png/deep.png/'
+says 'map of 16 bits' 'expected 8 bits a channel, got 16'
+head -c 50 "$work/map.png" >"$work/cut.png"
+map 'map cut short' "6: ground.material_map.file: cannot read $work/cut.png: the picture is damaged" \
+    's/map.png/cut.png/'
+
 good="$work/good.yaml"
 bad 'no command' rendre
 bad 'unknown option' render "$good" -o "$work/out" --sise 32x32
@@ -181,6 +229,16 @@ failures=$? count=$((count + 2))
     complain 'the good scene with splashes, checked'
 grep -q '^  splash *paper, film style, [0-9]* splashes, [0-9]* droplets$' "$work/stdout" ||
     complain 'splashes are not in what check says'
+"$virga" render "$work/mapped.yaml" -o "$work/map" --frames 1 >"$work/stdout" 2>"$work/err" ||
+    complain 'the scene with a map'
+"$virga" check "$work/mapped.yaml" >"$work/stdout" 2>"$work/err" || complain 'the scene with a map, checked'
+grep -q '^  material map .*/map.png: 2 x 1, 2 materials on 50 % of it$' "$work/stdout" ||
+    complain 'the map is not in what check says'
+"$virga" check "$work/mapped.yaml" --set ground.material_map=~ >"$work/stdout" 2>"$work/err" &&
+    ! grep 'material map' "$work/stdout" >"$work/err" || complain 'the scene without its map'
+base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg/A8AAQQBAcV71F8AAAAASUVORK5CYII=
+bad 'going on with another map' render "$work/mapped.yaml" -o "$work/map" --frames 1 --resume
+says 'going on with another map' 'scene hash'
 bad 'going on with another seed' render "$good" -o "$work/fine" --resume --seed 9
 "$virga" render "$good" -o "$work/fine" --resume --points --stats >"$work/stdout" 2>"$work/err" ||
     complain 'going on with the good scene'

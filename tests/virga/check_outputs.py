@@ -2,6 +2,7 @@
 
 Usage: check_outputs.py headers|pixels|points|droplets|stats|previews FILE...
        check_outputs.py near FILE X Y Z
+       check_outputs.py mapped POINTS STATS STATS_WITHOUT
 """
 import json
 import math
@@ -289,6 +290,25 @@ def check_near(arguments):
     expect(all(math.dist(d[X:X + 3], camera) < 5 for d in points), f"droplets far from the camera at {camera}")
 
 
+def check_mapped(paths):
+    """A picture of 2 x 2 texels whose middle lies at the camera: what splashes comes from the material it says."""
+    points, lines, without = read_points(paths[0], DROPLET), open(paths[1]).readlines(), open(paths[2]).readlines()
+    quarters = {}
+    for d in points:
+        x, z = d[X] - CAMERA[0], d[X + 2] - CAMERA[2]
+        if min(abs(x), abs(z)) > 0.3:  # droplets have flown from where the drop fell
+            quarters.setdefault((x > 0, z > 0), []).append(MATERIALS[d[MATERIAL]])
+    expect(len(quarters) == 4 and min(map(len, quarters.values())) > 20, f"{[len(q) for q in quarters.values()]}")
+    for (right, behind), names in quarters.items():
+        wanted = {(False, False): "metal", (True, True): "tile"}.get((right, behind))
+        strange = [name for name in names if (name != wanted if wanted else name in ("metal", "tile"))]
+        expect(not strange, f"right {right}, behind {behind}: {strange[:5]}, expected {wanted or 'those of meshes'}")
+    told, before = ({name: sum(of.get(name, 0) for of in json.loads(line)["splash"]["splashes"].values())
+                     for name in MATERIALS} for line in (lines[-1], without[-1]))
+    for name in ("metal", "tile"):
+        expect(told[name] > before[name] + 100, f"{told[name]} splashes on {name}, without a map {before[name]}")
+
+
 # ---- statistics and previews
 
 BUDGET = ("elsewhere", "absorbed", "film", "puddle", "run_off", "evaporated", "kept", "forgotten", "aloft")
@@ -346,6 +366,6 @@ def check_previews(paths):
 
 
 CHECKS = {"headers": check_headers, "pixels": check_pixels, "points": check_points, "droplets": check_droplets,
-          "near": check_near, "stats": check_stats, "previews": check_previews}
+          "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)

@@ -1,4 +1,4 @@
-/* png.c - PNG and JPEG through stb, and the tone curve of previews. */
+/* png.c - PNG and JPEG through stb, PNG as numbers, and the tone curve of previews. */
 #include "png.h"
 
 #include "file.h"
@@ -92,6 +92,82 @@ bool png_read(const char *path, uint32_t *width, uint32_t *height, uint8_t **rgb
     free(data);
     return ok;
 }
+
+/* ---- numbers */
+
+/* Where a PNG's first chunk says how its pixels are stored, and what it says there. */
+enum { CHUNKS = 8, DEPTH = 24, COLOR = 25, FIRST_END = 33, GREY = 0, PALETTE = 3 };
+
+static bool is_png(const uint8_t *data, size_t size)
+{
+    static const uint8_t begins[16] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+    return size >= FIRST_END && !memcmp(data, begins, sizeof begins);
+}
+
+/* stb gives the colours of a palette, never the numbers of its entries; but what is called grey it gives as it stands,
+ * and it does not look at checksums. The transparency of a palette's entries would be wrong in a grey picture, so its
+ * chunk gets a name that nobody reads. */
+static void call_grey(uint8_t *png, size_t size)
+{
+    png[COLOR] = GREY;
+    for (size_t at = CHUNKS; size - at >= 12;) {
+        uint8_t *chunk = png + at;
+        const size_t length = (size_t)chunk[0] << 24 | (size_t)chunk[1] << 16 | (size_t)chunk[2] << 8 | chunk[3];
+        if (!memcmp(chunk + 4, "tRNS", 4))
+            memcpy(chunk + 4, "skip", 4);
+        if (length > size - at - 12)
+            return;
+        at += length + 12;
+    }
+}
+
+/* The first of the channels of each pixel, in place. Few bits are stretched to 8 by stb where it takes them for grey,
+ * which is right for grey, but not for a palette. */
+static void keep_first_channel(uint8_t *pixels, size_t count, int channels, int stretch)
+{
+    for (size_t i = 0; i < count; i++)
+        pixels[i] = (uint8_t)(pixels[i * (size_t)channels] / stretch);
+}
+
+static bool numbers_from_memory(uint8_t *data, size_t size, const char *path, uint32_t *width, uint32_t *height,
+                                uint8_t **numbers, char *error, size_t error_size)
+{
+    int across = 0, down = 0, channels = 0, stretch = 1;
+    if (size > MAX_FILE || !is_png(data, size) || !stbi_info_from_memory(data, (int)size, &across, &down, &channels))
+        return refuse(error, error_size, "read", path, "not a PNG picture of at most 16384 pixels on each side");
+    if (data[DEPTH] > 8)
+        return refuse(error, error_size, "read", path, "expected 8 bits a channel, got 16");
+    if (data[COLOR] == PALETTE) {
+        stretch = 255 / ((1 << data[DEPTH]) - 1);
+        call_grey(data, size);
+    }
+    *numbers = stbi_load_from_memory(data, (int)size, &across, &down, &channels, 0);
+    if (!*numbers) {
+        char reason[96];
+        snprintf(reason, sizeof reason, "the picture is damaged: %s", stbi_failure_reason());
+        return refuse(error, error_size, "read", path, reason);
+    }
+    keep_first_channel(*numbers, (size_t)across * (size_t)down, channels, stretch);
+    *width = (uint32_t)across;
+    *height = (uint32_t)down;
+    return true;
+}
+
+bool png_read_numbers(const char *path, uint32_t *width, uint32_t *height, uint8_t **numbers, char *error,
+                      size_t error_size)
+{
+    void *data;
+    size_t size;
+    *width = *height = 0;
+    *numbers = NULL;
+    if (!file_read(path, MAX_FILE, &data, &size, error, error_size))
+        return false;
+    const bool ok = numbers_from_memory(data, size, path, width, height, numbers, error, error_size);
+    free(data);
+    return ok;
+}
+
+/* ---- light to bytes */
 
 /* With u = (x - a) / (1 - a), the shoulder is y = a + (1 - a) u (1 + u / w^2) / (1 + u) (the extended curve of Reinhard
  * et al. 2002): slope 1 at u = 0, y = 1 at u = w. Here a = 0.6 and x = 8 gives 1, so w = 7.4 / 0.4 = 18.5. */

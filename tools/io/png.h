@@ -1,4 +1,4 @@
-/* png.h - 8 bit pictures: PNG out, PNG and JPEG in, and the tone curve of previews. */
+/* png.h - 8 bit pictures: PNG out, PNG and JPEG in, PNG as numbers, and the tone curve of previews. */
 #ifndef VIRGA_IO_PNG_H
 #define VIRGA_IO_PNG_H
 
@@ -18,6 +18,11 @@ bool png_read(const char *path, uint32_t *width, uint32_t *height, uint8_t **rgb
 /* The same from memory; `what` names the picture in errors. */
 bool png_read_memory(const void *data, size_t size, const char *what, uint32_t *width, uint32_t *height, uint8_t **rgba,
                      char *error, size_t error_size);
+
+/* Reads a PNG file whose pixels are numbers rather than colours, one byte each, to be freed by free(): the number of
+ * the palette's entry where it has a palette, else the first channel as it stands. 16 bits a channel are refused. */
+bool png_read_numbers(const char *path, uint32_t *width, uint32_t *height, uint8_t **numbers, char *error,
+                      size_t error_size);
 
 /* Display bytes of linear light: exposure in stops, the tone curve of png_tone, sRGB. Alpha is dropped: a preview shows
  * what the camera sees. NaN and negative light show as black. `rgb` holds 3 bytes per pixel. */

@@ -223,7 +223,8 @@ static bool check_text(walk *at, int node, const cyaml_schema_value_t *schema)
     bool ok = found->type == YAML_SCALAR_NODE && !scene_document_is_null(at->document, node) &&
               found->data.scalar.length >= schema->string.min && found->data.scalar.length <= schema->string.max &&
               strlen((const char *)found->data.scalar.value) == found->data.scalar.length;
-    return ok || expected(at, node, "the name of a file");
+    const char *dot = strrchr(at->rule, '.');
+    return ok || expected(at, node, dot && !strcmp(dot, ".file") ? "the name of a file" : "a name");
 }
 
 static bool check_switch(walk *at, int node)
@@ -239,7 +240,9 @@ static bool check_value(walk *at, int node, const cyaml_schema_value_t *schema, 
 static bool check_vector(walk *at, int node, const cyaml_schema_value_t *schema, const scene_rule *rule)
 {
     const yaml_node_t *list = node_of(at, node);
-    const char *what = schema->sequence.max == 2 ? "2 numbers, as in [1280, 720]" : "3 numbers, as in [0, 1.5, 0]";
+    const char *pair = schema->sequence.entry->type == CYAML_UINT ? "2 numbers, as in [1280, 720]"
+                                                                  : "2 numbers, as in [-4, 7.5]";
+    const char *what = schema->sequence.max == 2 ? pair : "3 numbers, as in [0, 1.5, 0]";
     if (list->type != YAML_SEQUENCE_NODE)
         return expected(at, node, what);
     size_t count = (size_t)(list->data.sequence.items.top - list->data.sequence.items.start);
@@ -306,8 +309,8 @@ static bool is_group_or_list(const cyaml_schema_value_t *schema)
     return schema->type == CYAML_MAPPING || schema->type == CYAML_SEQUENCE;
 }
 
-/* Puts the default where a key is missing. Groups and lists that were left empty count as missing; `rate_mm_h:` with
- * nothing behind it does not, as a forgotten number is a mistake. */
+/* Puts the default where a key is missing. Groups and lists that were left empty count as missing, and are taken out
+ * where there is no default; `rate_mm_h:` with nothing behind it does not, as a forgotten number is a mistake. */
 static bool fill_in(walk *at, int node, const cyaml_schema_field_t *field)
 {
     int value = scene_document_member(at->document, node, field->key, NULL);
@@ -322,6 +325,8 @@ static bool fill_in(walk *at, int node, const cyaml_schema_field_t *field)
         ok = scene_document_add_copy(at->document, node, field->key, rule->value + 1);
     } else if (rule->value) {
         ok = scene_document_add(at->document, node, field->key, rule->value);
+    } else {
+        scene_document_remove(at->document, node, field->key);
     }
     leave(at, back);
     return ok;

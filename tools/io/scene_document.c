@@ -209,6 +209,32 @@ bool scene_document_parse(scene_document *document, const char *path, const char
 void scene_document_free(scene_document *document)
 {
     yaml_document_delete(&document->yaml);
+    free(document->kept);
+    document->kept = NULL;
+}
+
+static const char *copy_text(char **room, const char *text)
+{
+    char *copy = *room;
+    *room = stpcpy(copy, text) + 1;
+    return copy;
+}
+
+bool scene_document_keep(scene_document *document, size_t override_count)
+{
+    size_t size = override_count * sizeof(char *) + strlen(document->path) + 1;
+    for (size_t i = 0; i < override_count; i++)
+        size += strlen(document->overrides[i]) + 1;
+    const char **overrides = malloc(size);
+    if (!overrides)
+        return scene_document_fail(document, 0, "no more memory");
+    char *room = (char *)(overrides + override_count);
+    for (size_t i = 0; i < override_count; i++)
+        overrides[i] = copy_text(&room, document->overrides[i]);
+    document->path = copy_text(&room, document->path);
+    document->overrides = overrides;
+    document->kept = overrides;
+    return true;
 }
 
 /* ---- looking up ----------------------------------------------------------------------------------------------- */
@@ -391,6 +417,16 @@ bool scene_document_add_copy(scene_document *document, int mapping, const char *
     int node = source ? copy_tree(document, &document->yaml, source, &mark) : 0;
     return (node && put_member(document, mapping, key, node, &mark)) ||
            scene_document_fail(document, mapping, "%s: cannot be taken from %s", key, from);
+}
+
+void scene_document_remove(scene_document *document, int mapping, const char *key)
+{
+    yaml_node_pair_t *pair = find_pair(document, mapping, key);
+    if (!pair)
+        return;
+    yaml_node_t *at = get(document, mapping);
+    memmove(pair, pair + 1, (size_t)(at->data.mapping.pairs.top - pair - 1) * sizeof *pair);
+    at->data.mapping.pairs.top--;
 }
 
 /* ---- overrides ------------------------------------------------------------------------------------------------ */

@@ -10,6 +10,7 @@ typedef struct scene_document {
     yaml_document_t yaml;
     const char *path;             /* of the file, as given */
     const char *const *overrides; /* as given */
+    void *kept;                   /* copies of both, see scene_document_keep */
     char *error;
     size_t error_size;
 } scene_document;
@@ -25,6 +26,9 @@ bool scene_document_parse(scene_document *document, const char *path, const char
                           size_t error_size);
 void scene_document_free(scene_document *document);
 
+/* Copies the path and the overrides, so that the document can outlive them. */
+bool scene_document_keep(scene_document *document, size_t override_count);
+
 /* Puts values at their keys; creates what is missing on the way. */
 bool scene_document_override(scene_document *document, const char *const *overrides, size_t count);
 
@@ -33,6 +37,9 @@ bool scene_document_add(scene_document *document, int mapping, const char *key, 
 
 /* The same with a copy of the value at a path. */
 bool scene_document_add_copy(scene_document *document, int mapping, const char *key, const char *from);
+
+/* Takes a key out of a mapping, if it is there. */
+void scene_document_remove(scene_document *document, int mapping, const char *key);
 
 /* Node at a path such as "rain.keys.0.time_s", or 0. */
 int scene_document_find(scene_document *document, const char *path);

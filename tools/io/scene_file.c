@@ -47,8 +47,12 @@ static cyaml_config_t loader(first_line *line)
 void scene_file_free(scene_file *scene)
 {
     cyaml_config_t config = loader(&(first_line){""});
-    if (scene)
-        cyaml_free(&config, &scene_schema, scene, 0);
+    if (!scene)
+        return;
+    if (scene->source)
+        scene_document_free(scene->source);
+    free(scene->source);
+    cyaml_free(&config, &scene_schema, scene, 0);
 }
 
 static bool load_data(scene_document *document, scene_file **scene)
@@ -105,7 +109,9 @@ static bool find_files(scene_document *document, scene_file *scene)
         if (!find_file(document, key, &scene->meshes[i].file))
             return false;
     }
-    return !scene->environment.file || find_file(document, "environment.file", &scene->environment.file);
+    scene_material_map *map = &scene->ground.material_map;
+    return (!scene->environment.file || find_file(document, "environment.file", &scene->environment.file)) &&
+           (!map->file || find_file(document, "ground.material_map.file", &map->file));
 }
 
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
@@ -121,6 +127,20 @@ static bool refuse(scene_document *document, const char *key, const char *format
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     return scene_document_fail(document, scene_document_find(document, key), "%s: %s", key, text);
+}
+
+bool scene_file_refuse(const scene_file *scene, const char *key, char *error, size_t error_size, const char *format,
+                       ...)
+{
+    char text[1024];
+    scene_document *source = scene->source;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    source->error = error;
+    source->error_size = error_size;
+    return scene_document_fail(source, scene_document_find(source, key), "%s: %s", key, text);
 }
 
 static bool check_camera(scene_document *document, const scene_camera *camera)
@@ -203,6 +223,15 @@ static bool check_rain(scene_document *document, const scene_rain *rain)
     return check_table(document, rain);
 }
 
+static bool check_material_map(scene_document *document, const scene_material_map *map)
+{
+    for (int axis = 0; map->file && axis < 2; axis++)
+        if (map->high_m[axis] <= map->low_m[axis])
+            return refuse(document, "ground.material_map.high_m", "expected more than low_m in %s (%g), got %g",
+                          axis ? "z" : "x", map->low_m[axis], map->high_m[axis]);
+    return true;
+}
+
 static bool check_together(scene_document *document, const scene_file *scene)
 {
     if (scene->frames.last < scene->frames.first)
@@ -211,7 +240,7 @@ static bool check_together(scene_document *document, const scene_file *scene)
     if (scene->splash.on && !scene->ground.on)
         return refuse(document, "splash.on", "expected ground.on: true too, as it is the ground that drops splash on");
     return check_camera(document, &scene->camera) && check_lights(document, scene) &&
-           check_rain(document, &scene->rain);
+           check_rain(document, &scene->rain) && check_material_map(document, &scene->ground.material_map);
 }
 
 /* ---- loading -------------------------------------------------------------------------------------------------- */
@@ -245,22 +274,38 @@ static uint64_t hash_file(uint64_t hash, const char *path)
     return hash;
 }
 
-/* Another mesh or sky under the same name is another scene. */
+/* Another mesh, sky or map under the same name is another scene. */
 static uint64_t hash_files(uint64_t hash, const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         hash = hash_file(hash, scene->meshes[i].file);
-    return scene->environment.file ? hash_file(hash, scene->environment.file) : hash;
+    if (scene->environment.file)
+        hash = hash_file(hash, scene->environment.file);
+    return scene->ground.material_map.file ? hash_file(hash, scene->ground.material_map.file) : hash;
 }
 
+/* On success the document is the scene's. */
 static bool load_document(scene_document *document, scene_file **scene, const char *const *overrides, size_t count)
 {
     if (!scene_document_override(document, overrides, count) || !scene_check(document) || !load_data(document, scene))
         return false;
-    if (check_together(document, *scene) && find_files(document, *scene))
+    if (check_together(document, *scene) && find_files(document, *scene) && scene_document_keep(document, count)) {
+        (*scene)->source = document;
         return true;
+    }
     scene_file_free(*scene);
     *scene = NULL;
+    return false;
+}
+
+static bool load_text(scene_document *document, const char *path, const char *text, size_t size,
+                      const char *const *overrides, size_t count, scene_file **scene, char *error, size_t error_size)
+{
+    if (!scene_document_parse(document, path, text, size, error, error_size))
+        return false;
+    if (load_document(document, scene, overrides, count))
+        return true;
+    scene_document_free(document);
     return false;
 }
 
@@ -269,17 +314,16 @@ bool scene_file_load(const char *path, const char *const *overrides, size_t over
 {
     void *text = NULL;
     size_t size = 0;
-    scene_document document;
     *scene = NULL;
     if (!file_read(path, MAX_BYTES, &text, &size, error, error_size))
         return false;
-    bool ok = scene_document_parse(&document, path, text, size, error, error_size);
-    if (ok) {
-        ok = load_document(&document, scene, overrides, override_count);
-        scene_document_free(&document);
-    }
+    scene_document *document = malloc(sizeof *document);
+    bool ok = document || file_error(error, error_size, "cannot read", path, ENOMEM);
+    ok = ok && load_text(document, path, text, size, overrides, override_count, scene, error, error_size);
     if (ok)
         (*scene)->hash = hash_files(hash_of(text, size, overrides, override_count), *scene);
+    else
+        free(document);
     free(text);
     return ok;
 }

@@ -14,8 +14,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define SCENE_FILE_VERSION    1  /* the value of the key `virga` */
-#define SCENE_FILE_MAX_LIGHTS 16 /* as many as rain takes */
+#define SCENE_FILE_VERSION       1   /* the value of the key `virga` */
+#define SCENE_FILE_MAX_LIGHTS    16  /* as many as rain takes */
+#define SCENE_FILE_MAX_MATERIALS 255 /* of a material map, whose pixels are bytes; 255 is none of them */
 
 typedef struct scene_mesh {
     char *file;             /* as it can be opened: joined with the scene file's folder */
@@ -106,6 +107,14 @@ typedef struct scene_ground_rule {
     bool walkable;     /* false: no cells on it */
 } scene_ground_rule;
 
+/* A picture of materials, over those of meshes. */
+typedef struct scene_material_map {
+    char *file;                 /* a PNG of numbers (see png_read_numbers), as it can be opened; NULL: no map */
+    double low_m[2], high_m[2]; /* corners in x and z: its first pixel lies at low_m, its rows go along x */
+    char **materials;           /* by number; pixels of others leave the mesh's material */
+    uint32_t material_count;
+} scene_material_map;
+
 typedef struct scene_ground {
     bool on;
     uint32_t cells;
@@ -115,6 +124,7 @@ typedef struct scene_ground {
     double start_wetness, start_water_mm;
     scene_ground_rule *materials; /* the first that matches counts; none: words in names decide */
     uint32_t material_count;
+    scene_material_map material_map;
 } scene_ground;
 
 typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYSICAL } scene_splash_mode;
@@ -145,7 +155,8 @@ typedef struct scene_file {
     scene_rain rain;
     scene_ground ground;
     scene_splash splash;
-    uint64_t hash; /* see scene_file_hash */
+    uint64_t hash;                 /* see scene_file_hash */
+    struct scene_document *source; /* for scene_file_refuse */
 } scene_file;
 
 /* Loads and checks a scene. `overrides` are texts like "rain.rate_mm_h=50", "frames.size=[640, 360]" or
@@ -157,9 +168,14 @@ bool scene_file_load(const char *path, const char *const *overrides, size_t over
 /* Accepts NULL. */
 void scene_file_free(scene_file *scene);
 
-/* 64-bit FNV-1a of the file's bytes, the overrides and the bytes of the meshes and the environment that it names: the
- * same for the same scene anywhere, another one where any of them was changed. Included files of a mesh (textures beside
- * it) do not count. */
+/* Writes one line about the value of a key ("ground.materials.0.material") that only those can judge who use it, as
+ * scene_file_load would: with file and line, or with the override that brought it. Returns false. */
+bool scene_file_refuse(const scene_file *scene, const char *key, char *error, size_t error_size, const char *format,
+                       ...) __attribute__((format(printf, 5, 6)));
+
+/* 64-bit FNV-1a of the file's bytes, the overrides and the bytes of the meshes, the environment and the material map
+ * that it names: the same for the same scene anywhere, another one where any of them was changed. Included files of a
+ * mesh (textures beside it) do not count. */
 uint64_t scene_file_hash(const scene_file *scene);
 
 /* The words that a file has for them. */

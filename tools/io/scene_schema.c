@@ -15,6 +15,7 @@
 #define NUMBER(owner, name) CYAML_FIELD_FLOAT(#name, D, owner, name)
 #define WHOLE(owner, name)  CYAML_FIELD_UINT(#name, D, owner, name)
 #define VECTOR(owner, name) CYAML_FIELD_SEQUENCE_FIXED(#name, D, owner, name, &number, 3)
+#define PAIR(owner, name)   CYAML_FIELD_SEQUENCE_FIXED(#name, D, owner, name, &number, 2)
 #define CHOICE(owner, name, words) \
     CYAML_FIELD_ENUM(#name, CYAML_FLAG_STRICT, owner, name, words, CYAML_ARRAY_LEN(words))
 #define GROUP(owner, name, fields) CYAML_FIELD_MAPPING(#name, D, owner, name, fields)
@@ -138,6 +139,15 @@ static const cyaml_schema_field_t ground_rule_fields[] = {
 };
 static const cyaml_schema_value_t ground_rule = {CYAML_VALUE_MAPPING(D, scene_ground_rule, ground_rule_fields)};
 
+static const cyaml_schema_value_t material_name = {CYAML_VALUE_STRING(CYAML_FLAG_POINTER, char, 1, 40)};
+static const cyaml_schema_field_t material_map_fields[] = {
+    CYAML_FIELD_STRING_PTR("file", CYAML_FLAG_POINTER, scene_material_map, file, 1, 4000),
+    PAIR(scene_material_map, low_m),
+    PAIR(scene_material_map, high_m),
+    LIST("materials", scene_material_map, materials, material_count, &material_name, 1, SCENE_FILE_MAX_MATERIALS),
+    CYAML_FIELD_END,
+};
+
 static const cyaml_schema_field_t ground_fields[] = {
     CYAML_FIELD_BOOL("on", D, scene_ground, on),
     WHOLE(scene_ground, cells),
@@ -147,6 +157,7 @@ static const cyaml_schema_field_t ground_fields[] = {
     NUMBER(scene_ground, start_wetness),
     NUMBER(scene_ground, start_water_mm),
     LIST("materials", scene_ground, materials, material_count, &ground_rule, 0, 256),
+    CYAML_FIELD_MAPPING("material_map", CYAML_FLAG_OPTIONAL, scene_ground, material_map, material_map_fields),
     CYAML_FIELD_END,
 };
 
@@ -287,6 +298,11 @@ static const scene_rule rules[] = {
     {"ground.materials[].match", 0, 0, NULL},
     {"ground.materials[].material", 0, 0, NULL},
     {"ground.materials[].walkable", 0, 0, "true"},
+    {"ground.material_map", 0, 0, NULL},
+    {"ground.material_map.file", 0, 0, NULL},
+    {"ground.material_map.low_m", -ANY_M, ANY_M, NULL},
+    {"ground.material_map.high_m", -ANY_M, ANY_M, NULL},
+    {"ground.material_map.materials", 0, 0, NULL},
 
     /* Ranges and defaults of the splashes are the library's own: virga/splash.h. */
     {"splash", 0, 0, "{}"},

@@ -4,6 +4,7 @@
 
 #include "exr.h"
 #include "scene_file.h"
+#include "shot.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
@@ -51,12 +52,31 @@ static bool check_environment(const char *path)
     return true;
 }
 
+static bool check_material_map(const scene_file *scene)
+{
+    uint32_t width, height;
+    uint8_t *texels;
+    char error[1024];
+    if (!shot_read_material_map(scene, &width, &height, &texels, error, sizeof error))
+        return options_complain("check", "%s", error);
+    if (!texels)
+        return true;
+    size_t mapped = 0;
+    const size_t count = (size_t)width * height;
+    for (size_t i = 0; i < count; i++)
+        mapped += texels[i] != SHOT_MATERIAL_OF_MESH;
+    printf("  material map %s: %u x %u, %u materials on %.3g %% of it\n", scene->ground.material_map.file, width,
+           height, scene->ground.material_map.material_count, 100 * (double)mapped / (double)count);
+    free(texels);
+    return true;
+}
+
 static bool check_files(const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         if (!check_mesh(scene->meshes[i].file))
             return false;
-    return check_environment(scene->environment.file);
+    return check_environment(scene->environment.file) && check_material_map(scene);
 }
 
 static void print_ground(const scene_file *scene)
@@ -87,6 +107,11 @@ int check_run(int argc, char **argv)
     }
     if (!scene_file_load(parsed.arguments[0], parsed.repeated, parsed.repeated_count, &scene, error, sizeof error)) {
         fprintf(stderr, "%s\n", error);
+        return EXIT_USAGE;
+    }
+    if (!shot_check_materials(scene, error, sizeof error)) {
+        options_complain("check", "%s", error);
+        scene_file_free(scene);
         return EXIT_USAGE;
     }
     printf("%s\n", parsed.arguments[0]);

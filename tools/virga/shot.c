@@ -3,6 +3,8 @@
 #include "shot.h"
 
 #include "exr.h"
+#include "png.h"
+#include "suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -91,18 +93,45 @@ static void place_mesh(const scene_mesh *mesh, float out[12])
     }
 }
 
-static bool refuse_material(const char *name, char *error, size_t error_size)
+static bool check_material(const scene_file *scene, const char *key, const char *name, char *error, size_t error_size)
 {
+    const char *names[VIRGA_GROUND_MATERIALS];
     char all[256] = "";
+    uint32_t material, count = 0;
     size_t used = 0;
-    for (uint32_t i = 0; used < sizeof all && (!i || host_material_name(i) != host_material_name(0)); i++)
-        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", host_material_name(i));
-    return host_fail(error, error_size, "ground.materials: no material '%s'; there are %s", name, all);
+    if (host_material_find(name, &material))
+        return true;
+    for (; count < VIRGA_GROUND_MATERIALS && used < sizeof all; count++) {
+        names[count] = host_material_name(count);
+        if (count && names[count] == names[0])
+            break;
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", count ? ", " : "", names[count]);
+    }
+    const char *near = suggest_nearest(name, names, count);
+    return scene_file_refuse(scene, key, error, error_size, "expected one of %s, got '%.40s'%s%s%s", all, name,
+                             near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+bool shot_check_materials(const scene_file *scene, char *error, size_t error_size)
+{
+    char key[64];
+    const scene_ground *ground = &scene->ground;
+    for (uint32_t i = 0; i < ground->material_count; i++) {
+        snprintf(key, sizeof key, "ground.materials.%u.material", i);
+        if (ground->materials[i].material &&
+            !check_material(scene, key, ground->materials[i].material, error, error_size))
+            return false;
+    }
+    for (uint32_t i = 0; i < ground->material_map.material_count; i++) {
+        snprintf(key, sizeof key, "ground.material_map.materials.%u", i);
+        if (!check_material(scene, key, ground->material_map.materials[i], error, error_size))
+            return false;
+    }
+    return true;
 }
 
 /* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
-static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *occluders, uint32_t count, char *error,
-                        size_t error_size)
+static void apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *occluders, uint32_t count)
 {
     const scene_ground *ground = &s->scene->ground;
     for (uint32_t i = 0; i < count; i++) {
@@ -113,11 +142,10 @@ static bool apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *oc
             rule++;
         if (rule == end)
             continue;
-        if (rule->material && !host_material_find(rule->material, &occluders[i].material))
-            return refuse_material(rule->material, error, error_size);
+        if (rule->material)
+            host_material_find(rule->material, &occluders[i].material);
         occluders[i].ground = rule->walkable;
     }
-    return true;
 }
 
 static bool load_meshes(shot *s, char *error, size_t error_size)
@@ -136,13 +164,74 @@ static bool load_meshes(shot *s, char *error, size_t error_size)
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
         const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
         const uint32_t taken = more < room ? more : room;
-        if (!blame_input(s, apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken, error, error_size)))
-            return false;
+        apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken);
         s->occluder_count += taken;
         if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
             return false;
     }
     return true;
+}
+
+bool shot_read_material_map(const scene_file *scene, uint32_t *width, uint32_t *height, uint8_t **texels, char *error,
+                            size_t error_size)
+{
+    const scene_material_map *map = &scene->ground.material_map;
+    uint8_t material_of[256];
+    char reason[1024];
+    *texels = NULL;
+    if (!map->file)
+        return true;
+    if (!png_read_numbers(map->file, width, height, texels, reason, sizeof reason))
+        return scene_file_refuse(scene, "ground.material_map.file", error, error_size, "%s", reason);
+    memset(material_of, SHOT_MATERIAL_OF_MESH, sizeof material_of);
+    for (uint32_t i = 0; i < map->material_count; i++) {
+        uint32_t material = SHOT_MATERIAL_OF_MESH;
+        host_material_find(map->materials[i], &material);
+        material_of[i] = (uint8_t)material;
+    }
+    for (size_t i = 0; i < (size_t)*width * *height; i++)
+        (*texels)[i] = material_of[(*texels)[i]];
+    return true;
+}
+
+static bool upload_materials(shot *s, uint32_t width, uint32_t height, const uint8_t *texels, char *error,
+                             size_t error_size)
+{
+    const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
+    const host_image_def def = {.format = VK_FORMAT_R8_UINT,
+                                .extent = {width, height, 1},
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                .name = "material map"};
+    if (!blame_input(s, width <= limit && height <= limit))
+        return scene_file_refuse(s->scene, "ground.material_map.file", error, error_size,
+                                 "%u x %u pixels are more than this device's %u on a side", width, height, limit);
+    return host_image_create(&s->device, &def, &s->material_image, error, error_size) &&
+           host_image_upload(&s->device, &s->material_image, texels, (VkDeviceSize)width * height, 1, error,
+                             error_size);
+}
+
+static bool load_material_map(shot *s, char *error, size_t error_size)
+{
+    const scene_material_map *map = &s->scene->ground.material_map;
+    const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                    VK_ACCESS_SHADER_READ_BIT};
+    uint32_t width, height;
+    uint8_t *texels;
+    if (!blame_input(s, shot_read_material_map(s->scene, &width, &height, &texels, error, error_size)))
+        return false;
+    if (!texels)
+        return true;
+    const bool uploaded = upload_materials(s, width, height, texels, error, error_size);
+    free(texels);
+    s->materials.image = (virga_image){.image = s->material_image.image,
+                                       .view = s->material_image.view,
+                                       .format = VK_FORMAT_R8_UINT,
+                                       .extent = {width, height, 1},
+                                       .before = read,
+                                       .after = read};
+    memcpy(s->materials.low_m, map->low_m, sizeof s->materials.low_m);
+    memcpy(s->materials.high_m, map->high_m, sizeof s->materials.high_m);
+    return uploaded;
 }
 
 static bool load_environment(shot *s, char *error, size_t error_size)
@@ -368,14 +457,17 @@ static bool open_all(shot *s, char *error, size_t error_size)
     if (!s->camera_keys)
         return host_fail(error, error_size, "no memory for the camera's path");
     load_camera(s);
-    if (!blame_input(s, host_camera_path_check(&s->path, error, error_size)) || !open_device(s, error, error_size))
+    if (!blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
+                            shot_check_materials(s->scene, error, error_size)) ||
+        !open_device(s, error, error_size))
         return false;
     if (s->options.draw &&
         (!make_target(s, error, error_size) ||
          !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) ||
          !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
         return false;
-    return load_meshes(s, error, error_size) && load_environment(s, error, error_size) &&
+    return load_meshes(s, error, error_size) && load_material_map(s, error, error_size) &&
+           load_environment(s, error, error_size) &&
            open_rain(s, error, error_size) && set_weather(s, 0, error, error_size);
 }
 
@@ -407,6 +499,7 @@ void shot_close(shot *s)
     if (s->device.device) {
         for (uint32_t i = 0; i < s->meshes_loaded; i++)
             host_mesh_destroy(&s->device, &s->meshes[i]);
+        host_image_destroy(&s->device, &s->material_image);
         host_environment_destroy(&s->device, &s->environment);
         if (s->target.width)
             host_target_destroy(&s->device, &s->target);
@@ -567,8 +660,10 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
     const double time_s = shot_time(s, frame);
     host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, &camera);
     const bool first = s->frame_index + 1 == s->scene->frames.first;
-    virga_scene_frame info = {
-        .dt_s = first ? 0 : 1 / s->scene->frames.fps, .occluders = s->occluders, .occluder_count = s->occluder_count};
+    virga_scene_frame info = {.dt_s = first ? 0 : 1 / s->scene->frames.fps,
+                              .occluders = s->occluders,
+                              .occluder_count = s->occluder_count,
+                              .materials = s->materials};
     memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
     place_focus(s, &camera, time_s, info.focus_m);
     if (!set_weather(s, time_s, error, error_size) ||

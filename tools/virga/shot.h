@@ -8,8 +8,9 @@
 #include <virga/shared/drop.h>
 #include <virga/virga.h>
 
-#define SHOT_RIPPLES_AHEAD_M 4.6 /* of the middle of the map of ripples, which is 6 m wide */
-#define SHOT_MAX_OCCLUDERS   4096
+#define SHOT_RIPPLES_AHEAD_M  4.6 /* of the middle of the map of ripples, which is 6 m wide */
+#define SHOT_MAX_OCCLUDERS    4096
+#define SHOT_MATERIAL_OF_MESH 255
 
 typedef struct shot_options {
     const char *device; /* NULL: the best */
@@ -40,6 +41,8 @@ typedef struct shot {
     uint32_t meshes_loaded;
     virga_occluder *occluders;
     uint32_t occluder_count;
+    host_image material_image;           /* of ground.material_map; none: all 0 */
+    virga_ground_material_map materials; /* likewise */
     host_camera_key *camera_keys;
     host_camera_path path;
     host_accumulator frame; /* the newest drawn frame */
@@ -74,6 +77,14 @@ typedef struct shot_droplet {
     uint32_t parent, index;          /* the drop, and which of its droplets this is: id is the hash of both */
     float water_ul;
 } shot_droplet;
+
+/* Whether the names of materials that the scene gives are known; else one line about the first that is not. */
+bool shot_check_materials(const scene_file *scene, char *error, size_t error_size);
+
+/* The picture of ground.material_map as materials, one byte a texel, SHOT_MATERIAL_OF_MESH where meshes decide: an
+ * array to free(), NULL where the scene has no map. Its names must be known. */
+bool shot_read_material_map(const scene_file *scene, uint32_t *width, uint32_t *height, uint8_t **texels, char *error,
+                            size_t error_size);
 
 /* Loads everything. On failure nothing is left open, `error` has one line and s->input_wrong says whose fault it is. */
 bool shot_open(shot *s, const scene_file *scene, const shot_options *options, char *error, size_t error_size);

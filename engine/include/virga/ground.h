@@ -106,7 +106,8 @@ typedef struct virga_ground_material_map {
                         * VIRGA_GROUND_MATERIALS; above: the mesh's own. Read in the stages of compute, in the layout of
                         * `before`. view VK_NULL_HANDLE: no map, the default */
     double low_m[2], high_m[2]; /* corners in x and z of the place that it covers in the world: its first texel lies at
-                                 * low_m, its rows go along x. Outside of it meshes decide */
+                                 * low_m, its rows go along x. Outside of it meshes decide; high_m not above low_m: no
+                                 * map */
 } virga_ground_material_map;
 
 /* One step. */
