@@ -1,8 +1,7 @@
 // compact_scan.glsl - the scanning part of ordered compaction, see compact_buffers.glsl. One workgroup: counts of words
 // into places, in order. Each lane takes a run of words.
 #include "gpu/compact_buffers.glsl"
-
-shared uvec2 lane_sums[COMPACT_GROUP];
+#include "gpu/group_scan.glsl"
 
 // Places of all picks of `groups` workgroups in the list, which has room for `most` (the second kind first). Returns to
 // all lanes how many there are of each kind.
@@ -15,15 +14,8 @@ uvec2 scan_picks(uint groups, uint most)
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
         sum += uvec2(bitCount(picks[i].xy));
-    lane_sums[lane] = sum;
-    for (uint reach = 1u; reach < COMPACT_GROUP; reach *= 2u) { // Hillis and Steele 1986
-        barrier();
-        const uvec2 lower = lane >= reach ? lane_sums[lane - reach] : uvec2(0u);
-        barrier();
-        lane_sums[lane] += lower;
-    }
-    barrier();
-    const uvec2 total = lane_sums[COMPACT_GROUP - 1], before = lane_sums[lane] - sum;
+    uvec2 total;
+    const uvec2 before = scan_group(sum, total);
     uvec2 place = before + uvec2(min(total.y, most), 0u);
     for (uint i = begin; i < end; i++) {
         const uvec2 bits = picks[i].xy;

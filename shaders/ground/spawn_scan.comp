@@ -5,6 +5,7 @@
 #include "cells.glsl"
 #include "pieces.glsl"
 #include "spawns.glsl"
+#include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
@@ -12,7 +13,7 @@ layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landin
 #define LEAST_NEAR_M 0.25
 #define MOST_NEAR_M 1000.0
 
-shared uint sums[VIRGA_GROUND_GROUP], filled;
+shared uint filled;
 
 // The radius within which all drops splash follows the quota; what is beyond grows with its square too.
 float next_near(float near_m, float found)
@@ -28,19 +29,13 @@ void main()
     uint sum = 0u;
     for (uint i = begin; i < end; i++)
         sum += is_of_tick(i) ? uint(bitCount(landings[landing_index(i)].splashing)) : 0u;
-    sums[lane] = sum;
     if (lane == 0u)
         filled = tick.max_spawns;
-    for (uint reach = 1u; reach < VIRGA_GROUND_GROUP; reach *= 2u) { // Hillis and Steele 1986
-        barrier();
-        const uint lower = lane >= reach ? sums[lane - reach] : 0u;
-        barrier();
-        sums[lane] += lower;
-    }
-    barrier();
+    uvec2 all;
+    const uint before_lane = scan_group(uvec2(sum, 0u), all).x, found = all.x;
     const bool first = tick.tick_in_step == 0u && head.is_return == 0u;
-    const uint before = first ? 0u : spawns_head.count, found = sums[VIRGA_GROUND_GROUP - 1];
-    uint place = before + sums[lane] - sum;
+    const uint before = first ? 0u : spawns_head.count;
+    uint place = before + before_lane;
     for (uint i = begin; i < end; i++) {
         if (!is_of_tick(i))
             continue;

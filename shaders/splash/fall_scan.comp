@@ -9,10 +9,9 @@
 #include "spawn.glsl"
 #include "fall_buffers.glsl"
 #include "returns.glsl"
+#include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-
-shared uvec2 sums[VIRGA_SPLASH_GROUP];
 
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
 uint spawns_to_come()
@@ -36,15 +35,8 @@ void main()
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
         sum += uvec2(bitCount(marks[i].xy));
-    sums[lane] = sum;
-    for (uint reach = 1u; reach < VIRGA_SPLASH_GROUP; reach *= 2u) { // Hillis and Steele 1986
-        barrier();
-        const uvec2 lower = lane >= reach ? sums[lane - reach] : uvec2(0u);
-        barrier();
-        sums[lane] += lower;
-    }
-    barrier();
-    uvec2 before = sums[lane] - sum;
+    uvec2 all;
+    uvec2 before = scan_group(sum, all);
     for (uint i = begin; i < end; i++) {
         const uvec4 word = marks[i];
         marks[i].zw = before;
@@ -52,7 +44,6 @@ void main()
     }
     if (lane != 0u)
         return;
-    const uvec2 all = sums[VIRGA_SPLASH_GROUP - 1];
     const uint taken = min(state.returns + spawns_to_come(), tick.max_returns);
     const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
     state.returns_before = state.returns;

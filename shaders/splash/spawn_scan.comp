@@ -7,10 +7,10 @@
 #include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
+#include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-shared uvec2 sums[VIRGA_SPLASH_GROUP];
 shared uint crowded_rank, crowded_droplets, expired;
 
 // The oldest splashes that are over make room.
@@ -52,19 +52,11 @@ void main()
             places[i].y = droplet_count(spawns[i]);
             sum += uvec2(1u, places[i].y);
         }
-    sums[lane] = sum;
     if (lane == 0u)
         crowded_rank = NO_PLACE;
-    for (uint reach = 1u; reach < VIRGA_SPLASH_GROUP; reach *= 2u) { // Hillis and Steele 1986
-        barrier();
-        const uvec2 lower = lane >= reach ? sums[lane - reach] : uvec2(0u);
-        barrier();
-        sums[lane] += lower;
-    }
-    barrier();
-    const uvec2 found = sums[VIRGA_SPLASH_GROUP - 1];
+    uvec2 found;
+    uvec2 place = scan_group(sum, found);
     const uint room = tick.max_droplets - state.staying;
-    uvec2 place = sums[lane] - sum;
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
             continue;
