@@ -9,7 +9,8 @@
 
 typedef struct host_mirror {
     uint32_t width, height;
-    host_image color; /* RGBA half float: radiance, distance from the camera by way of the water (m) */
+    host_image color; /* RGBA half float: radiance, 1 / distance from the camera by way of the water (1/m), which is
+                       * what may be mixed by filters at the edge of something near */
     host_image depth;
     VkRenderPass pass; /* clears and draws both; leaves the color to fragment shaders */
     VkFramebuffer framebuffer;

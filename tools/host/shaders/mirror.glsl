@@ -32,10 +32,12 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     const float near = frame.mirror.z * (1.0 - smoothstep(0.3, 0.8, abs(rise))), from = length(relative);
     const vec2 slope = -normal.xz / normal.y;
     vec3 r = reflect(-v, normal);
-    float trust, way = 10.0;
-    for (int i = 0; i < 2 && near > 0.0; i++) { // first as if the water were flat, then where that sends the ray
-        const vec3 place = i == 0 ? relative : mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise);
-        way = max(mirror_at(place, trust).a - from, 0.05);
+    float trust, way = HOST_MIRROR_FAR;
+    // How far what is mirrored lies: first as if it stood right there, so that a thing's foot is met by its mirrored
+    // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
+    for (int i = 0; i < 2 && near > 0.0; i++) {
+        const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
+        way = clamp(1.0 / mirror_at(place, trust).a - from, 0.05, way);
     }
     // Turned from pixel to pixel (interleaved gradient noise, Jimenez 2014) and from sub-frame to sub-frame.
     const vec2 pixel = gl_FragCoord.xy + 37.0 * frame.screen.zw;

@@ -169,8 +169,8 @@ void main()
     }
 #ifdef MIRROR
     // Glass is blended by its alpha, which keeps the distance of what is behind it.
-    float way = min(distance(eye, in_relative), HOST_MIRROR_FAR);
-    out_color = vec4(min(color, vec3(6e4)), (bits & HOST_IS_GLASS) != 0 ? alpha : way);
+    float near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR);
+    out_color = vec4(min(color, vec3(6e4)), (bits & HOST_IS_GLASS) != 0 ? alpha : near);
 #else
     out_color = vec4(color, alpha);
     out_normal = vec4(n, 1.0);

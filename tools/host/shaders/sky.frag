@@ -31,7 +31,7 @@ void main()
     float v = acos(clamp(d.y, -1.0, 1.0)) / PI;
     vec3 color = textureLod(sky_texture, vec2(u, v), 0.0).rgb;
 #ifdef MIRROR
-    out_color = vec4(color, HOST_MIRROR_FAR);
+    out_color = vec4(color, 1.0 / HOST_MIRROR_FAR);
 #else
     out_color = vec4(color, 1.0);
     out_normal = vec4(0.0);
