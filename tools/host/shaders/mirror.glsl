@@ -6,6 +6,7 @@ const int MIRROR_TAPS = 8;
 
 // The mirrored picture at a place of the mirrored world, relative to the camera. Where its edge is passed, the last it
 // shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
+// a: 1 / distance.
 vec4 mirror_at(vec3 place, out float trust)
 {
     const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
@@ -23,9 +24,9 @@ vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 }
 
 // Facets whose slopes are spread around the normal's as roughness says (Beckmann's distribution), weighted by how much
-// of each is seen. rgb: light they mirror, of the picture alone; w: share of a white world's light that is. `fresnel`:
-// that share with what the picture does not show. Without rounding the mean over facets, water that waves are too far
-// away to be drawn on would mirror as a flat sheet does and be white at the horizon.
+// of each is seen. rgb: light they mirror of what the picture shows; w: share of a white world's light that would be.
+// `fresnel`: that share with what the picture does not show. Were it the flat water's, not the facets' mean, water whose
+// waves are too far away to be drawn would be white towards the horizon.
 vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float fresnel)
 {
     const float rise = relative.y - frame.mirror.x;
