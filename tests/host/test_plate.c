@@ -389,8 +389,8 @@ static void assert_mirrors_wall(const scene *s)
     assert_float_equal(redness(s, 110, 74), 0.0, 0.01);
 }
 
-/* Before there is a mirror, water shows the white sky; then the wall, where geometry has it, and not the sky. It does so
- * too if the plane lies a quarter of a metre under the water. The last test: its wall would be in the others' way. */
+/* Before there is a mirror, water shows the white sky; then the wall, where geometry has it, and not the sky. It does
+ * so too if the plane lies a quarter of a metre under the water. The last test: its wall would be in the others' way. */
 static void water_mirrors_wall(void **state)
 {
     scene *s = *state;

@@ -16,8 +16,8 @@ vec4 mirror_at(vec3 place, out float trust)
     return textureLod(mirror_picture, at * 0.5 + 0.5, 0.0);
 }
 
-// Where a ray that leaves water in direction r and goes so far ends, in the mirrored world. Water that lies `rise` above
-// the plane mirrors a world that lies twice as much higher.
+// Where a ray that leaves water in direction r and goes so far ends, in the mirrored world. Water that lies `rise`
+// above the plane mirrors a world that lies twice as much higher.
 vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 {
     return relative + vec3(r.x, -r.y, r.z) * way - vec3(0.0, 2.0 * rise, 0.0);

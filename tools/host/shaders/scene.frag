@@ -1,6 +1,6 @@
 #version 460
-// scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the mirror's
-// plane, and dry.
+// scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
+// mirror's plane, and dry.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -155,6 +155,12 @@ void main()
     vec4 moments = sky_moments(n);
     vec3 r = reflect(-v, n);
     vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
+#ifndef MIRROR
+    // Under water, whose index is near its own, hardly anything shines: the water does.
+    reflected *= 1.0 - water.puddle;
+    f0 *= 1.0 - water.puddle;
+    roughness = mix(roughness, 1.0, water.puddle);
+#endif
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
     vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
 #ifndef MIRROR

@@ -24,7 +24,7 @@ void main()
     precise vec3 place = relative;
 #ifdef MIRROR
     place.y = 2.0 * frame.mirror.x - relative.y;
-    // What is under the plane is not mirrored. Nor is the floor a little above it, which a mirror so low sees from below.
+    // What is under the plane is not mirrored. Nor is the floor a little above it, which is seen from below.
     const float floor_m = 0.5 * smoothstep(0.5, 0.8, in_normal.y);
     gl_ClipDistance[0] = relative.y - frame.mirror.x - floor_m;
 #endif
