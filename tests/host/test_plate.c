@@ -390,7 +390,7 @@ static void assert_mirrors_wall(const scene *s)
 }
 
 /* Before there is a mirror, water shows the white sky; then the wall, where geometry has it, and not the sky. It does
- * so too if the plane lies a quarter of a metre under the water. The last test: its wall would be in the others' way. */
+ * so too if the plane lies a quarter of a metre under the water. The last test: its wall is in the others' way. */
 static void water_mirrors_wall(void **state)
 {
     scene *s = *state;

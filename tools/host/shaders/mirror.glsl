@@ -25,8 +25,8 @@ vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 
 // Facets whose slopes are spread around the normal's as roughness says (Beckmann's distribution), weighted by how much
 // of each is seen. rgb: light they mirror of what the picture shows; w: share of a white world's light that would be.
-// `fresnel`: that share with what the picture does not show. Were it the flat water's, not the facets' mean, water whose
-// waves are too far away to be drawn would be white towards the horizon.
+// `fresnel`: that share with what the picture does not show. Were it the flat water's, not the facets' mean, water
+// whose waves are too far away to be drawn would be white towards the horizon.
 vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float fresnel)
 {
     const float rise = relative.y - frame.mirror.x;
