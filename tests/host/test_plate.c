@@ -22,6 +22,14 @@ static const host_camera_key keys[2] = {
 };
 static const host_camera_path path = {keys, 2, 60.0, 0.1, 100.0};
 
+enum { CELLS = 64 };
+
+typedef struct puddle { /* made by the last test */
+    host_image wet, spots, ripples;
+    host_mesh wall;
+    virga_ground_maps maps;
+} puddle;
+
 typedef struct scene {
     fixture base;
     host_target target;
@@ -29,6 +37,7 @@ typedef struct scene {
     host_environment environment;
     host_mesh plane, cube;
     host_accumulator picture;
+    puddle puddle;
 } scene;
 
 static host_material matte(float albedo)
@@ -146,11 +155,20 @@ static int set_up(void **state)
     return -1;
 }
 
+static void destroy_puddle(scene *s, puddle *p)
+{
+    host_mesh_destroy(&s->base.device, &p->wall);
+    host_image_destroy(&s->base.device, &p->ripples);
+    host_image_destroy(&s->base.device, &p->spots);
+    host_image_destroy(&s->base.device, &p->wet);
+}
+
 static int tear_down(void **state)
 {
     scene *s = *state;
     host_accumulator_destroy(&s->picture);
     host_renderer_destroy(&s->renderer);
+    destroy_puddle(s, &s->puddle);
     host_environment_destroy(&s->base.device, &s->environment);
     host_mesh_destroy(&s->base.device, &s->cube);
     host_mesh_destroy(&s->base.device, &s->plane);
@@ -279,12 +297,130 @@ static void splash_layer(void **state)
     assert_float_equal(s->picture.color[pixel], plate, 1e-6);
 }
 
+/* ---- a mirror of water -------------------------------------------------------------------------------------- */
+
+static bool make_map(scene *s, VkFormat format, uint32_t width, uint32_t height, const void *texels, uint32_t texel,
+                     host_image *image)
+{
+    const host_image_def def = {
+        .format = format,
+        .extent = {width, height, 1},
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .name = "map of a puddle",
+    };
+    host_device *device = &s->base.device;
+    VkCommandBuffer cmd;
+    if (!host_image_create(device, &def, image, s->base.error, sizeof s->base.error) ||
+        !host_image_upload(device, image, texels, (VkDeviceSize)width * height * texel, texel, s->base.error,
+                           sizeof s->base.error) ||
+        !host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
+        return false;
+    host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    return host_submit(device, s->base.error, sizeof s->base.error) &&
+           host_wait(device, s->base.error, sizeof s->base.error);
+}
+
+/* Flat water, 5 mm deep, on all of the plane that is seen. */
+static bool make_water(scene *s, puddle *p)
+{
+    static uint16_t wet[CELLS * CELLS][4]; /* half floats: wetness 1, 5 mm, no waves, height 0 */
+    static const uint32_t none[CELLS * 2 * CELLS];
+    for (size_t i = 0; i < (size_t)CELLS * CELLS; i++) {
+        wet[i][0] = 0x3c00;
+        wet[i][1] = 0x4500;
+    }
+    if (!make_map(s, VK_FORMAT_R16G16B16A16_SFLOAT, CELLS, CELLS, wet, 8, &p->wet) ||
+        !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &p->spots) ||
+        !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &p->ripples))
+        return false;
+    p->maps = (virga_ground_maps){.wet = p->wet.view,
+                                  .spots = p->spots.view,
+                                  .ripples = p->ripples.view,
+                                  .ripple_texels = 16,
+                                  .ripple_texel_m = 1,
+                                  .cells = CELLS,
+                                  .cell_m = 0.5f,
+                                  .low_m = {-16, -16},
+                                  .high_m = {16, 16}};
+    host_renderer_set_ground(s->renderer, &p->maps);
+    return true;
+}
+
+/* Glowing red, which nothing else is: 2 to 5 m to the right, 2 m high, 8 m from the camera. */
+static bool make_wall(scene *s, puddle *p)
+{
+    const host_vertex v[4] = {
+        {{2, 0, 0}, {0, 0, 1}, {0, 0}},
+        {{5, 0, 0}, {0, 0, 1}, {0, 1}},
+        {{5, 2, 0}, {0, 0, 1}, {1, 1}},
+        {{2, 2, 0}, {0, 0, 1}, {1, 0}},
+    };
+    const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    host_material material = matte(0.2f);
+    material.emissive[0] = 10;
+    return host_mesh_create(&s->base.device, v, 4, indices, 6, &material, &p->wall, s->base.error,
+                            sizeof s->base.error) &&
+           host_renderer_add(s->renderer, &p->wall, s->base.error, sizeof s->base.error);
+}
+
+static float redness(const scene *s, int x, int y)
+{
+    const float *color = &s->picture.color[at(x, y) * 4];
+    return color[0] - color[1];
+}
+
+/* Share of light that water mirrors at a row of the picture. */
+static double reflectance(int x, int y)
+{
+    const double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    const double right = x + 0.5 - WIDTH / 2.0, down = y + 0.5 - HEIGHT / 2.0;
+    return 0.0204 + 0.9796 * pow(1 - down / sqrt(right * right + down * down + focal_px * focal_px), 5);
+}
+
+/* The wall's mirrored picture hangs 2 m under its foot. 8 m away that is from row 63.6 to 84.4, column 72 to 103. */
+static void assert_mirrors_wall(const scene *s)
+{
+    for (int y = 68; y <= 80; y += 4)
+        assert_float_equal(redness(s, 88, y) / (10 * reflectance(88, y)), 1.0, 0.05);
+    assert_float_equal(redness(s, 88, 88), 0.0, 0.01);
+    assert_float_equal(redness(s, 66, 74), 0.0, 0.01);
+    assert_float_equal(redness(s, 110, 74), 0.0, 0.01);
+}
+
+/* Before there is a mirror, water shows the white sky; then the wall, where geometry has it, and not the sky. It does
+ * so too if the plane lies a quarter of a metre under the water. The last test: its wall is in the others' way. */
+static void water_mirrors_wall(void **state)
+{
+    scene *s = *state;
+    assert_true(make_water(s, &s->puddle) && make_wall(s, &s->puddle));
+    assert_true(draw(s, 1));
+    const float *pixel = &s->picture.color[at(88, 74) * 4];
+    const float sky = pixel[1];
+    const uint32_t id = s->picture.id[at(88, 74)];
+    assert_float_equal(redness(s, 88, 74), 0.0, 0.01);
+    const double heights_m[] = {0, -0.25};
+    for (int i = 0; i < 2; i++) {
+        assert_true(host_renderer_set_mirror(s->renderer, &s->target, heights_m[i], s->base.error,
+                                             sizeof s->base.error));
+        assert_true(draw(s, 1));
+        assert_mirrors_wall(s);
+        assert_true(pixel[1] < sky);
+        assert_int_equal(s->picture.id[at(88, 74)], id);
+    }
+    assert_true(draw(s, 4)); /* more than one plate: what is read is not yet drawn over */
+    host_renderer_set_ground(s->renderer, NULL);
+    assert_true(draw(s, 1));
+    assert_float_equal(redness(s, 88, 74), 0.0, 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_pixel), cmocka_unit_test(plane_pixel), cmocka_unit_test(shade_under_cube),
         cmocka_unit_test(sky_pixel),  cmocka_unit_test(lamp_light),  cmocka_unit_test(sub_frames),
-        cmocka_unit_test(splash_layer),
+        cmocka_unit_test(splash_layer), cmocka_unit_test(water_mirrors_wall),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -17,6 +17,8 @@ static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled
     vkGetPhysicalDeviceFeatures(device->physical, &there);
     device->independent_blend = there.independentBlend;
     enabled->independentBlend = there.independentBlend;
+    device->clip_distance = there.shaderClipDistance;
+    enabled->shaderClipDistance = there.shaderClipDistance;
     if (there.samplerAnisotropy) {
         enabled->samplerAnisotropy = VK_TRUE;
         bool software = device->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;

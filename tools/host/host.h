@@ -4,7 +4,8 @@
  *
  *     host_instance_create -> host_devices_list -> host_device_pick -> host_device_create
  *     host_target_create, host_target_add_splash, host_renderer_create
- *     host_mesh_load + host_renderer_add, host_environment_create + host_renderer_set_environment, ..._set_lights
+ *     host_mesh_load + host_renderer_add, host_environment_create + host_renderer_set_environment, ..._set_lights,
+ *     ..._set_mirror
  *     for each (sub)frame:
  *         host_camera_at (now, and one frame ago)
  *         host_begin_frame            -> virga_frame_begin(context, device.frame, device.completed), step, prepare

@@ -53,7 +53,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
 {
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 6},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 7},
     };
     VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
@@ -82,6 +82,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
     write_image(r, r->frame_set, 4, r->point_sampler, &r->white);
     write_image(r, r->frame_set, 5, r->point_sampler, &r->blank_spots);
     write_image(r, r->frame_set, 6, r->volume_sampler, &r->white);
+    write_image(r, r->frame_set, 7, r->volume_sampler, &r->white);
     return true;
 }
 
@@ -146,8 +147,10 @@ void host_renderer_destroy(host_renderer **renderer)
         free(r->entries[i].sets);
     }
     free(r->entries);
-    for (int i = 0; i < HOST_PIPELINE_COUNT * 2; i++)
+    for (int i = 0; i < HOST_PIPELINE_COUNT * 2; i++) {
         vkDestroyPipeline(vk, r->pipelines[i / 2][i % 2], NULL);
+        vkDestroyPipeline(vk, r->mirror_pipelines[i / 2][i % 2], NULL);
+    }
     vkDestroyDescriptorPool(vk, r->frame_pool, NULL);
     vkDestroyPipelineLayout(vk, r->layout, NULL);
     vkDestroyDescriptorSetLayout(vk, r->material_layout, NULL);
@@ -157,6 +160,7 @@ void host_renderer_destroy(host_renderer **renderer)
     vkDestroySampler(vk, r->sky_sampler, NULL);
     vkDestroySampler(vk, r->mesh_sampler, NULL);
     host_skylight_destroy(r->device, &r->skylight);
+    host_mirror_destroy(r->device, &r->mirror);
     host_image_destroy(r->device, &r->white);
     host_image_destroy(r->device, &r->blank_spots);
     host_buffer_destroy(r->device, &r->frame_buffer);
@@ -251,6 +255,20 @@ void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
     }
 }
 
+bool host_renderer_set_mirror(host_renderer *r, const host_target *target, double height_m, char *error,
+                              size_t error_size)
+{
+    r->mirror_m = height_m;
+    if (r->mirror.width || !r->device->clip_distance)
+        return true;
+    const uint32_t width = (target->width + 1) / 2, height = (target->height + 1) / 2;
+    if (!host_mirror_create(r->device, width, height, &r->mirror, error, error_size) ||
+        !host_renderer_build_mirror(r, error, error_size))
+        return false;
+    write_image(r, r->frame_set, 7, r->volume_sampler, &r->mirror.color);
+    return true;
+}
+
 void host_renderer_set_lights(host_renderer *r, const virga_light *lights, uint32_t count)
 {
     r->light_count = count < HOST_MAX_LIGHTS ? count : HOST_MAX_LIGHTS;
@@ -339,6 +357,15 @@ static void fill_ground(const virga_ground_maps *maps, const host_camera *camera
     frame->ripples[3] = side_m;
 }
 
+/* Worth drawing where there is a ground, and the picture's lower edge looks down at it. */
+static void fill_mirror(const host_renderer *r, const host_camera *camera, struct host_frame_gpu *frame)
+{
+    const float lowest = frame->ray_z[1] - fabsf(frame->ray_x[1]) - fabsf(frame->ray_y[1]);
+    frame->mirror[0] = (float)(r->mirror_m - camera->position_m[1]);
+    frame->mirror[1] = 1.0f / HOST_MIRROR_MARGIN;
+    frame->mirror[2] = r->mirror.width && r->ground.cells && frame->mirror[0] < 0.0f && lowest < 0.0f;
+}
+
 static void fill_frame(const host_renderer *r, const host_target *target, const host_camera *camera,
                        const host_camera *previous, struct host_frame_gpu *frame)
 {
@@ -359,6 +386,7 @@ static void fill_frame(const host_renderer *r, const host_target *target, const 
     host_skylight_frame(&r->skylight, camera->position_m, frame);
     fill_irradiance(r->environment->sh, frame->irradiance);
     fill_ground(&r->ground, camera, frame);
+    fill_mirror(r, camera, frame);
     for (uint32_t i = 0; i < r->light_count; i++)
         fill_light(&r->lights[i], camera, &frame->lights[i]);
 }
@@ -411,7 +439,10 @@ static bool goes_through(const host_material *material, host_pipeline kind)
     }
 }
 
-static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_entry *entry, host_pipeline kind)
+typedef const VkPipeline (*pipelines)[2]; /* the plate's, or the mirror's */
+
+static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_entry *entry, pipelines from,
+                       host_pipeline kind)
 {
     const host_mesh *mesh = entry->mesh;
     const VkDeviceSize offset = 0;
@@ -425,7 +456,7 @@ static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_e
             continue;
         if (bound != material->two_sided) {
             bound = material->two_sided;
-            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->pipelines[kind][bound]);
+            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[kind][bound]);
         }
         struct host_surface_gpu surface;
         fill_surface(material, entry->first_id + i, &surface);
@@ -436,10 +467,20 @@ static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_e
     }
 }
 
-static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, host_pipeline kind)
+static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, pipelines from, host_pipeline kind)
 {
     for (uint32_t i = 0; i < r->entry_count; i++)
-        draw_entry(r, cmd, &r->entries[i], kind);
+        draw_entry(r, cmd, &r->entries[i], from, kind);
+}
+
+static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines from)
+{
+    draw_entries(r, cmd, from, HOST_PIPELINE_DEPTH);
+    draw_entries(r, cmd, from, HOST_PIPELINE_CUTOUT);
+    draw_entries(r, cmd, from, HOST_PIPELINE_SHADE);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[HOST_PIPELINE_SKY][1]);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    draw_entries(r, cmd, from, HOST_PIPELINE_GLASS);
 }
 
 /* ---- skylight ----------------------------------------------------------------------------------------------- */
@@ -503,22 +544,31 @@ static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_ca
 
 /* ---- the plate ---------------------------------------------------------------------------------------------- */
 
+/* Begun even where it is not worth drawing: what the plate's shaders may sample has to be in its layout. */
+static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame)
+{
+    if (!r->mirror.width)
+        return;
+    host_label_begin(r->device, cmd, "mirror");
+    host_mirror_begin(&r->mirror, cmd);
+    if (frame->mirror[2] > 0.0f)
+        draw_scene(r, cmd, (pipelines)r->mirror_pipelines);
+    vkCmdEndRenderPass(cmd);
+    host_label_end(r->device, cmd);
+}
+
 void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
                          const host_camera *previous)
 {
     struct host_frame_gpu frame;
     update_skylight(r, cmd, camera);
     fill_frame(r, target, camera, previous, &frame);
-    host_label_begin(r->device, cmd, "plate");
     record_frame(r, cmd, &frame);
-    host_target_begin_plate(target, cmd);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 0, 1, &r->frame_set, 0, NULL);
-    draw_entries(r, cmd, HOST_PIPELINE_DEPTH);
-    draw_entries(r, cmd, HOST_PIPELINE_CUTOUT);
-    draw_entries(r, cmd, HOST_PIPELINE_SHADE);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->pipelines[HOST_PIPELINE_SKY][1]);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
-    draw_entries(r, cmd, HOST_PIPELINE_GLASS);
+    record_mirror(r, cmd, &frame);
+    host_label_begin(r->device, cmd, "plate");
+    host_target_begin_plate(target, cmd);
+    draw_scene(r, cmd, (pipelines)r->pipelines);
     host_target_end_plate(target, cmd);
     host_label_end(r->device, cmd);
 }

@@ -31,6 +31,13 @@ void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights
  * the images change; where they lie may change every frame. */
 void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *maps);
 
+/* From here on puddles mirror the scene, not the sky alone: a picture of half the size of `target` is drawn before each
+ * plate that has a ground, with the world turned upside down about the plane y = height_m. Water may lie a little above
+ * it; from 0.3 m on the mirror fades out, up to 0.8 m. Does nothing on devices without clip distances. The device must
+ * be idle. */
+bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target, double height_m, char *error,
+                              size_t error_size);
+
 /* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. */
 void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
                          const host_camera *camera, const host_camera *previous);

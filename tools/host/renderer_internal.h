@@ -2,6 +2,7 @@
 #ifndef VIRGA_HOST_RENDERER_INTERNAL_H
 #define VIRGA_HOST_RENDERER_INTERNAL_H
 
+#include "mirror.h"
 #include "renderer.h"
 #include "shaders/frame_gpu.h"
 #include "skylight.h"
@@ -29,11 +30,14 @@ struct host_renderer {
     VkDescriptorSetLayout frame_layout, material_layout;
     VkPipelineLayout layout;
     VkPipeline pipelines[HOST_PIPELINE_COUNT][2]; /* [1]: two-sided */
+    VkPipeline mirror_pipelines[HOST_PIPELINE_COUNT][2];
     VkDescriptorPool frame_pool;
     VkDescriptorSet frame_set;
     host_buffer frame_buffer;
     host_image white, blank_spots;
     virga_ground_maps ground; /* cells 0: none */
+    host_mirror mirror;       /* width 0: none */
+    double mirror_m;          /* height of its plane */
     host_skylight skylight;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];
@@ -45,5 +49,8 @@ struct host_renderer {
 
 /* Set layouts, pipeline layout and all pipelines. */
 bool host_renderer_build_pipelines(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
+
+/* The pipelines of the mirror, which was created before. */
+bool host_renderer_build_mirror(host_renderer *renderer, char *error, size_t error_size);
 
 #endif

@@ -6,8 +6,11 @@
 
 #include "cutout_frag.spv.h"
 #include "scene_frag.spv.h"
+#include "scene_frag_mirror.spv.h"
 #include "scene_vert.spv.h"
+#include "scene_vert_mirror.spv.h"
 #include "sky_frag.spv.h"
+#include "sky_frag_mirror.spv.h"
 #include "sky_vert.spv.h"
 
 static bool create_layouts(host_renderer *r, char *error, size_t error_size)
@@ -20,10 +23,11 @@ static bool create_layouts(host_renderer *r, char *error, size_t error_size)
         {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
         {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
         {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
+        {7, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
     };
     VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = 7,
+        .bindingCount = 8,
         .pBindings = frame,
     };
     HOST_TRY(vkCreateDescriptorSetLayout(r->device->device, &info, NULL, &r->frame_layout));
@@ -64,8 +68,17 @@ static const struct {
     [HOST_PIPELINE_SKY] = {SHADER_SKY_VERT, SHADER_SKY_FRAG, false, true, false, VK_COMPARE_OP_LESS_OR_EQUAL},
 };
 
+/* A set of all pipelines: the plate's, or the mirror's. */
+typedef struct pipeline_set {
+    VkRenderPass pass;
+    uint32_t colors;  /* attachments of the pass */
+    bool mirror;
+    VkShaderModule modules[SHADER_COUNT];
+    VkPipeline (*pipelines)[2];
+} pipeline_set;
+
 /* Glass changes the colour alone: normal, velocity, id and depth stay those of what is behind it. */
-static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
+static void fill_blend(host_pipeline kind, bool mirror, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
 {
     const VkColorComponentFlags all =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
@@ -77,6 +90,10 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
         states[0].blendEnable = VK_TRUE;
         states[0].srcColorBlendFactor = states[0].srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
         states[0].dstColorBlendFactor = states[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        if (mirror) { /* whose alpha is a distance */
+            states[0].srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+            states[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        }
     }
 }
 
@@ -90,13 +107,13 @@ static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, VkShad
     };
 }
 
-static bool create_pipeline(host_renderer *r, VkRenderPass pass, const VkShaderModule *modules, host_pipeline kind,
-                            bool two_sided, char *error, size_t error_size)
+static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipeline kind, bool two_sided, char *error,
+                            size_t error_size)
 {
     bool depth_only = recipes[kind].fragment == NO_SHADER;
-    VkPipelineShaderStageCreateInfo stages[2] = {stage(VK_SHADER_STAGE_VERTEX_BIT, modules[recipes[kind].vertex])};
+    VkPipelineShaderStageCreateInfo stages[2] = {stage(VK_SHADER_STAGE_VERTEX_BIT, set->modules[recipes[kind].vertex])};
     if (!depth_only)
-        stages[1] = stage(VK_SHADER_STAGE_FRAGMENT_BIT, modules[recipes[kind].fragment]);
+        stages[1] = stage(VK_SHADER_STAGE_FRAGMENT_BIT, set->modules[recipes[kind].fragment]);
 
     const VkVertexInputBindingDescription binding = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
     const VkVertexInputAttributeDescription attributes[] = {
@@ -123,7 +140,7 @@ static bool create_pipeline(host_renderer *r, VkRenderPass pass, const VkShaderM
     VkPipelineRasterizationStateCreateInfo raster = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .cullMode = two_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
-        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .frontFace = set->mirror ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .lineWidth = 1.0f,
     };
     VkPipelineMultisampleStateCreateInfo samples = {
@@ -137,10 +154,10 @@ static bool create_pipeline(host_renderer *r, VkRenderPass pass, const VkShaderM
         .depthCompareOp = recipes[kind].compare,
     };
     VkPipelineColorBlendAttachmentState attachments[HOST_PLATE_COLORS];
-    fill_blend(kind, attachments);
+    fill_blend(kind, set->mirror, attachments);
     VkPipelineColorBlendStateCreateInfo blend = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = HOST_PLATE_COLORS,
+        .attachmentCount = set->colors,
         .pAttachments = attachments,
     };
     const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
@@ -162,49 +179,73 @@ static bool create_pipeline(host_renderer *r, VkRenderPass pass, const VkShaderM
         .pColorBlendState = &blend,
         .pDynamicState = &dynamic,
         .layout = r->layout,
-        .renderPass = pass,
+        .renderPass = set->pass,
     };
-    HOST_TRY(
-        vkCreateGraphicsPipelines(r->device->device, VK_NULL_HANDLE, 1, &info, NULL, &r->pipelines[kind][two_sided]));
+    HOST_TRY(vkCreateGraphicsPipelines(r->device->device, VK_NULL_HANDLE, 1, &info, NULL,
+                                       &set->pipelines[kind][two_sided]));
     return true;
 }
 
 /* ---- all of them -------------------------------------------------------------------------------------------- */
 
-static bool create_modules(host_renderer *r, VkShaderModule modules[SHADER_COUNT], char *error, size_t error_size)
+typedef struct code {
+    const uint32_t *words;
+    size_t size;
+} code;
+
+#define CODE(name) {name##_spv, sizeof name##_spv}
+
+static bool create_modules(host_renderer *r, pipeline_set *set, char *error, size_t error_size)
 {
-    static const struct {
-        const uint32_t *code;
-        size_t size;
-    } sources[SHADER_COUNT] = {
-        [SHADER_SCENE_VERT] = {scene_vert_spv, sizeof scene_vert_spv},
-        [SHADER_CUTOUT] = {cutout_frag_spv, sizeof cutout_frag_spv},
-        [SHADER_SCENE_FRAG] = {scene_frag_spv, sizeof scene_frag_spv},
-        [SHADER_SKY_VERT] = {sky_vert_spv, sizeof sky_vert_spv},
-        [SHADER_SKY_FRAG] = {sky_frag_spv, sizeof sky_frag_spv},
+    static const code sources[2][SHADER_COUNT] = {
+        {
+            [SHADER_SCENE_VERT] = CODE(scene_vert),
+            [SHADER_CUTOUT] = CODE(cutout_frag),
+            [SHADER_SCENE_FRAG] = CODE(scene_frag),
+            [SHADER_SKY_VERT] = CODE(sky_vert),
+            [SHADER_SKY_FRAG] = CODE(sky_frag),
+        },
+        {
+            [SHADER_SCENE_VERT] = CODE(scene_vert_mirror),
+            [SHADER_CUTOUT] = CODE(cutout_frag),
+            [SHADER_SCENE_FRAG] = CODE(scene_frag_mirror),
+            [SHADER_SKY_VERT] = CODE(sky_vert),
+            [SHADER_SKY_FRAG] = CODE(sky_frag_mirror),
+        },
     };
     for (int i = 0; i < SHADER_COUNT; i++) {
         VkShaderModuleCreateInfo info = {
             .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-            .codeSize = sources[i].size,
-            .pCode = sources[i].code,
+            .codeSize = sources[set->mirror][i].size,
+            .pCode = sources[set->mirror][i].words,
         };
-        HOST_TRY(vkCreateShaderModule(r->device->device, &info, NULL, &modules[i]));
+        HOST_TRY(vkCreateShaderModule(r->device->device, &info, NULL, &set->modules[i]));
     }
     return true;
 }
 
-bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
+static bool build(host_renderer *r, pipeline_set *set, char *error, size_t error_size)
 {
-    VkShaderModule modules[SHADER_COUNT] = {VK_NULL_HANDLE};
-    bool ok = create_layouts(r, error, error_size) && create_modules(r, modules, error, error_size);
+    bool ok = create_modules(r, set, error, error_size);
     for (int kind = 0; ok && kind < HOST_PIPELINE_COUNT; kind++) {
         if (kind == HOST_PIPELINE_GLASS && !r->device->independent_blend)
             continue; /* meshes have no glass then */
         for (int two_sided = 0; ok && two_sided < 2; two_sided++)
-            ok = create_pipeline(r, pass, modules, (host_pipeline)kind, two_sided, error, error_size);
+            ok = create_pipeline(r, set, (host_pipeline)kind, two_sided, error, error_size);
     }
     for (int i = 0; i < SHADER_COUNT; i++)
-        vkDestroyShaderModule(r->device->device, modules[i], NULL);
+        vkDestroyShaderModule(r->device->device, set->modules[i], NULL);
     return ok;
+}
+
+bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
+{
+    pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
+    return create_layouts(r, error, error_size) && build(r, &set, error, error_size);
+}
+
+bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)
+{
+    pipeline_set set = {.pass = r->mirror.pass, .colors = 1, .mirror = true, .pipelines = r->mirror_pipelines};
+    return build(r, &set, error, error_size);
 }

@@ -420,6 +420,26 @@ static virga_scene_def define_scene(const shot *s)
     return def;
 }
 
+/* The mirror's plane: the foot of the widest ground under the place that the camera looks at first. */
+static bool set_mirror(shot *s, char *error, size_t error_size)
+{
+    const double *at = s->camera_keys[0].look_at_m;
+    double widest = 0, height_m = 0;
+    for (uint32_t m = 0; m < s->meshes_loaded; m++) {
+        for (uint32_t i = 0; i < s->meshes[m].primitive_count; i++) {
+            const host_primitive *p = &s->meshes[m].primitives[i];
+            const double area = ((double)p->high[0] - (double)p->low[0]) * ((double)p->high[2] - (double)p->low[2]);
+            const bool under = at[0] >= (double)p->low[0] && at[0] <= (double)p->high[0] &&
+                               at[2] >= (double)p->low[2] && at[2] <= (double)p->high[2];
+            if (area <= widest || !under || !host_is_ground(p->name, p->surface))
+                continue;
+            widest = area;
+            height_m = (double)p->low[1];
+        }
+    }
+    return !s->ground || host_renderer_set_mirror(s->renderer, &s->target, height_m, error, error_size);
+}
+
 static bool open_rain(shot *s, char *error, size_t error_size)
 {
     const virga_scene_def def = define_scene(s);
@@ -437,7 +457,8 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     virga_target_def target = virga_default_target_def();
     host_target_describe_layer(&s->target, &target);
     host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);
-    return check(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
+    return set_mirror(s, error, error_size) &&
+           check(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
                  error_size) &&
            check(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
 }

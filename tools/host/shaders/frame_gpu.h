@@ -15,6 +15,7 @@ typedef float host_mat4[16];
 #endif
 
 #define HOST_MAX_LIGHTS 16
+#define HOST_MIRROR_FAR 1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
     HOST_VEC4 place;     /* position relative to the camera, 1 / range or 0 */
@@ -40,6 +41,8 @@ struct host_frame_gpu {
                                 * counts from; w: 1 / side of a cell, 0 for no ground */
     HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells */
     HOST_VEC4 ripples; /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
+    HOST_VEC4 mirror;  /* height of the mirror's plane relative to the camera, how much smaller than the picture's its
+                        * clip space is drawn; z: 1, or 0 for no mirror */
     HOST_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     HOST_LIGHT lights[HOST_MAX_LIGHTS];
 };

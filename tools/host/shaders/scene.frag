@@ -1,5 +1,6 @@
 #version 460
-// scene.frag - Lambert and GGX under the environment and up to 16 lights.
+// scene.frag - Lambert and GGX under the environment and up to 16 lights. With MIRROR it is seen from under the
+// mirror's plane, and dry.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -14,8 +15,13 @@ layout(location = 0) in vec3 in_relative;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 
+#ifdef MIRROR
+layout(location = 0) out vec4 out_color;
+#else
 #include "outputs.glsl"
 #include "water.glsl"
+#include "mirror.glsl"
+#endif
 
 const float PI = 3.14159265;
 
@@ -102,18 +108,21 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
     return sum;
 }
 
-// A level mirror of water over a colour.
+#ifndef MIRROR
+// A level mirror of water over a colour: of the scene where that is known, else of the sky that is left.
 vec3 under_water(vec3 color, vec3 v, vec4 moments, Water water)
 {
     const vec3 up = water.normal, f0 = vec3(0.0204);
     float n_v = clamp(dot(up, v), 1e-3, 1.0);
-    float c = 1.0 - n_v, c2 = c * c;
-    float fresnel = f0.x + (1.0 - f0.x) * c2 * c2 * c;
     vec3 r = reflect(-v, up);
     r.y = abs(r.y);
-    vec3 mirror = fresnel * reflected_light(r, water.roughness) * sky_share(moments, r);
+    float fresnel;
+    vec4 scene = mirror_light(in_relative, v, up, water.roughness, fresnel);
+    vec3 sky = reflected_light(r, water.roughness) * sky_share(moments, r);
+    vec3 mirror = scene.rgb + (fresnel - scene.a) * sky;
     return color * (1.0 - fresnel) + mirror + lit(vec3(0.0), f0, max(water.roughness, 0.08), up, v, n_v);
 }
+#endif
 
 void main()
 {
@@ -126,7 +135,11 @@ void main()
         emissive *= texture(emissive_texture, in_uv).rgb;
 
     // The triangle's own normal turns the smooth one to the side that is seen, whichever way a file winds it.
-    vec3 v = -normalize(in_relative);
+    vec3 eye = vec3(0.0);
+#ifdef MIRROR
+    eye.y = 2.0 * frame.mirror.x;
+#endif
+    vec3 v = normalize(eye - in_relative);
     vec3 flat_normal = cross(dFdx(in_relative), dFdy(in_relative));
     vec3 n = normalize(in_normal);
     n = dot(n, flat_normal) * dot(v, flat_normal) < 0.0 ? -n : n;
@@ -135,23 +148,44 @@ void main()
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
     vec3 albedo = base.rgb * (1.0 - metallic);
+#ifndef MIRROR
     Water water = water_at(in_relative, n);
     wet_material(water, metallic, albedo, roughness, f0);
+#endif
     vec4 moments = sky_moments(n);
     vec3 r = reflect(-v, n);
     vec3 reflected = environment_brdf(f0, roughness, n_v) * reflected_light(r, roughness) * sky_share(moments, r);
+#ifndef MIRROR
+    // Under water, whose index is near its own, hardly anything shines: the water does.
+    reflected *= 1.0 - water.puddle;
+    // A film on level ground sees no ground: only sky, and a quarter of it from what stands in the way.
+    float sky = clamp(0.5 * (moments.w + dot(moments.xyz, r)), 0.0, 1.0);
+    float film_share = sky + 0.25 * moments.w * (1.0 - sky);
+    reflected *= mix(1.0, film_share / max(sky_share(moments, r), 1e-3), water.film * clamp(frame.mirror.z, 0.0, 1.0));
+    f0 *= 1.0 - water.puddle;
+    roughness = mix(roughness, 1.0, water.puddle);
+#endif
     vec3 diffuse = albedo * diffuse_light(n) * sky_share(moments, n);
     vec3 color = diffuse + reflected + lit(albedo, f0, roughness, n, v, n_v) + emissive;
-    color = mix(color, under_water(color, v, moments, water), water.puddle);
+#ifndef MIRROR
+    if (water.puddle > 0.0)
+        color = mix(color, under_water(color, v, moments, water), water.puddle);
+#endif
 
     float alpha = 1.0;
     if ((bits & HOST_IS_GLASS) != 0) { // tint covers what is behind, reflections add to it
         alpha = base.a;
         color = color * alpha + reflected * (1.0 - alpha);
     }
+#ifdef MIRROR
+    // Glass is blended by its alpha, which keeps the distance of what is behind it.
+    float near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR);
+    out_color = vec4(min(color, vec3(6e4)), (bits & HOST_IS_GLASS) != 0 ? alpha : near);
+#else
     out_color = vec4(color, alpha);
     out_normal = vec4(n, 1.0);
     out_velocity = velocity_of(vec4(in_relative + frame.moved.xyz, 1.0));
     out_water = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
     out_id = uint(surface.traits.z);
+#endif
 }

@@ -1,5 +1,6 @@
 #version 460
 // scene.vert - places a vertex. Positions are taken relative to the camera first: floats stay precise far away.
+// With MIRROR it is upside down, as the mirror's plane shows it.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -20,7 +21,17 @@ void main()
     // Depth is drawn first and then tested for equality, so every pipeline must come to the same bits.
     precise vec3 relative = in_position - frame.camera.xyz;
     mat4 m = frame.clip_from_relative;
-    precise vec4 clip = m[0] * relative.x + m[1] * relative.y + m[2] * relative.z + m[3];
+    precise vec3 place = relative;
+#ifdef MIRROR
+    place.y = 2.0 * frame.mirror.x - relative.y;
+    // What is under the plane is not mirrored. Nor is the floor a little above it, which is seen from below.
+    const float floor_m = 0.5 * smoothstep(0.5, 0.8, in_normal.y);
+    gl_ClipDistance[0] = relative.y - frame.mirror.x - floor_m;
+#endif
+    precise vec4 clip = m[0] * place.x + m[1] * place.y + m[2] * place.z + m[3];
+#ifdef MIRROR
+    clip.xy *= frame.mirror.y;
+#endif
     gl_Position = clip;
     out_relative = relative;
 }

@@ -1,5 +1,5 @@
 #version 460
-// sky.frag - the environment where nothing else was drawn.
+// sky.frag - the environment where nothing else was drawn; with MIRROR upside down.
 #extension GL_GOOGLE_include_directive : require
 #include "frame_gpu.h"
 
@@ -8,19 +8,35 @@ layout(set = 0, binding = 1) uniform sampler2D sky_texture;
 
 layout(location = 0) in vec2 in_clip;
 
+#ifdef MIRROR
+layout(location = 0) out vec4 out_color;
+#else
 #include "outputs.glsl"
+#endif
 
 const float PI = 3.14159265;
 
 void main()
 {
-    vec3 ray = frame.ray_z.xyz + in_clip.x * frame.ray_x.xyz + in_clip.y * frame.ray_y.xyz;
+    vec2 clip = in_clip;
+#ifdef MIRROR
+    clip /= frame.mirror.y;
+#endif
+    vec3 ray = frame.ray_z.xyz + clip.x * frame.ray_x.xyz + clip.y * frame.ray_y.xyz;
     vec3 d = normalize(ray);
+#ifdef MIRROR
+    d.y = -d.y;
+#endif
     float u = atan(d.x, -d.z) / (2.0 * PI) + 0.5 + frame.environment.x;
     float v = acos(clamp(d.y, -1.0, 1.0)) / PI;
-    out_color = vec4(textureLod(sky_texture, vec2(u, v), 0.0).rgb, 1.0);
+    vec3 color = textureLod(sky_texture, vec2(u, v), 0.0).rgb;
+#ifdef MIRROR
+    out_color = vec4(color, 1.0 / HOST_MIRROR_FAR);
+#else
+    out_color = vec4(color, 1.0);
     out_normal = vec4(0.0);
     out_velocity = velocity_of(vec4(d, 0.0));
     out_water = vec2(0.0);
     out_id = 0;
+#endif
 }
