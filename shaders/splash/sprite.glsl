@@ -117,7 +117,7 @@ Sprite puff_sprite(virga_splash_gpu splash)
     sprite.head = crown.centre + crown.normal * up;
     sprite.widths = vec2(across);
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
-    sprite.gain = 0.6 * area / max(across * up, 1e-8);
+    sprite.gain = area / max(across * up, 1e-8);
     sprite.id = splash.id;
     return sprite;
 }
@@ -169,8 +169,11 @@ Projected project_sprite(Sprite sprite)
         shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
     else if (sprite.kind == VIRGA_SPRITE_PILE)
         shown = one *= min(max(p.way_px, 0.05), 1.0);
-    else if (max(p.width_px, p.way_px) < 1.0)
-        shown = one *= max(p.way_px, 0.05);
+    else {
+        // A blob is drawn a pixel higher and half a pixel wider than it is, see puff_cover.
+        const float wide_px = max(p.width_px, drawn);
+        shown = one *= p.way_px / (p.way_px + 1.0) * wide_px / (wide_px + 0.5);
+    }
     const float many = max(sprite.weight, 0.0);
     const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
     const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);

@@ -18,9 +18,9 @@ float droplet_cover()
 {
     const float half_width = shape.x, way = max(shape.z, 1.0), y = place.y + 0.5 * (way - shape.z);
     const float across = streak_profile(abs(place.x), half_width);
-    const float chord = max(shape.w, 0.0) * across + 1e-4, edge = clamp(half_width + 0.5 - abs(place.x), 0.0, 1.0);
+    const float chord = max(shape.w, 0.0) * across;
     const float passed = clamp(min(y + 0.5 * chord, way) - max(y - 0.5 * chord, 0.0), 0.0, way) / way;
-    return min(passed, 1.0) * edge;
+    return min(passed, 1.0);
 }
 
 // It narrows from its foot like a flame, the more so the wider its foot, and its tip is there for a part of the time.
