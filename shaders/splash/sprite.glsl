@@ -156,6 +156,12 @@ Projected project_sprite(Sprite sprite)
     const vec2 moved = (p.head.xy / p.head.w - p.tail.xy / p.tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     p.way_px = length(moved);
     p.width_px = pixels(max(sprite.widths.x, sprite.widths.y), nearest);
+    if (sprite.kind == VIRGA_SPRITE_PUFF && p.way_px < 0.2 * p.width_px) {
+        // Seen from above it shows its width instead of its height.
+        const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
+        p.way_px = 0.2 * p.width_px;
+        p.head.xy = (p.tail.xy / p.tail.w + up * p.way_px * 2.0 / vec2(view.viewport[2], view.viewport[3])) * p.head.w;
+    }
     p.body_px = pixels(sprite.body, nearest);
     const vec2 margin = (p.width_px + 2.0) * max(p.head.w, p.tail.w) / vec2(view.viewport[2], view.viewport[3]);
     const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w), low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
