@@ -195,6 +195,10 @@ typedef struct virga_spirv {
 virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
                                            const char *name, virga_pipeline **pipeline);
 
+/* The same, with specialisation constant 0 where the shader has one. */
+virga_result virga_compute_pipeline_special(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
+                                            uint32_t constant, const char *name, virga_pipeline **pipeline);
+
 /* A row of an effect's table of compute passes. */
 typedef struct virga_compute_row {
     virga_pipeline **pipeline;

@@ -11,6 +11,7 @@
 
 #define VIRGA_INSTANCE_FUNCTIONS(X)           \
     X(GetPhysicalDeviceProperties)            \
+    X(GetPhysicalDeviceProperties2)           \
     X(GetPhysicalDeviceFeatures2)             \
     X(GetPhysicalDeviceMemoryProperties)      \
     X(GetPhysicalDeviceFormatProperties)      \

@@ -35,6 +35,14 @@ static virga_result pipeline_object(virga_context *context, const char *name, vi
 virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
                                            const char *name, virga_pipeline **created)
 {
+    return virga_compute_pipeline_special(context, shader, layout, 0, name, created);
+}
+
+virga_result virga_compute_pipeline_special(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
+                                            uint32_t constant, const char *name, virga_pipeline **created)
+{
+    const VkSpecializationMapEntry entry = {0, 0, sizeof constant};
+    const VkSpecializationInfo constants = {1, &entry, sizeof constant, &constant};
     VkShaderModule module = VK_NULL_HANDLE;
     virga_pipeline *pipeline = NULL;
     virga_result result = pipeline_object(context, name, &pipeline);
@@ -45,7 +53,8 @@ virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv s
                                               .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                                         .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                                                         .module = module,
-                                                        .pName = "main"},
+                                                        .pName = "main",
+                                                        .pSpecializationInfo = &constants},
                                               .layout = layout};
     VK_TRY(context,
            CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, &pipeline->pipeline));

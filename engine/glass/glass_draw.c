@@ -1,0 +1,468 @@
+/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), pipelines for a target (attach), drawing. */
+#include "glass/glass_picture.h"
+
+#include "shaders/glass_picture_pane_vert.spv.h"
+#include "shaders/glass_picture_paper_frag.spv.h"
+#include "shaders/glass_picture_physical_frag.spv.h"
+#include "shaders/glass_picture_refraction_frag.spv.h"
+
+#include <math.h>
+#include <string.h>
+
+#define READ_WRITE   (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define TILE         VIRGA_GLASS_TILE
+#define PI           3.14159265358979323846
+#define GRAVITY      9.80665
+#define LEAST_TEXELS 64u /* of the map, along the longer side, however far away the pane is */
+
+/* ---- the pane, as a view has it */
+
+/* The pane's axes in the world; none given: they are the world's. */
+static void take_rotation(const virga_glass_pose *pose, float m[9])
+{
+    bool none = true;
+    for (int i = 0; i < 9; i++) {
+        m[i] = pose->world_from_pane[i];
+        none = none && m[i] == 0;
+    }
+    for (int i = 0; none && i < 9; i++)
+        m[i] = i % 4 == 0;
+}
+
+/* Clip coordinates of a point of the pane. */
+static void project(const glass_view_block *block, const float point[3], double clip[4])
+{
+    const float *m = block->look.world_from_pane, *p = block->view.clip_from_rel;
+    double at[3];
+    for (int i = 0; i < 3; i++)
+        at[i] = (double)block->look.origin[i] + (double)m[i] * (double)point[0] + (double)m[3 + i] * (double)point[1] +
+                (double)m[6 + i] * (double)point[2];
+    for (int i = 0; i < 4; i++)
+        clip[i] = (double)p[i] * at[0] + (double)p[4 + i] * at[1] + (double)p[8 + i] * at[2] + (double)p[12 + i];
+}
+
+/* Pixels that a metre of the pane is long on the picture where it is largest, between the 3 x 3 points that outline it; a part
+ * that passes the camera counts as large as any. */
+static double pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
+{
+    double pixels[9][2], most = 0;
+    for (int i = 0; i < 9; i++) {
+        double clip[4];
+        project(block, glass->outline[i], clip);
+        if (clip[3] < 0.02)
+            return 1e6;
+        for (int axis = 0; axis < 2; axis++)
+            pixels[i][axis] = 0.5 * clip[axis] / clip[3] * (double)block->view.viewport[2 + axis];
+    }
+    for (int i = 0; i < 9; i++)
+        for (int along = 0; along < 2; along++) {
+            const int next = along ? i + 3 : i + 1;
+            if (along ? next > 8 : i % 3 == 2)
+                continue;
+            const double metres = 0.5 * (double)(along ? glass->def.height_m : glass->def.width_m);
+            most = fmax(most, hypot(pixels[next][0] - pixels[i][0], pixels[next][1] - pixels[i][1]) / metres);
+        }
+    return most;
+}
+
+static uint32_t whole_tiles(double texels, uint32_t most)
+{
+    const double tiles = ceil(fmin(texels, 1e6) / TILE - 1e-4);
+    return (uint32_t)fmin(fmax(tiles, 1), most);
+}
+
+/* About a texel a pixel, whole tiles, not more than there are. */
+static void fit_map(const virga_glass *glass, glass_view_block *block)
+{
+    const struct glass_picture *picture = glass->picture;
+    virga_glass_picture_gpu *look = &block->look;
+    const double width = (double)glass->def.width_m, height = (double)glass->def.height_m;
+    const double least = LEAST_TEXELS / fmax(width, height);
+    const double dense = fmax(pixels_per_metre(glass, block), least);
+    look->tile_columns = whole_tiles(width * dense, picture->max_tile_columns);
+    look->tile_rows = whole_tiles(height * dense, picture->max_tile_rows);
+    look->map_columns = look->tile_columns * TILE;
+    look->map_rows = look->tile_rows * TILE;
+    look->texel_m[0] = (float)(width / look->map_columns);
+    look->texel_m[1] = (float)(height / look->map_rows);
+    look->written_columns = picture->max_tile_columns;
+}
+
+/* ---- numbers of a view */
+
+static void fill_pane(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose,
+                      virga_glass_picture_gpu *look)
+{
+    look->pane = (virga_glass_pane_gpu){.columns = glass->columns,
+                                        .rows = glass->rows,
+                                        .cell_m = glass->def.cell_m,
+                                        .width_m = glass->def.width_m,
+                                        .height_m = glass->def.height_m,
+                                        .max_drops = glass->def.max_drops,
+                                        .seed = glass->def.seed};
+    take_rotation(pose, look->world_from_pane);
+    for (int i = 0; i < 3; i++) {
+        look->origin[i] = (float)(pose->position_m[i] - view->position_m[i]);
+        look->gravity[i] = (float)(-GRAVITY * (double)look->world_from_pane[3 * i + 1]);
+    }
+}
+
+static void fill_time(const virga_glass *glass, double time_s, virga_glass_picture_gpu *look)
+{
+    const double late = fmin(time_s - virga_glass_time(glass), 0), share = 1 + late / glass->def.tick_s;
+    look->share = (float)fmax(share, 0);
+    look->late_s = (float)fmax(late, -glass->def.tick_s);
+    look->tick = glass->last_tick;
+    look->tick_s = (float)glass->def.tick_s;
+}
+
+static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
+{
+    const virga_glass_settings *s = &glass->settings;
+    const double angle_deg = glass_rest_deg(s);
+    look->drop_nl_of_m3 = (float)(glass_cap_volume(angle_deg) * 1e12);
+    look->cap_height = (float)tan(angle_deg * PI / 360);
+    look->particle_m = s->particle_mm * 1e-3f;
+    look->impact_s = s->impact_s;
+    look->film_break_s = s->film_break_s;
+    look->density = (uint32_t)s->density;
+    look->weighted = s->blend == VIRGA_GLASS_BLEND_WEIGHTED;
+    look->compress_steps = s->compress ? s->compress_steps : 0;
+    look->compress_from = s->compress_from;
+    look->compress_step = s->compress_step;
+    look->compress_k = s->compress_k;
+    look->threshold = s->threshold;
+    look->style = (uint32_t)s->style;
+    look->paper_shift = s->paper_shift;
+    look->thickness_m = s->thickness_mm * 1e-3f;
+    memcpy(look->tint, s->tint, sizeof look->tint);
+    look->opaque = s->opaque;
+    look->gain = s->gain;
+    look->max_entries = glass->picture->max_entries;
+}
+
+static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
+                      glass_view_block *block)
+{
+    glass_view_block filled = {0};
+    virga_view_fill(view, &glass->settings.lighting, pose->position_m, virga_glass_time(glass), time_s, &filled.view);
+    fill_pane(glass, view, pose, &filled.look);
+    fill_time(glass, time_s, &filled.look);
+    fill_look(glass, &filled.look);
+    fit_map(glass, &filled);
+    glass->picture->columns = filled.look.map_columns;
+    glass->picture->rows = filled.look.map_rows;
+    *block = filled;
+}
+
+/* ---- prepare */
+
+/* Images get the layout that they keep; the map's tiles have all to be written once. */
+static void record_first(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    struct glass_picture *picture = glass->picture;
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0};
+    const virga_image_state storage = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE};
+    const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                       VK_ACCESS_SHADER_READ_BIT};
+    virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
+    virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
+    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, 1);
+    picture->cleared = true;
+}
+
+static void over_tiles(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
+                       uint32_t rows)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    glass->context->vk.CmdDispatch(cmd, columns, rows, 1);
+}
+
+/* Lists of what lies over each tile begin anew. */
+static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    struct glass_picture *picture = glass->picture;
+    const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
+    context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0,
+                              texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
+    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, texels * 4, 0);
+    context->vk.CmdFillBuffer(cmd, picture->counts->buffer, 0, VK_WHOLE_SIZE, 0);
+    if (!picture->cleared)
+        record_first(glass, cmd);
+    virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  READ_WRITE);
+}
+
+static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    const struct glass_picture *picture = glass->picture;
+    const uint32_t places = glass->def.max_drops / VIRGA_GLASS_GROUP;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.balls");
+    virga_dispatch(context, cmd, picture->ball_pass, places);
+    virga_dispatch(context, cmd, picture->film_pass,
+                   (glass->columns * glass->rows + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, picture->scan_pass, 1);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, picture->fill_pass, places);
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
+/* Smaller copies of the host's picture. Its barriers may have had only draws in mind. */
+static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view)
+{
+    virga_context *context = glass->context;
+    const struct glass_picture *picture = glass->picture;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.plate");
+    const VkPipelineStageFlags from = view->color.before.stage ? view->color.before.stage
+                                                               : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    over_tiles(glass, cmd, picture->copy_pass, VIRGA_GLASS_COPY / 16, VIRGA_GLASS_COPY / 16);
+    virga_compute_barrier(context, cmd);
+    over_tiles(glass, cmd, picture->shrink_pass, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void record_counts(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    const VkDeviceSize to = context->ring_slot * sizeof(glass_readback) + offsetof(glass_readback, balls);
+    const VkBufferCopy copy = {0, to, 2 * sizeof(uint32_t)};
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    context->vk.CmdCopyBuffer(cmd, glass->picture->counts->buffer, glass->readback_ring->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    glass->picture->frame_of_slot[context->ring_slot] = context->frame_index;
+}
+
+static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point)
+{
+    const struct glass_picture *picture = glass->picture;
+    glass->context->vk.CmdBindDescriptorSets(cmd, point, picture->bindings->layout, 0, 1, &picture->prepared_set, 1,
+                                             &picture->view_offset);
+}
+
+static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view)
+{
+    virga_context *context = glass->context;
+    const struct glass_picture *picture = glass->picture;
+    const virga_glass_settings *settings = &glass->settings;
+    const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend);
+    record_clear(glass, cmd);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
+    record_balls(glass, cmd);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
+    over_tiles(glass, cmd, picture->gather_passes[mode], picture->columns / TILE, picture->rows / TILE);
+    virga_pass_end(context, cmd, scope);
+    if (view->color.view)
+        record_copies(glass, cmd, view);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    record_counts(glass, cmd);
+}
+
+static bool pose_is_finite(const virga_log *log, const virga_glass_pose *pose)
+{
+    return !virga_settings_finite_double(log, "glass_pose.position_m", pose->position_m, 3) &&
+           !virga_settings_finite(log, "glass_pose.world_from_pane", pose->world_from_pane, 9);
+}
+
+/* A place for a view in this frame's ring. */
+static virga_result take_place(virga_glass *glass, uint32_t *place)
+{
+    struct glass_picture *picture = glass->picture;
+    if (picture->view_frame != glass->context->frame_index)
+        picture->ring_views = 0;
+    picture->view_frame = glass->context->frame_index;
+    if (picture->ring_views >= VIRGA_GLASS_MAX_VIEWS)
+        return virga_wrong_argument(&glass->context->log, "virga_glass_prepare: more than %d views in a frame",
+                                    VIRGA_GLASS_MAX_VIEWS);
+    *place = picture->ring_views++;
+    return VIRGA_OK;
+}
+
+virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                                 const virga_glass_pose *pose, double time_s)
+{
+    if (!glass)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = glass->context;
+    struct glass_picture *picture = glass->picture;
+    if (!cmd || !view || !pose)
+        return virga_wrong_argument(&context->log, "virga_glass_prepare: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    picture->prepared = false;
+    virga_result result = virga_view_check(&context->log, view, time_s);
+    if (result)
+        return result;
+    if (!pose_is_finite(&context->log, pose))
+        return VIRGA_ERROR_INVALID;
+    if (!glass->started || view->viewport[2] < 1 || view->viewport[3] < 1)
+        return VIRGA_NOT_READY;
+    uint32_t place = 0;
+    result = take_place(glass, &place);
+    if (result)
+        return result;
+    virga_timers_reset(context, cmd);
+    picture->view_offset = (context->ring_slot * VIRGA_GLASS_MAX_VIEWS + place) * glass_view_bytes();
+    char *mapped = picture->view_ring->memory.block.mapped;
+    fill_view(glass, view, pose, time_s, (glass_view_block *)(mapped + picture->view_offset));
+    virga_buffer_flush(context, picture->view_ring, picture->view_offset, glass_view_bytes());
+    picture->prepared_set = glass_picture_write_set(glass, place, view);
+    record_prepare(glass, cmd, view);
+    memcpy(picture->prepared_viewport, view->viewport, sizeof picture->prepared_viewport);
+    picture->prepared_depth = view->depth.view != VK_NULL_HANDLE;
+    picture->prepared_style = glass->settings.style;
+    picture->prepared = true;
+    return VIRGA_OK;
+}
+
+void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
+{
+    if (!map)
+        return;
+    *map = (virga_glass_map){0};
+    if (glass && glass->picture->columns)
+        *map = (virga_glass_map){glass->picture->map->layer_views[0], glass->picture->map->image,
+                                 glass->picture->columns, glass->picture->rows};
+}
+
+/* A frame may draw without a step, so what prepares found is taken apart from it: the newest. */
+void glass_picture_take_statistics(virga_glass *glass)
+{
+    uint64_t newest = 0;
+    for (uint32_t i = 0; i < glass->context->frames_in_flight; i++) {
+        const uint64_t frame = glass->picture->frame_of_slot[i];
+        if (frame <= newest || frame > glass->context->completed_index)
+            continue;
+        newest = frame;
+        const char *mapped = (const char *)glass->readback_ring->memory.block.mapped + i * sizeof(glass_readback);
+        memcpy(&glass->stats.balls, mapped + offsetof(glass_readback, balls), sizeof(uint32_t));
+        memcpy(&glass->stats.balls_cut, mapped + offsetof(glass_readback, balls_cut), sizeof(uint32_t));
+    }
+}
+
+/* ---- attach */
+
+static glass_target *find_target(virga_glass *glass, uint64_t serial)
+{
+    for (uint32_t i = 0; i < GLASS_MAX_TARGETS; i++)
+        if (glass->picture->targets[i].serial == serial)
+            return &glass->picture->targets[i];
+    return NULL;
+}
+
+static void target_clear(virga_glass *glass, glass_target *target)
+{
+    for (int i = 0; i < GLASS_DRAWS * 2; i++)
+        VIRGA_RETIRE(glass->context, target->draws[i / 2][i % 2]);
+    target->serial = 0;
+}
+
+virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
+{
+    if (!glass)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &glass->context->log;
+    if (!target || target->context != glass->context)
+        return virga_wrong_argument(log, "virga_glass_attach: expected a target of the same context");
+    if (glass->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (find_target(glass, target->serial))
+        return VIRGA_OK;
+    glass_target *slot = find_target(glass, 0);
+    if (!slot)
+        return virga_wrong_argument(log, "virga_glass_attach: more than %d targets", GLASS_MAX_TARGETS);
+    const struct {
+        virga_spirv fragment;
+        const char *name;
+    } rows[GLASS_DRAWS] = {
+        [GLASS_DRAW_PAPER] = {VIRGA_SPIRV(glass_picture_paper_frag), "glass.paper"},
+        [GLASS_DRAW_PHYSICAL] = {VIRGA_SPIRV(glass_picture_physical_frag), "glass.physical"},
+        [GLASS_DRAW_REFRACTION] = {VIRGA_SPIRV(glass_picture_refraction_frag), "glass.refraction"},
+    };
+    virga_result result = VIRGA_OK;
+    virga_graphics_def def = {.vertex = VIRGA_SPIRV(glass_picture_pane_vert),
+                              .layout = glass->picture->bindings->layout,
+                              .depth_test = true};
+    for (uint32_t i = 0; i < GLASS_DRAWS * 2; i++) {
+        def.constant = i % 2;
+        def.fragment = rows[i / 2].fragment;
+        def.name = rows[i / 2].name;
+        def.blend_premultiplied = i / 2 != GLASS_DRAW_REFRACTION;
+        TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
+    }
+    slot->serial = target->serial;
+    return VIRGA_OK;
+error:
+    target_clear(glass, slot);
+    return result;
+}
+
+/* ---- draw */
+
+static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, const char *name)
+{
+    virga_context *context = glass->context;
+    const float *box = glass->picture->prepared_viewport;
+    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
+    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
+                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
+    const uint32_t quarters = glass->picture->columns / TILE * (glass->picture->rows / TILE) * 4;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
+    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
+    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    context->vk.CmdDraw(cmd, quarters * 6, 1, 0, 0);
+    virga_pass_end(context, cmd, scope);
+}
+
+static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
+                         const char *call)
+{
+    if (!glass)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = glass->context;
+    const struct glass_picture *picture = glass->picture;
+    if (!cmd || !target)
+        return virga_wrong_argument(&context->log, "%s: NULL argument", call);
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    const glass_target *found = find_target(glass, target->serial);
+    /* What was prepared for an earlier frame or step is not what the map holds now. */
+    if (!found || !picture->prepared || picture->view_frame != context->frame_index)
+        return VIRGA_NOT_READY;
+    const int style = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER ? GLASS_DRAW_PAPER : GLASS_DRAW_PHYSICAL;
+    record_draw(glass, cmd, found->draws[refraction ? GLASS_DRAW_REFRACTION : style][picture->prepared_depth],
+                refraction ? "glass.refraction" : "glass.draw");
+    return VIRGA_OK;
+}
+
+virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw(glass, cmd, target, false, "virga_glass_draw");
+}
+
+virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw(glass, cmd, target, true, "virga_glass_draw_refraction");
+}

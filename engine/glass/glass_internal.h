@@ -1,0 +1,104 @@
+/* glass/glass_internal.h - the object behind virga_glass, and what its files do for each other. Internal.
+ *
+ *   glass.c          create, destroy, settings, statistics
+ *   glass_kinds.c    what holds drops on which surface
+ *   glass_shape.c    panes flat and bent, masks, bumps: what the cells know
+ *   glass_wipers.c   where blades are at a time
+ *   glass_step.c     ticks
+ *   glass_picture.c  what the height map and the draws need
+ *   glass_draw.c     prepare, attach, draw
+ */
+#ifndef VIRGA_GLASS_INTERNAL_H
+#define VIRGA_GLASS_INTERNAL_H
+
+#include "gpu/context.h"
+#include "gpu/view.h"
+
+#include <virga/glass.h>
+#include <virga/shared/glass_gpu.h>
+
+#define GLASS_MOST_ARRIVALS 8192 /* of the rate, in a tick: beyond it each stands for several */
+#define GLASS_MOST_IMPACTS  8192 /* of the host's list, in a step */
+
+/* Side of a cell of the particles' grid, at the least. */
+static inline float glass_least_grid_m(const virga_glass_def *def)
+{
+    return def->cell_m > 0.003f ? def->cell_m : 0.003f;
+}
+
+/* What the statistics ring reads back for one frame. */
+typedef struct glass_readback {
+    virga_glass_state_gpu state;
+    uint32_t balls, balls_cut;
+} glass_readback;
+
+struct virga_glass {
+    virga_context *context;
+    virga_glass_def def;
+    uint32_t columns, rows; /* cells */
+    virga_glass_settings settings;
+    uint64_t ticks;         /* run since creation */
+    uint32_t last_tick;
+    bool started;
+    double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) at the end of the newest step */
+    bool host_known;
+
+    /* State of the pane. */
+    virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved, *awake;
+    /* What the pane is like: cells (affinity, bump, mask) and the grid of its shape. */
+    virga_buffer *surface, *nodes;
+    virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */
+    virga_buffer *tick_ring, *readback_ring;
+    virga_bindings *bindings;
+    virga_pipeline *census_find, *census_scan, *census_list, *move, *awake_scan, *awake_list, *choose, *enter, *capture_find, *capture, *wipe,
+        *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim, *place_scan, *place,
+        *settle, *dry, *measure;
+    float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
+    float outline[9][3];    /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
+    const virga_glass_tick_gpu *blades; /* of the tick that is recorded */
+    bool particles_ever;    /* there may be particles */
+    VkDescriptorSet step_set;
+    VkBuffer impacts; /* of the step that is recorded */
+    VkDeviceSize impacts_offset;
+    uint64_t ring_frame;
+    uint32_t ring_ticks, tick_offset;
+    uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose state the ring holds; 0: none */
+    virga_glass_stats stats;
+
+    struct glass_picture *picture;
+};
+
+/* ---- glass_kinds.c */
+
+/* Water (m^3) of a cap on a base with a radius of 1 m, by its contact angle: pi (2 - 3 cos + cos^3) / (3 sin^3). */
+double glass_cap_volume(double angle_deg);
+/* Mean of the two angles: that of a drop at rest. */
+double glass_rest_deg(const virga_glass_settings *settings);
+/* See virga_glass_tick_gpu. */
+double glass_hold(const virga_glass_settings *settings);
+double glass_drag(const virga_glass_settings *settings);
+
+/* ---- glass_shape.c */
+virga_result glass_shape_init(virga_glass *glass);
+
+/* ---- glass_wipers.c */
+void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double share_from, double share_to,
+                       virga_glass_tick_gpu *tick);
+
+/* ---- glass.c */
+VkDescriptorSet glass_write_set(virga_glass *glass);
+
+/* ---- glass_step.c */
+uint32_t glass_tick_bytes(void);
+void glass_take_statistics(virga_glass *glass);
+void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
+                      float sizes_m[VIRGA_GLASS_SIZES]);
+
+/* ---- glass_picture.c: a part of its own, that reads drops, list, film, passed and nodes. */
+virga_result glass_picture_create(virga_glass *glass);
+void glass_picture_destroy(virga_glass *glass);
+VkDeviceSize glass_picture_estimate(const virga_glass_def *def);
+/* Takes in what completed frames' prepares have counted: the newest. After the ring has been invalidated. */
+void glass_picture_take_statistics(virga_glass *glass);
+
+#endif

@@ -1,0 +1,278 @@
+/* glass/glass_picture.c - what the height map and the draws need: create, destroy, and what their sets hold. */
+#include "glass/glass_picture.h"
+
+#include "shaders/glass_picture_balls_comp.spv.h"
+#include "shaders/glass_picture_copy_comp.spv.h"
+#include "shaders/glass_picture_fill_comp.spv.h"
+#include "shaders/glass_picture_film_comp.spv.h"
+#include "shaders/glass_picture_gather_comp.spv.h"
+#include "shaders/glass_picture_gather_shuffle_comp.spv.h"
+#include "shaders/glass_picture_scan_comp.spv.h"
+#include "shaders/glass_picture_shrink_comp.spv.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TILE VIRGA_GLASS_TILE
+
+uint32_t glass_view_bytes(void)
+{
+    return (uint32_t)((sizeof(glass_view_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
+                      VIRGA_RING_ALIGNMENT);
+}
+
+/* ---- sizes */
+
+static uint32_t tiles_of(float side_m, float longer_m, uint32_t max_texels)
+{
+    const double tiles = ceil((double)side_m / (double)longer_m * max_texels / TILE - 1e-4);
+    return tiles > 1 ? (uint32_t)tiles : 1;
+}
+
+/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than the pane's
+ * texels over pi. One that reaches r texels is in (2 r / 16 + 2)^2 tiles at most, and r is three radii. */
+static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture)
+{
+    const float longer = def->width_m > def->height_m ? def->width_m : def->height_m;
+    picture->max_tile_columns = tiles_of(def->width_m, longer, def->max_texels);
+    picture->max_tile_rows = tiles_of(def->height_m, longer, def->max_texels);
+    picture->max_columns = picture->max_tile_columns * TILE;
+    picture->max_rows = picture->max_tile_rows * TILE;
+    picture->max_entries = picture->max_columns * picture->max_rows / 8 + 16 * def->max_drops;
+}
+
+enum { BUFFERS = 7, PASSES = 6 };
+
+static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
+                         virga_buffer_row rows[BUFFERS])
+{
+    const VkBufferUsageFlags storage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkDeviceSize tiles = (VkDeviceSize)picture->max_tile_columns * picture->max_tile_rows;
+    const virga_buffer_row wanted[BUFFERS] = {
+        {&picture->balls, (VkDeviceSize)def->max_drops * VIRGA_GLASS_DROP_BALLS * sizeof(virga_glass_ball_gpu), storage,
+         VIRGA_HEAP_DEVICE, "glass.balls"},
+        {&picture->tiles, tiles * sizeof(virga_glass_tile_gpu), storage, VIRGA_HEAP_DEVICE, "glass.tiles"},
+        {&picture->entries, (VkDeviceSize)picture->max_entries * 4, storage, VIRGA_HEAP_DEVICE, "glass.entries"},
+        {&picture->mist, tiles * TILE * TILE * 4, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
+        {&picture->counts, 8, storage, VIRGA_HEAP_DEVICE, "glass.ball_counts"},
+        {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
+        {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.views"},
+    };
+    memcpy(rows, wanted, sizeof wanted);
+}
+
+#define MAP_TEXEL  16 /* bytes */
+#define COPY_TEXEL 8
+
+VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
+{
+    struct glass_picture sizes = {0};
+    virga_buffer_row rows[BUFFERS];
+    fill_sizes(def, &sizes);
+    list_buffers(def, VIRGA_MAX_FRAMES_IN_FLIGHT, &sizes, rows);
+    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL +
+                       (VkDeviceSize)VIRGA_GLASS_COPY_WIDTH * VIRGA_GLASS_COPY * COPY_TEXEL;
+    for (int i = 0; i < BUFFERS; i++)
+        sum += rows[i].size;
+    return sum;
+}
+
+/* ---- bindings */
+
+#define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
+#define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
+
+/* As in shaders/glass/picture*: what each file declares. */
+static const virga_binding_kind kinds[] = {
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},              /* 0 view and look */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 1 drops */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 2 film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 3 passed */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, FRAGMENT},                              /* 4 surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT},  /* 5 nodes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 6 balls */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 7 tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 8 entries */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 9 mist */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 10 counts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                /* 11 map, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 12 map, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                /* 13 copies of the plate, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 14 the same, read */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 15 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},            /* 16 scene colour */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT},  /* 17 what tiles hold */
+};
+
+enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
+
+static virga_bound whole(const virga_buffer *buffer)
+{
+    return (virga_bound){.buffer = buffer->buffer};
+}
+
+static virga_bound own_image(const virga_image_2d *image, VkSampler sampler)
+{
+    return (virga_bound){
+        .view = image->layer_views[0], .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
+}
+
+/* A host's image, or a blank in its place. */
+static virga_bound image_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler)
+{
+    return (virga_bound){.sampler = sampler,
+                         .view = image->view ? image->view : blank->layer_views[0],
+                         .image_layout =
+                             image->view ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view)
+{
+    const struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->context;
+    /* Not every device filters four whole floats. */
+    const VkSampler color =
+        view->color.format == VK_FORMAT_R32G32B32A32_SFLOAT ? context->nearest : context->linear;
+    const virga_bound bound[BINDINGS] = {
+        {.buffer = picture->view_ring->buffer, .range = sizeof(glass_view_block)},
+        whole(glass->drops),
+        whole(glass->film),
+        whole(glass->passed),
+        whole(glass->surface),
+        whole(glass->nodes),
+        whole(picture->balls),
+        whole(picture->tiles),
+        whole(picture->entries),
+        whole(picture->mist),
+        whole(picture->counts),
+        own_image(picture->map, VK_NULL_HANDLE),
+        own_image(picture->map, context->nearest),
+        own_image(picture->copies, VK_NULL_HANDLE),
+        own_image(picture->copies, context->linear),
+        image_or_blank(&view->depth, picture->blank_depth, context->nearest),
+        image_or_blank(&view->color, picture->blank_color, color),
+        whole(picture->written),
+    };
+    return virga_bindings_write(context, picture->bindings, index, bound);
+}
+
+/* ---- creating */
+
+/* Whether compute shaders may shuffle. */
+static bool can_shuffle(const virga_context *context)
+{
+    VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                              .pNext = &subgroup};
+    context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
+    return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+}
+
+static void list_passes(struct glass_picture *picture, virga_compute_row rows[PASSES])
+{
+    const virga_compute_row wanted[PASSES] = {
+        {&picture->ball_pass, VIRGA_SPIRV(glass_picture_balls_comp), "glass.balls"},
+        {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
+        {&picture->scan_pass, VIRGA_SPIRV(glass_picture_scan_comp), "glass.scan"},
+        {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
+        {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
+        {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
+    };
+    memcpy(rows, wanted, sizeof wanted);
+}
+
+/* One for each density and blend. */
+static virga_result create_gathers(virga_context *context, bool shuffle, struct glass_picture *picture)
+{
+    const virga_spirv shader =
+        shuffle ? VIRGA_SPIRV(glass_picture_gather_shuffle_comp) : VIRGA_SPIRV(glass_picture_gather_comp);
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < 2 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
+        const uint32_t mode = GLASS_GATHER_MODE(i / 2, i % 2);
+        TRY(virga_compute_pipeline_special(context, shader, picture->bindings->layout, mode, "glass.gather",
+                                           &picture->gather_passes[mode]));
+    }
+error:
+    return result;
+}
+
+static void retire_gathers(virga_context *context, struct glass_picture *picture)
+{
+    for (uint32_t i = 0; i < GLASS_GATHERS; i++)
+        VIRGA_RETIRE(context, picture->gather_passes[i]);
+}
+
+static virga_result create_images(virga_context *context, struct glass_picture *picture)
+{
+    virga_result result = VIRGA_OK;
+    const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
+    const VkExtent2D one = {1, 1}, map = {picture->max_columns, picture->max_rows},
+                     copies = {VIRGA_GLASS_COPY_WIDTH, VIRGA_GLASS_COPY};
+    TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
+                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
+    TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, copies, 1,
+                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.copies", &picture->copies));
+    TRY(virga_image_create(context, VK_FORMAT_D32_SFLOAT, one, 1, sampled, VK_IMAGE_ASPECT_DEPTH_BIT,
+                           "glass.blank_depth", &picture->blank_depth));
+    TRY(virga_image_create(context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
+                           "glass.blank_color", &picture->blank_color));
+error:
+    return result;
+}
+
+virga_result glass_picture_create(virga_glass *glass)
+{
+    virga_context *context = glass->context;
+    virga_result result = VIRGA_OK;
+    virga_buffer_row buffers[BUFFERS];
+    virga_compute_row passes[PASSES];
+    struct glass_picture *picture = virga_alloc(&context->heap, sizeof *picture);
+    if (!picture)
+        return virga_out_of_host_memory(context, "a pane's picture");
+    glass->picture = picture;
+    fill_sizes(&glass->def, picture);
+    list_buffers(&glass->def, context->frames_in_flight, picture, buffers);
+    list_passes(picture, passes);
+    TRY(virga_buffers_create(context, buffers, BUFFERS));
+    TRY(create_images(context, picture));
+    TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
+    TRY(virga_compute_pipelines_create(context, picture->bindings->layout, passes, PASSES));
+    TRY(create_gathers(context, can_shuffle(context), picture));
+error:
+    return result; /* what was made goes with the pane */
+}
+
+virga_result glass_picture_share(virga_glass *glass)
+{
+    retire_gathers(glass->context, glass->picture);
+    return create_gathers(glass->context, false, glass->picture);
+}
+
+void glass_picture_destroy(virga_glass *glass)
+{
+    struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->context;
+    virga_buffer_row buffers[BUFFERS];
+    virga_compute_row passes[PASSES];
+    if (!picture)
+        return;
+    list_buffers(&glass->def, context->frames_in_flight, picture, buffers);
+    list_passes(picture, passes);
+    virga_compute_pipelines_retire(context, passes, PASSES);
+    retire_gathers(context, picture);
+    virga_buffers_retire(context, buffers, BUFFERS);
+    for (uint32_t i = 0; i < GLASS_MAX_TARGETS * GLASS_DRAWS * 2; i++)
+        VIRGA_RETIRE(context, picture->targets[i / (GLASS_DRAWS * 2)].draws[i / 2 % GLASS_DRAWS][i % 2]);
+    VIRGA_RETIRE(context, picture->map);
+    VIRGA_RETIRE(context, picture->copies);
+    VIRGA_RETIRE(context, picture->blank_depth);
+    VIRGA_RETIRE(context, picture->blank_color);
+    VIRGA_RETIRE(context, picture->bindings);
+    virga_free(&context->heap, picture);
+    glass->picture = NULL;
+}

@@ -1,0 +1,66 @@
+/* glass/glass_picture.h - the object behind the height map and the draws of a pane. Internal.
+ *
+ *   glass_picture.c  create, destroy, what sets hold
+ *   glass_draw.c     prepare, attach, draw
+ */
+#ifndef VIRGA_GLASS_PICTURE_H
+#define VIRGA_GLASS_PICTURE_H
+
+#include "glass/glass_internal.h"
+
+#include <virga/shared/glass_picture_gpu.h>
+
+#define GLASS_MAX_TARGETS 8
+
+enum {
+    GLASS_DRAW_PAPER,
+    GLASS_DRAW_PHYSICAL,
+    GLASS_DRAW_REFRACTION,
+    GLASS_DRAWS
+};
+
+#define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
+#define GLASS_GATHERS                     16 /* of which those of five densities are made */
+
+typedef struct glass_target {
+    uint64_t serial;                       /* of the virga_target; 0: free */
+    virga_pipeline *draws[GLASS_DRAWS][2]; /* without and with the scene's depth to read */
+} glass_target;
+
+/* What a view's uniform block holds. */
+typedef struct glass_view_block {
+    virga_view_gpu view;
+    virga_glass_picture_gpu look;
+} glass_view_block;
+
+struct glass_picture {
+    uint32_t max_columns, max_rows;           /* texels of the map */
+    uint32_t max_tile_columns, max_tile_rows; /* and tiles */
+    uint32_t max_entries;
+    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *view_ring;
+    virga_image_2d *map, *copies;
+    virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
+    virga_bindings *bindings;
+    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density and blend */
+    glass_target targets[GLASS_MAX_TARGETS];
+    bool cleared;  /* images have their layout, and `written` says that all is to be written */
+
+    uint64_t view_frame; /* that the cursors below belong to */
+    uint32_t ring_views, view_offset;
+    bool prepared, prepared_depth;
+    virga_glass_style prepared_style;
+    VkDescriptorSet prepared_set;
+    float prepared_viewport[4];
+    uint32_t columns, rows; /* texels in use since the newest prepare */
+    uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
+};
+
+/* Writes the set of a frame's view. */
+VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
+uint32_t glass_view_bytes(void);
+
+/* Hands balls around in shared memory, though the device may shuffle: for tests and measurements. The same bits. */
+virga_result glass_picture_share(virga_glass *glass);
+
+#endif

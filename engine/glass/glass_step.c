@@ -1,0 +1,546 @@
+/* glass/glass_step.c - a step: drops land, run, meet blades and dry, tick by tick. */
+#include "glass/glass_internal.h"
+
+#include <virga/shared/random.h>
+
+#include <math.h>
+#include <string.h>
+
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+#define PI         3.14159265358979323846
+
+#define ROUNDS       8u  /* cells that a drop may go in a tick; even, see shaders/glass/rounds.glsl */
+#define RELAX_ROUNDS 8u  /* even: positions end where they began */
+#define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
+
+#define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
+#define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
+
+uint32_t glass_tick_bytes(void)
+{
+    return (uint32_t)((sizeof(virga_glass_tick_gpu) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
+                      VIRGA_RING_ALIGNMENT);
+}
+
+/* ---- statistics */
+
+static uint64_t wide(virga_glass_count_gpu count)
+{
+    return (uint64_t)count.high << 32 | count.low;
+}
+
+static void take(virga_glass *glass, uint32_t slot)
+{
+    glass_readback found;
+    const char *mapped = glass->readback_ring->memory.block.mapped;
+    memcpy(&found, mapped + slot * sizeof found, sizeof found);
+    const virga_glass_state_gpu *state = &found.state;
+    virga_glass_stats *stats = &glass->stats;
+    stats->frame_index = glass->frame_of_slot[slot];
+    stats->landed_nl = wide(state->counts[VIRGA_GLASS_LANDED]);
+    stats->run_off_nl = wide(state->counts[VIRGA_GLASS_RUN_OFF]);
+    stats->wiped_nl = wide(state->counts[VIRGA_GLASS_WIPED]);
+    stats->evaporated_nl = wide(state->counts[VIRGA_GLASS_EVAPORATED]);
+    stats->arrived = wide(state->counts[VIRGA_GLASS_ARRIVED]);
+    stats->merged = wide(state->counts[VIRGA_GLASS_MERGED]);
+    stats->to_particles = wide(state->counts[VIRGA_GLASS_TO_PARTS]);
+    stats->to_drops = wide(state->counts[VIRGA_GLASS_TO_DROPS]);
+    stats->crowded = wide(state->counts[VIRGA_GLASS_CROWDED]);
+    stats->drops_nl = wide(state->measured[0]);
+    stats->particles_nl = wide(state->measured[1]);
+    stats->film_nl = wide(state->measured[2]);
+    stats->drops = state->drops;
+    stats->particles = state->particles;
+    stats->held = state->held;
+    glass->frame_of_slot[slot] = 0;
+}
+
+void glass_take_statistics(virga_glass *glass)
+{
+    const virga_context *context = glass->context;
+    virga_buffer_invalidate(glass->context, glass->readback_ring);
+    for (;;) {
+        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
+        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
+            const uint64_t frame = glass->frame_of_slot[i];
+            if (frame && frame <= context->completed_index &&
+                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || frame < glass->frame_of_slot[oldest]))
+                oldest = i;
+        }
+        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
+            break;
+        take(glass, oldest);
+    }
+    glass_picture_take_statistics(glass);
+}
+
+static void record_readback(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferCopy copy = {0, context->ring_slot * sizeof(glass_readback), sizeof(virga_glass_state_gpu)};
+    context->vk.CmdCopyBuffer(cmd, glass->state->buffer, glass->readback_ring->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    glass->frame_of_slot[context->ring_slot] = context->frame_index;
+}
+
+/* ---- the world, from the pane */
+
+static void to_pane(const virga_glass_step_info *info, const double world[3], double out[3])
+{
+    const float *m = info->world_from_pane;
+    bool none = true;
+    for (int i = 0; i < 9; i++)
+        none = none && m[i] == 0;
+    for (int i = 0; i < 3; i++)
+        out[i] = none ? world[i]
+                      : (double)m[3 * i] * world[0] + (double)m[3 * i + 1] * world[1] + (double)m[3 * i + 2] * world[2];
+}
+
+static void store(const double from[3], float out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)from[i];
+}
+
+/* ---- what lands
+ *
+ * Drops of the diameter D fall with their terminal speed v(D) in air that moves with the wind, the pane moves too: seen from
+ * it they come with V(D) = wind - v(D) up - pane, and N(D) dD |V . n| of them meet a square metre in a second. */
+
+#define SIZES 128
+
+static void landing_of(virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *tick, double *per_tick)
+{
+    *per_tick = 0;
+    if (!(info->rate_mm_h > 0))
+        return;
+    static const virga_sizes marshall_palmer = {.kind = VIRGA_SIZES_MARSHALL_PALMER};
+    const double step = (VIRGA_DROP_MAX_M - VIRGA_DROP_MIN_M) / SIZES, air = (double)info->air_density;
+    double diameters[SIZES], density[SIZES], fluxes[SIZES], mean[3] = {0, 0, 0}, ways[SIZES][3];
+    for (int i = 0; i < SIZES; i++)
+        diameters[i] = VIRGA_DROP_MIN_M + (i + 0.5) * step;
+    if (virga_sizes_densities(info->sizes ? info->sizes : &marshall_palmer, (double)info->rate_mm_h, air, SIZES, diameters, density))
+        return;
+    for (int i = 0; i < SIZES; i++) {
+        const double world[3] = {(double)info->wind_m_s[0] - (double)info->velocity_m_s[0],
+                                 (double)info->wind_m_s[1] - (double)info->velocity_m_s[1] - virga_drop_terminal_speed(diameters[i], air),
+                                 (double)info->wind_m_s[2] - (double)info->velocity_m_s[2]};
+        to_pane(info, world, ways[i]);
+        for (int axis = 0; axis < 3; axis++)
+            mean[axis] += density[i] * step * ways[i][axis];
+    }
+    const double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+    if (!(length > 0))
+        return;
+    /* The place of the pane that faces the rain most; others get less by the cosine. */
+    double facing = 0, normal[3] = {0, 0, 0};
+    for (int i = 0; i < VIRGA_GLASS_NODES * VIRGA_GLASS_NODES; i++) {
+        const float *n = glass->normals[i];
+        const double cosine = -(mean[0] * (double)n[0] + mean[1] * (double)n[1] + mean[2] * (double)n[2]) / length;
+        if (cosine > facing) {
+            facing = cosine;
+            for (int axis = 0; axis < 3; axis++)
+                normal[axis] = (double)n[axis];
+        }
+    }
+    double all = 0;
+    for (int i = 0; i < SIZES; i++) {
+        const double towards = -(ways[i][0] * normal[0] + ways[i][1] * normal[1] + ways[i][2] * normal[2]);
+        fluxes[i] = density[i] * step * fmax(towards, 0);
+        all += fluxes[i];
+    }
+    if (!(all > 0))
+        return;
+    for (int axis = 0; axis < 3; axis++)
+        tick->fall[axis] = (float)(mean[axis] / length);
+    tick->fall_cosine = (float)facing;
+    *per_tick = all * (double)glass->def.width_m * (double)glass->def.height_m * glass->def.tick_s;
+    const double stands_for = fmax(*per_tick / (GLASS_MOST_ARRIVALS - 1), 1);
+    *per_tick /= stands_for;
+    glass_fill_sizes(diameters, fluxes, SIZES, stands_for, tick->sizes_m);
+}
+
+/* Classes of equal numbers, each with the diameter of its drops' mean water. */
+void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
+                      float sizes_m[VIRGA_GLASS_SIZES])
+{
+    double all = 0, water[VIRGA_GLASS_SIZES] = {0}, passed = 0;
+    for (uint32_t i = 0; i < count; i++)
+        all += fluxes[i];
+    const double share = all / VIRGA_GLASS_SIZES;
+    for (uint32_t i = 0; i < count; i++) {
+        double left = fluxes[i];
+        while (left > 1e-12 * all) {
+            const uint32_t class_index = (uint32_t)fmin(passed / share, VIRGA_GLASS_SIZES - 1);
+            const double room = class_index == VIRGA_GLASS_SIZES - 1 ? left : (class_index + 1) * share - passed;
+            const double part = fmax(fmin(left, room), 1e-12 * all);
+            water[class_index] += part * diameters[i] * diameters[i] * diameters[i];
+            passed += part;
+            left -= part;
+        }
+    }
+    for (uint32_t i = 0; i < VIRGA_GLASS_SIZES; i++)
+        sizes_m[i] = (float)cbrt(stands_for * water[i] / share);
+}
+
+/* ---- a tick's numbers */
+
+static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
+{
+    const virga_glass_settings *s = &glass->settings;
+    const double angle = glass_rest_deg(s) * PI / 180, cap = glass_cap_volume(glass_rest_deg(s));
+    out->drop_nl_of_m3 = (float)(cap * 1e12);
+    out->hold = (float)glass_hold(s);
+    out->drag = (float)glass_drag(s);
+    out->run_hold = s->run_hold;
+    /* A cap's section: the circle's segment over its base, a^2 (t - sin t cos t) / sin^2 t. */
+    const double section = (angle - sin(angle) * cos(angle)) / (sin(angle) * sin(angle));
+    out->air_drag = (float)(0.5 * VIRGA_AIR_DENSITY * DRAG_OF_SPHERE * section);
+    out->air_share = s->air_share;
+    out->affinity_sigma = s->affinity;
+    out->meander = s->meander;
+    out->path_ease = s->path_ease;
+    out->path_s = s->path_s;
+    out->tail_m = s->tail_m;
+    out->tail_share = TAIL_SHARE;
+    out->tail_radius_m = s->tail_mm * 1e-3f;
+    /* One of the largest shrinks away in tail_s if its base keeps its shape: water over base over time. */
+    out->shrink_nl_s = (float)(cap / PI * (double)s->tail_mm * 1e-3 * 1e12 / (double)s->tail_s * 3);
+    out->film_m = s->film_um * 1e-6f;
+    out->evaporation_m_s = s->evaporation_mm_h * 1e-3f / 3600;
+    out->mist_nl = (float)(PI / 6 * pow((double)s->mist_mm * 1e-3, 3) * 1e12);
+    out->cells_per_tick = ROUNDS;
+}
+
+static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
+{
+    const virga_glass_settings *s = &glass->settings;
+    const double cap = glass_cap_volume(glass_rest_deg(s));
+    const double particle = (double)s->particle_mm * 1e-3, hold_back = (double)s->hold_back_mm * 1e-3;
+    out->particle_m = (float)particle;
+    out->particle_nl = (uint32_t)fmax(cap * particle * particle * particle * 1e12, 1);
+    out->penalty = s->penalty;
+    out->band_m = (float)((double)s->band * 2 * particle);
+    out->hold_back_nl = (uint32_t)fmin(cap * hold_back * hold_back * hold_back * 1e12, 4e9);
+    out->hold_back_cells = s->hold_back_cells;
+    const float least = glass_least_grid_m(&glass->def);
+    out->grid_m = 2.5f * out->particle_m > least ? 2.5f * out->particle_m : least;
+    out->grid_columns = (uint32_t)ceil((double)glass->def.width_m / (double)out->grid_m - 1e-4);
+    out->grid_rows = (uint32_t)ceil((double)glass->def.height_m / (double)out->grid_m - 1e-4);
+    out->grid_columns += !out->grid_columns;
+    out->grid_rows += !out->grid_rows;
+}
+
+static void fill_place(const virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *out)
+{
+    const double gravity[3] = {-(double)info->acceleration_m_s2[0], -VIRGA_GRAVITY - (double)info->acceleration_m_s2[1],
+                               -(double)info->acceleration_m_s2[2]};
+    const double turn[3] = {(double)info->turn_rad_s[0], (double)info->turn_rad_s[1], (double)info->turn_rad_s[2]};
+    double air[3], local[3];
+    for (int i = 0; i < 3; i++)
+        air[i] = (double)info->wind_m_s[i] - (double)info->velocity_m_s[i];
+    to_pane(info, gravity, local);
+    store(local, out->force);
+    to_pane(info, turn, local);
+    store(local, out->spin);
+    to_pane(info, air, local);
+    store(local, out->air);
+    out->pane = (virga_glass_pane_gpu){.columns = glass->columns,
+                                       .rows = glass->rows,
+                                       .cell_m = glass->def.cell_m,
+                                       .width_m = glass->def.width_m,
+                                       .height_m = glass->def.height_m,
+                                       .max_drops = glass->def.max_drops,
+                                       .seed = glass->def.seed};
+}
+
+static void push_tick(virga_glass *glass, const virga_glass_step_info *info, const virga_glass_tick_gpu *common,
+                      double arrivals, uint32_t i)
+{
+    const uint32_t place = glass->context->ring_slot * glass->def.max_ticks_per_step + glass->ring_ticks++;
+    glass->tick_offset = place * glass_tick_bytes();
+    char *mapped = glass->tick_ring->memory.block.mapped;
+    virga_glass_tick_gpu *out = (virga_glass_tick_gpu *)(mapped + glass->tick_offset);
+    *out = *common;
+    out->tick = info->first_tick + i;
+    out->tick_in_step = i;
+    out->tick_s = (float)glass->def.tick_s;
+    out->arrivals = (uint32_t)(arrivals + (double)virga_unit(virga_hash3(glass->def.seed, out->tick, 0x61727269u)));
+    const uint32_t share = (glass->rows + DRY_SHARE - 1) / DRY_SHARE, turn = out->tick % DRY_SHARE;
+    out->rolling_row = turn * share;
+    out->rolling_rows = out->rolling_row >= glass->rows              ? 0
+                        : out->rolling_row + share > glass->rows ? glass->rows - out->rolling_row
+                                                                  : share;
+    out->rolling_s = (float)(DRY_SHARE * glass->def.tick_s);
+    glass_fill_blades(glass, (out->tick - 1.0) * glass->def.tick_s, out->tick * glass->def.tick_s,
+                      (double)i / info->ticks, (i + 1.0) / info->ticks, out);
+    virga_buffer_flush(glass->context, glass->tick_ring, glass->tick_offset, glass_tick_bytes());
+    glass->blades = out;
+}
+
+/* ---- passes */
+
+static void bind(virga_glass *glass, VkCommandBuffer cmd)
+{
+    glass->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->bindings->layout, 0, 1,
+                                             &glass->step_set, 1, &glass->tick_offset);
+}
+
+static void pass_barrier(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_barrier(glass->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+static void dispatch(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    glass->context->vk.CmdDispatch(cmd, groups, 1, 1);
+    pass_barrier(glass, cmd);
+}
+
+/* Over the list of places in use, or over all seeds. */
+static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    glass->context->vk.CmdDispatchIndirect(cmd, glass->state->buffer, groups);
+    pass_barrier(glass, cmd);
+}
+
+static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words, uint32_t count)
+{
+    glass->context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words, words);
+}
+
+#define ALIVE offsetof(virga_glass_state_gpu, alive_groups)
+#define SEEDS offsetof(virga_glass_state_gpu, seed_groups)
+#define AWAKE offsetof(virga_glass_state_gpu, awake_groups)
+#define PARTICLES offsetof(virga_glass_state_gpu, particle_groups)
+
+static uint32_t groups_of(uint64_t invocations)
+{
+    return (uint32_t)((invocations + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+}
+
+/* The mesh model: section 4.1. */
+static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
+{
+    const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.motion");
+    const uint32_t groups = glass->def.max_drops / VIRGA_GLASS_GROUP;
+    dispatch(glass, cmd, glass->census_find, groups);
+    dispatch(glass, cmd, glass->census_scan, 1);
+    dispatch(glass, cmd, glass->census_list, groups);
+    over(glass, cmd, glass->move, ALIVE);
+    dispatch(glass, cmd, glass->awake_scan, 1);
+    over(glass, cmd, glass->awake_list, ALIVE);
+    for (uint32_t i = 0; i <= ROUNDS; i++) {
+        const uint32_t round[2] = {i, ROUNDS};
+        push(glass, cmd, round, 2);
+        over(glass, cmd, glass->choose, AWAKE);
+        if (i < ROUNDS)
+            over(glass, cmd, glass->enter, AWAKE);
+    }
+    over(glass, cmd, glass->capture_find, AWAKE);
+    over(glass, cmd, glass->capture, ALIVE);
+    virga_pass_end(glass->context, cmd, scope);
+}
+
+/* The cells around all that a blade passes over in a tick. */
+static bool blade_box(const virga_glass *glass, const virga_glass_blade_gpu *blade, uint32_t box[4])
+{
+    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+    for (int i = 0; i < 8; i++) {
+        const float *middle = i & 4 ? blade->middle : blade->before_middle;
+        const float *along = i & 4 ? blade->along : blade->before_along;
+        const double y = (double)(i & 1 ? blade->half_length_m : -blade->half_length_m);
+        const double x = (double)(i & 2 ? blade->half_width_m : -blade->half_width_m);
+        const double corner[2] = {(double)middle[0] + y * (double)along[0] - x * (double)along[1],
+                                  (double)middle[1] + y * (double)along[1] + x * (double)along[0]};
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = fmin(low[axis], corner[axis]);
+            high[axis] = fmax(high[axis], corner[axis]);
+        }
+    }
+    /* The blade's end moves on an arc, which bulges out of the box of its poses by next to nothing in a tick. */
+    const uint32_t size[2] = {glass->columns, glass->rows};
+    for (int axis = 0; axis < 2; axis++) {
+        const double first = fmax(floor(low[axis] / (double)glass->def.cell_m) - 1, 0);
+        const double last = fmin(floor(high[axis] / (double)glass->def.cell_m) + 1, size[axis] - 1.0);
+        if (last < first)
+            return false;
+        box[axis] = (uint32_t)first;
+        box[2 + axis] = (uint32_t)(last - first) + 1;
+    }
+    return true;
+}
+
+/* Blades and particles: sections 4.2 to 4.6. */
+static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
+{
+    if (!glass->particles_ever)
+        return;
+    virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.wipe");
+    for (uint32_t i = 0; i < glass->blades->blade_count; i++) {
+        uint32_t words[5] = {i};
+        if (glass->blades->blades[i].side == 0 || !blade_box(glass, &glass->blades->blades[i], words + 1))
+            continue;
+        push(glass, cmd, words, 5);
+        glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->wipe->pipeline);
+        glass->context->vk.CmdDispatch(cmd, (words[3] + 15) / 16, (words[4] + 15) / 16, 1);
+        pass_barrier(glass, cmd);
+    }
+    over(glass, cmd, glass->touch, AWAKE);
+    dispatch(glass, cmd, glass->gather, groups_of((uint64_t)glass->blades->blade_count * VIRGA_GLASS_BINS));
+    virga_pass_end(glass->context, cmd, scope);
+    scope = virga_pass_begin(glass->context, cmd, "glass.particles");
+    over(glass, cmd, glass->relax_sort, PARTICLES);
+    for (uint32_t i = 0; i < RELAX_ROUNDS; i++) {
+        push(glass, cmd, &i, 1);
+        over(glass, cmd, glass->relax, PARTICLES);
+    }
+    over(glass, cmd, glass->leave_find, PARTICLES);
+    over(glass, cmd, glass->leave, PARTICLES);
+    virga_pass_end(glass->context, cmd, scope);
+}
+
+static void record_places(virga_glass *glass, VkCommandBuffer cmd)
+{
+    const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.place");
+    over(glass, cmd, glass->place_claim, SEEDS);
+    dispatch(glass, cmd, glass->place_scan, 1);
+    over(glass, cmd, glass->place, SEEDS);
+    over(glass, cmd, glass->settle, offsetof(virga_glass_state_gpu, settle_groups));
+    if (glass->blades->rolling_rows)
+        dispatch(glass, cmd, glass->dry, groups_of((uint64_t)glass->blades->rolling_rows * glass->columns));
+    virga_pass_end(glass->context, cmd, scope);
+}
+
+static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.measure");
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, drops), 12, 0);
+    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, measured), 24, 0);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    const uint64_t cells = (uint64_t)glass->columns * glass->rows;
+    dispatch(glass, cmd, glass->measure, groups_of(cells > glass->def.max_drops ? cells : glass->def.max_drops));
+    virga_pass_end(context, cmd, scope);
+}
+
+/* ---- a step */
+
+static void first_contents(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    virga_buffer *const zero[] = {glass->state, glass->drops, glass->occupants, glass->film, glass->passed, glass->seeds, glass->grid};
+    for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
+        context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, glass->claims->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_NOWHERE);
+    glass->started = true;
+}
+
+static void take_shape(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    if (!glass->surface_upload)
+        return;
+    const VkBufferCopy cells = {0, 0, glass->surface->size}, nodes = {0, 0, glass->nodes->size};
+    context->vk.CmdCopyBuffer(cmd, glass->surface_upload->buffer, glass->surface->buffer, 1, &cells);
+    context->vk.CmdCopyBuffer(cmd, glass->nodes_upload->buffer, glass->nodes->buffer, 1, &nodes);
+    VIRGA_RETIRE(context, glass->surface_upload);
+    VIRGA_RETIRE(context, glass->nodes_upload);
+}
+
+static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
+{
+    if (!glass)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &glass->context->log;
+    if (!cmd || !info)
+        return virga_wrong_argument(log, "virga_glass_step: NULL argument");
+    if (glass->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!glass->context->frame_index)
+        return virga_wrong_argument(log, "virga_glass_step: expected virga_frame_begin before it");
+    if (glass->ring_frame == glass->context->frame_index)
+        return virga_wrong_argument(log, "virga_glass_step: expected one step a frame");
+    if (info->ticks > glass->def.max_ticks_per_step)
+        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
+                                    glass->def.max_ticks_per_step, info->ticks);
+    if (virga_settings_finite(log, "step_info.world_from_pane", info->world_from_pane, 9) ||
+        virga_settings_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
+        virga_settings_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
+        virga_settings_finite(log, "step_info.turn_rad_s", info->turn_rad_s, 3) ||
+        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
+        return VIRGA_ERROR_INVALID;
+    if (!(info->rate_mm_h >= 0 && info->rate_mm_h <= 200))
+        return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
+    return VIRGA_OK;
+}
+
+static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
+{
+    virga_glass_tick_gpu common = {.impacts = info->impacts ? GLASS_MOST_IMPACTS : 0};
+    double arrivals;
+    fill_place(glass, info, &common);
+    fill_holding(glass, &common);
+    fill_particles(glass, &common);
+    landing_of(glass, info, &common, &arrivals);
+    glass->particles_ever = glass->particles_ever || glass->settings.wiper_count;
+    for (uint32_t i = 0; i < info->ticks; i++) {
+        push_tick(glass, info, &common, arrivals, i);
+        bind(glass, cmd);
+        record_motion(glass, cmd);
+        record_wipers(glass, cmd);
+        record_places(glass, cmd);
+    }
+    glass->ticks += info->ticks;
+    glass->last_tick = info->first_tick + info->ticks - 1;
+    for (uint32_t i = 0; i < VIRGA_GLASS_MAX_WIPERS; i++)
+        glass->host_deg[i] = (double)glass->settings.wipers[i].host_deg;
+    glass->host_known = true;
+    record_measure(glass, cmd);
+}
+
+virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
+{
+    const virga_result result = check_step(glass, cmd, info);
+    if (result)
+        return result;
+    virga_context *context = glass->context;
+    virga_timers_reset(context, cmd);
+    glass_take_statistics(glass);
+    glass->ring_frame = context->frame_index;
+    glass->ring_ticks = 0;
+    glass->impacts = info->impacts;
+    glass->impacts_offset = info->impacts_offset;
+    glass->step_set = glass_write_set(glass);
+    glass->impacts = VK_NULL_HANDLE; /* the host's, and not to be looked at again */
+    /* What read drops and film in the frame before is done with them. */
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    if (!glass->started)
+        first_contents(glass, cmd);
+    take_shape(glass, cmd);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    if (info->ticks)
+        record_ticks(glass, cmd, info);
+    record_readback(glass, cmd);
+    return VIRGA_OK;
+}

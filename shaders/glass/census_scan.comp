@@ -1,0 +1,24 @@
+// census_scan.comp - gives them their places in the list, and sizes the tick's dispatches.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "pane.glsl"
+#include "list.glsl"
+#include "gpu/compact_scan.glsl"
+
+layout(local_size_x = VIRGA_GLASS_GROUP) in;
+
+uint[3] groups_of(uint invocations)
+{
+    return uint[3]((invocations + VIRGA_GLASS_GROUP - 1u) / VIRGA_GLASS_GROUP, 1u, 1u);
+}
+
+void main()
+{
+    const uvec2 found = scan_picks(tick.pane.max_drops / VIRGA_GLASS_GROUP, tick.pane.max_drops);
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    state.alive = found.y;
+    state.free = found.x;
+    state.alive_groups = groups_of(found.y);
+}

@@ -1,0 +1,7 @@
+// picture_gather.comp - the height map, balls handed around in shared memory.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture_gather.glsl"
+
+void main() { gather(); }

@@ -1,0 +1,247 @@
+// picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are added up, in whole
+// numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls around: SHUFFLE or not.
+//
+// Of each ball four sums: its density V; and, with the weight k, k V, k V z and k K, where z is its height, sag and all, over the
+// highest of the tile, and K = 1 / (1 + x^2)^2. With the weight k = z,
+//
+//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and by height, so that a small ball in or under
+//                                     a large one makes no dent
+//     P = 2 - ((sum k K) / Z)^(-1/2)  is 1 - x^2 for a ball alone, smooth wherever balls merge, and below 2 however many do
+//
+// and Z P the height. Two drops that become one: P = 1.29 in their middle; for caps of one angle it is 2^(1/3) = 1.26. Near the rim
+// what the density says takes over, the x^2 of a ball alone that has it there, so that the water ends where the density is
+// 1/2. Both are the same for a ball alone. By Chen and Zhang's weights k = t_i is R_i less the distance, sums are divided by
+// that of the weights, and P is made of the weighted mean of K.
+#define DENSITY_SPECIAL
+#include "picture.glsl"
+#include "picture_density.glsl"
+#include "picture_tiles.glsl"
+#include "picture_beads.glsl"
+
+#define LANES 64
+#define OWN 4 // texels of a lane, above one another
+#define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
+#define MOST_CELLS 19 // along a side, that a tile lies on or beside where cells are no smaller than texels
+
+layout(local_size_x = LANES) in;
+layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
+layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; };
+layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
+layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // see virga_glass_picture_gpu
+
+struct Ball {
+    vec2 middle, sag;
+    float inv_radius, height, peak, radius;
+};
+
+shared uint highest, widest, any_mist, parts_shown;
+shared float film_m[MOST_CELLS * MOST_CELLS];
+shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS];
+#ifndef SHUFFLE
+shared Ball batch[LANES];
+#endif
+
+ivec4 sums[OWN];
+float tile_height, tile_radius; // largest of a tile
+
+Ball ball_of(uint entry)
+{
+    const virga_glass_ball_gpu b = balls[entries[entry]];
+    return Ball(vec2(b.middle[0], b.middle[1]), vec2(b.sag[0], b.sag[1]), 1.0 / b.radius_m, b.height_m / tile_height,
+                b.peak, b.radius_m / tile_radius);
+}
+
+void add_at(int own, vec2 place, Ball ball, float reach)
+{
+    const vec2 x = (place - ball.middle) * ball.inv_radius;
+    const float x2 = dot(x, x), once = 1.0 / (1.0 + x2);
+    const float density = ball.peak * density_at(x2, reach);
+    const float height = ball.height * max(1.0 + dot(ball.sag, x), 0.2);
+    // Chen and Zhang, equations 7 and 8.
+    const float k = WEIGHTED ? ball.radius * max(reach - sqrt(x2), 0.0) / reach : height;
+    const float around = ball.peak * k * density_window(x2, reach) * once * once;
+    const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, around);
+    sums[own] += x2 < reach * reach ? ivec4(each * ONE + 0.5) : ivec4(0);
+}
+
+void add(vec2 place, Ball ball, float reach)
+{
+    for (int i = 0; i < OWN; i++)
+        add_at(i, place + vec2(0.0, look.texel_m[1] * float(i)), ball, reach);
+}
+
+// ---- what a tile holds
+
+void find_largest(virga_glass_tile_gpu tile)
+{
+    if (gl_LocalInvocationIndex == 0u)
+        highest = widest = any_mist = parts_shown = 0u;
+    barrier();
+    float height = 0.0, radius = 0.0;
+    for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
+        const uint ball = entries[tile.first + i];
+        height = max(height, balls[ball].height_m);
+        radius = max(radius, balls[ball].radius_m);
+    }
+    if (tile.film != 0u)
+        radius = max(radius, BEAD_CELLS * look.pane.cell_m);
+    height = max(height, tile.film != 0u ? radius * look.cap_height : 0.0);
+    atomicMax(highest, floatBitsToUint(height));
+    atomicMax(widest, floatBitsToUint(radius));
+    barrier();
+    tile_height = max(uintBitsToFloat(highest) * 1.6, 1e-9); // the fatter side of one that sags
+    tile_radius = max(uintBitsToFloat(widest), 1e-9);
+}
+
+void add_balls(virga_glass_tile_gpu tile, vec2 place)
+{
+    const float reach = density_reach();
+#ifdef SHUFFLE
+    for (uint from = 0u; from < tile.count; from += gl_SubgroupSize) {
+        const uint some = min(tile.count - from, gl_SubgroupSize);
+        const Ball mine = ball_of(tile.first + from + min(gl_SubgroupInvocationID, some - 1u));
+        const vec4 ends = vec4(mine.middle, mine.sag), sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.radius);
+        for (uint i = 0u; i < some; i++) {
+            const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
+            add(place, Ball(e.xy, e.zw, s.x, s.y, s.z, s.w), reach);
+        }
+    }
+#else
+    for (uint from = 0u; from < tile.count; from += LANES) {
+        const uint some = min(tile.count - from, LANES);
+        barrier();
+        if (gl_LocalInvocationIndex < some)
+            batch[gl_LocalInvocationIndex] = ball_of(tile.first + from + gl_LocalInvocationIndex);
+        barrier();
+        for (uint i = 0u; i < some; i++)
+            add(place, batch[i], reach);
+    }
+#endif
+}
+
+// ---- film
+
+bool cells_are_wide() { return look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]); }
+
+ivec2 first_cell(ivec2 tile) { return ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1; }
+
+float sheet_m(uint cell) { return float(film[cell]) * film_fresh(cell) * 1e-12 / (look.pane.cell_m * look.pane.cell_m); }
+
+bool is_cell(ivec2 cell)
+{
+    return all(greaterThanEqual(cell, ivec2(0))) && cell.x < int(look.pane.columns) && cell.y < int(look.pane.rows);
+}
+
+// The tile's cells, and those beside it.
+void load_cells(ivec2 tile, uint count)
+{
+    for (uint i = gl_LocalInvocationIndex; i < count; i += LANES) {
+        const ivec2 cell = first_cell(tile) + ivec2(i % MOST_CELLS, i / MOST_CELLS);
+        const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
+        const bool wet = is_cell(cell) && film[number] != 0u;
+        film_m[i] = wet ? sheet_m(number) : 0.0;
+        const float broken_nl = wet ? float(film[number]) * (1.0 - film_fresh(number)) : 0.0;
+        for (uint k = 0u; k < BEADS; k++)
+            beads[i * BEADS + k] = wet ? bead_of(cell, number, k, broken_nl) : vec3(0.0);
+    }
+}
+
+uint shared_cell(ivec2 cell)
+{
+    const ivec2 at = clamp(cell, ivec2(0), ivec2(MOST_CELLS - 1));
+    return uint(at.x) + uint(at.y) * MOST_CELLS;
+}
+
+void add_beads(ivec2 tile, vec2 place, int own, int most)
+{
+    const ivec2 cell = ivec2(floor(place / look.pane.cell_m)) - first_cell(tile);
+    const float reach = density_reach();
+    for (int i = 0; i < most; i++) {
+        const uint number = shared_cell(cell + ivec2(i / BEADS % 3 - 1, i / BEADS / 3 - 1)) * BEADS + uint(i % BEADS);
+        const vec3 bead = beads[number];
+        if (shape_share(bead.z) > 0.0)
+            add_at(own, place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
+                                    shape_share(bead.z), bead.z / tile_radius), reach);
+    }
+}
+
+// Thickness of the sheet, between the middles of four cells.
+float sheet_at(ivec2 tile, vec2 place)
+{
+    if (!cells_are_wide()) {
+        const ivec2 cell = ivec2(floor(place / look.pane.cell_m));
+        return is_cell(cell) ? sheet_m(uint(cell.x) + uint(cell.y) * look.pane.columns) : 0.0;
+    }
+    const vec2 at = place / look.pane.cell_m - 0.5, low = floor(at), t = at - low;
+    const ivec2 cell = ivec2(low) - first_cell(tile);
+    return mix(mix(film_m[shared_cell(cell)], film_m[shared_cell(cell + ivec2(1, 0))], t.x),
+               mix(film_m[shared_cell(cell + ivec2(0, 1))], film_m[shared_cell(cell + ivec2(1, 1))], t.x), t.y);
+}
+
+// ---- what sums come to
+
+// x: density as blended; y: height of the water over the glass (m), below 0 beside it.
+vec2 blended(ivec4 sum)
+{
+    const vec4 s = vec4(sum);
+    if (sum.y <= 0)
+        return vec2(WEIGHTED ? 0.0 : s.x / ONE, 0.0);
+    const bool weighted = WEIGHTED;
+    const float density = weighted ? s.y / s.x : s.x / ONE, mean = s.z / s.y;
+    const float around = max(weighted ? s.w / s.x : s.w / ONE / max(mean, 1e-6), 1e-4);
+    const float inner = 2.0 - inversesqrt(around), rim = 1.0 - density_inverse(density);
+    const float profile = mix(rim, inner, smoothstep(0.55, 0.9, density));
+    return vec2(density, tile_height * mean * clamp(profile, -1.0, 2.0));
+}
+
+// Red: density, compressed. Green: height (m). Blue: mist. Alpha: thickness of the sheet of film (m).
+vec4 texel_of(ivec4 sum, float sheet, float mist_share)
+{
+    const vec2 water = blended(sum);
+    const float film_there = smoothstep(0.0, 3e-6, sheet);
+    return vec4(compressed(water.x), mix(water.y, max(water.y, 0.0), film_there) + sheet, mist_share, sheet);
+}
+
+float mist_at(ivec2 texel)
+{
+    return min(float(mist[uint(texel.x) + uint(texel.y) * look.map_columns]) / float(VIRGA_GLASS_MIST_ONE), 1.0);
+}
+
+void gather()
+{
+    const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+    const uint number = tile_number(tile), lane = gl_LocalInvocationIndex;
+    const virga_glass_tile_gpu at = tiles[number];
+    const ivec2 first = tile * VIRGA_GLASS_TILE + ivec2(lane % 16u, lane / 16u * OWN);
+    const vec2 place = (vec2(first) + 0.5) * texel_m();
+    find_largest(at);
+    vec4 shares;
+    for (int i = 0; i < OWN; i++) {
+        sums[i] = ivec4(0);
+        shares[i] = mist_at(first + ivec2(0, i));
+    }
+    if (dot(shares, vec4(1.0)) > 0.0)
+        atomicOr(any_mist, 1u);
+    add_balls(at, place);
+    const bool beads_shown = at.film != 0u && cells_are_wide();
+    load_cells(tile, beads_shown ? MOST_CELLS * MOST_CELLS : 0u);
+    barrier();
+    // A tile without water that had none before is as it was.
+    const uint place_in_list = uint(tile.x) + uint(tile.y) * look.written_columns;
+    const bool empty = at.count == 0u && at.film == 0u && any_mist == 0u;
+    if (empty && written[place_in_list] == 0u)
+        return;
+    for (int i = 0; i < OWN; i++) {
+        const vec2 here = place + vec2(0.0, look.texel_m[1] * float(i));
+        // A loop without turns, not a branch: software Vulkan runs all sides of a branch, and unrolls what has a fixed length.
+        add_beads(tile, here, i, beads_shown ? 9 * BEADS : 0);
+        const vec4 texel = texel_of(sums[i], at.film != 0u ? sheet_at(tile, here) : 0.0, shares[i]);
+        imageStore(map_out, first + ivec2(0, i), texel);
+        // Well below the threshold, as a neighbour's rim may reach over.
+        if (texel.x > 0.2 * look.threshold || texel.z > 0.0 || texel.w > 1e-7)
+            atomicOr(parts_shown, 2u << (lane % 16u / 8u + 2u * (lane / 32u)));
+    }
+    barrier();
+    if (lane == 0u)
+        written[place_in_list] = empty ? 0u : 1u | parts_shown;
+}

@@ -1,0 +1,56 @@
+// picture_pane.vert - the pane's quarters of tiles that have water to show, as two triangles each; the others have no area.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture.glsl"
+
+layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
+layout(scalar, set = 0, binding = 17) readonly buffer Written { uint written[]; };
+
+layout(location = 0) out vec2 place;    // (u, v) on the pane (m)
+layout(location = 1) out vec3 position; // relative to the camera
+layout(location = 2) out vec3 along_u;
+layout(location = 3) out vec3 along_v;
+
+struct Corner {
+    vec3 position, along_u, along_v;
+};
+
+Corner node_at(uvec2 node)
+{
+    const virga_glass_node_gpu at = nodes[node.x + node.y * VIRGA_GLASS_NODES];
+    return Corner(to_vec(at.position), to_vec(at.along_u), to_vec(at.along_v));
+}
+
+Corner mix_corners(Corner a, Corner b, float t)
+{
+    return Corner(mix(a.position, b.position, t), mix(a.along_u, b.along_u, t), mix(a.along_v, b.along_v, t));
+}
+
+// Between the four nodes around a place.
+Corner corner_at(vec2 share)
+{
+    const vec2 grid = share * float(VIRGA_GLASS_NODES - 1);
+    const uvec2 low = min(uvec2(grid), uvec2(VIRGA_GLASS_NODES - 2));
+    const vec2 t = grid - vec2(low);
+    return mix_corners(mix_corners(node_at(low), node_at(low + uvec2(1, 0)), t.x),
+                       mix_corners(node_at(low + uvec2(0, 1)), node_at(low + uvec2(1, 1)), t.x), t.y);
+}
+
+void main()
+{
+    const uint part = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
+    const uvec2 corners[6] = uvec2[6](uvec2(0, 0), uvec2(1, 0), uvec2(0, 1), uvec2(0, 1), uvec2(1, 0), uvec2(1, 1));
+    const uvec2 at = uvec2(part % (2u * look.tile_columns), part / (2u * look.tile_columns)), tile = at / 2u;
+    const uint bit = 2u << (at.x % 2u + 2u * (at.y % 2u));
+    const vec2 share = vec2(at + corners[corner]) / (2.0 * vec2(look.tile_columns, look.tile_rows));
+    const float m[9] = look.world_from_pane;
+    const mat3 world_from_pane = mat3(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]);
+    const Corner pane = corner_at(share);
+    place = share * vec2(look.pane.width_m, look.pane.height_m);
+    position = world_from_pane * pane.position + to_vec(look.origin);
+    along_u = world_from_pane * pane.along_u;
+    along_v = world_from_pane * pane.along_v;
+    const bool shown = (written[tile.x + tile.y * look.written_columns] & bit) != 0u;
+    gl_Position = shown ? to_mat(view.clip_from_rel) * vec4(position, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,26 @@
+// picture_paper.frag - drops as Goto et al. 2009 show them (section 5.4): the plate, from a copy of 64 x 64 texels, displaced by the
+// normal. Premultiplied.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture.glsl"
+#include "gpu/light.glsl"
+#include "picture_surface.glsl"
+#include "picture_plate.glsl"
+#include "picture_path.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    Water water = water_here();
+    if (water.cover + water.mist <= 0.0 || behind_scene() || !is_glass())
+        discard;
+    add_relief(water);
+    const vec2 pixel = paper_pixel(water), size = vec2(view.viewport[2], view.viewport[3]);
+    const vec2 mirrored = vec2(view.viewport[0], view.viewport[1]) + paper_uv(pixel) * size;
+    const vec3 light = view.color_given != 0u ? copy_at(mirrored / plate_size(), 3)
+                                              : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
+    const float alpha = water.cover + water.mist;
+    radiance = vec4(light * alpha, alpha);
+}

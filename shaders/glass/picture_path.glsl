@@ -1,0 +1,134 @@
+// picture_path.glsl - rays from the eye through pane and water: where they come from.
+
+#define WATER 1.333
+
+// A ray that has passed, or been thrown back.
+struct Path {
+    vec3 normal;    // of the water, outward
+    vec3 out_of;    // direction it leaves the pane in, unit length; also the reflected one's where all is
+    vec3 mirrored;  // direction that the water reflects from
+    float reflects; // share of the light
+    bool total;     // none passes
+    vec3 from;      // place that it leaves the pane at, relative to the camera
+    bool ahead;     // before the camera
+    vec2 pixel;     // of the picture, that it meets
+    float pixels;   // of the picture, that one of ours shows
+};
+
+// Unpolarised light that meets a surface at the angles with these cosines, from an index `n1` into `n2` (Fresnel).
+float fresnel(float cos1, float cos2, float n1, float n2)
+{
+    const float s = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
+    const float p = (n2 * cos1 - n1 * cos2) / (n2 * cos1 + n1 * cos2);
+    return 0.5 * (s * s + p * p);
+}
+
+// Distance of the scene along the pixel's own ray, or 0 for far away.
+float scene_distance(vec3 d)
+{
+    const float stored = HAS_DEPTH ? buffer_depth(gl_FragCoord.xy) : view.far_depth;
+    if (stored == view.far_depth)
+        return 0.0;
+    const vec3 ahead = to_vec(view.ahead);
+    // `ahead` has the length 1 along the camera's axis, and what lens shift adds across it.
+    const vec3 axis = normalize(cross(to_vec(view.right), to_vec(view.up)));
+    return view_depth(stored) * abs(dot(ahead, axis)) / max(abs(dot(d, axis)), 1e-4);
+}
+
+// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there were no
+// glass, only that the glass has shifted it.
+void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
+{
+    const vec3 in_water = refract(d, -flat_normal, 1.0 / WATER);
+    const vec3 n = path.normal;
+    const float cos_in = max(dot(in_water, n), 0.0);
+    path.out_of = refract(in_water, -n, WATER);
+    path.total = path.out_of == vec3(0.0);
+    path.reflects = path.total ? 1.0 : fresnel(cos_in, dot(path.out_of, n), WATER, 1.0);
+    const vec3 back = refract(reflect(in_water, n), flat_normal, WATER);
+    path.mirrored = back == vec3(0.0) ? reflect(d, flat_normal) : back;
+}
+
+// From before the pane: air, water, glass, air.
+void pass_inward(inout Path path, vec3 d, vec3 flat_normal)
+{
+    vec3 n = path.normal;
+    n = dot(n, d) < -0.02 ? n : normalize(n - d * (dot(n, d) + 0.02)); // the far side of a steep drop is not seen
+    const vec3 in_water = refract(d, n, 1.0 / WATER);
+    path.reflects = fresnel(-dot(d, n), -dot(in_water, n), 1.0, WATER);
+    path.mirrored = reflect(d, n);
+    path.out_of = refract(in_water, flat_normal, WATER);
+    path.total = path.out_of == vec3(0.0);
+}
+
+// Snell, in the direction only.
+vec3 glass_shift(vec3 d, vec3 flat_normal)
+{
+    const vec3 n = dot(d, flat_normal) > 0.0 ? flat_normal : -flat_normal;
+    const vec3 in_glass = refract(d, -n, 1.0 / 1.52);
+    return look.thickness_m * (in_glass / max(dot(in_glass, n), 0.1) - d / max(dot(d, n), 0.1));
+}
+
+void find_pixel(inout Path path, vec3 d, float distance)
+{
+    const vec3 place_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
+    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
+}
+
+// On a surface that is not glass: the place on it that is seen through water so high, displaced along the surface.
+void find_under(inout Path path, vec3 d, vec3 flat_normal, float height)
+{
+    vec3 n = path.normal;
+    n = dot(n, d) < -0.02 ? n : normalize(n - d * (dot(n, d) + 0.02));
+    const vec3 in_water = refract(d, n, 1.0 / WATER);
+    const vec3 under = height * (in_water / max(-dot(in_water, flat_normal), 0.1) - d / max(-dot(d, flat_normal), 0.1));
+    path.reflects = fresnel(-dot(d, n), -dot(in_water, n), 1.0, WATER);
+    path.mirrored = reflect(d, n);
+    path.out_of = d;
+    path.total = false;
+    path.ahead = on_picture(vec4(path.from + under, 1.0), path.pixel);
+}
+
+Path path_through(vec3 d, Water water, float pixel_m)
+{
+    const vec3 u = normalize(along_u), v = normalize(along_v), flat_normal = normalize(cross(u, v));
+    Path path;
+    path.normal = normalize(flat_normal - water.slope.x * u - water.slope.y * v);
+    path.from = position;
+    if (look.opaque != 0u) {
+        find_under(path, d, flat_normal, water.height);
+        path.pixels = 1.0 + water.height * water.bend * 0.25;
+        return path;
+    }
+    path.from += glass_shift(d, flat_normal);
+    if (dot(d, flat_normal) > 0.0)
+        pass_outward(path, d, flat_normal);
+    else
+        pass_inward(path, d, flat_normal);
+    if (path.total)
+        path.out_of = path.mirrored;
+    find_pixel(path, d, scene_distance(d));
+    // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
+    path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / view.pixel_angle;
+    return path;
+}
+
+// ---- the paper's way (section 5.4)
+
+#define PAPER_RELIEF_M 0.005 // height (m) that a density of 1 stands for, so that its slopes do not depend on the resolution
+
+// The normal's x and y displace the plate, as they lie on the picture.
+vec2 paper_pixel(Water water)
+{
+    const vec3 normal = normalize(vec3(-water.slope * PAPER_RELIEF_M, 1.0));
+    const vec3 across = normalize(along_u) * normal.x + normalize(along_v) * normal.y;
+    const vec2 picture = vec2(dot(across, normalize(to_vec(view.right))), dot(across, normalize(to_vec(view.up))));
+    return gl_FragCoord.xy - picture * look.paper_shift * view.viewport[3];
+}
+
+// Beyond the picture's borders it is looked up mirrored in them.
+vec2 paper_uv(vec2 pixel)
+{
+    const vec2 uv = (pixel - vec2(view.viewport[0], view.viewport[1])) / vec2(view.viewport[2], view.viewport[3]);
+    return 1.0 - abs(1.0 - mod(uv, 2.0));
+}

@@ -1,0 +1,94 @@
+// picture_physical.frag - drops by Snell and Fresnel: the world through them, on its head, and what they reflect. Premultiplied.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture.glsl"
+#include "gpu/light.glsl"
+#include "picture_surface.glsl"
+#include "picture_plate.glsl"
+#include "picture_path.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+#define BEHIND 0.25 // share of the environment that rays meet which are thrown back into the room that the pane closes
+
+// Lamps that lie in a direction: a small disc each, as wide as a pixel of a drop shows of the world.
+vec3 lamps_along(vec3 direction, float width)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < view.light_count; i++) {
+        const vec3 way = to_vec(view.lights[i].position) - position;
+        const float distance2 = max(dot(way, way), 1e-4);
+        const vec3 towards = way * inversesqrt(distance2);
+        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range, ends = clamp(1.0 - x * x, 0.0, 1.0);
+        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
+                                     view.lights[i].inv_cos_width, 0.0, 1.0);
+        const vec3 apart = towards - direction;
+        const float spot = exp(-0.5 * dot(apart, apart) / (width * width)) / (6.2831853 * width * width);
+        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * spot);
+    }
+    return sum;
+}
+
+// Light gathered at a drop's far side: an opaque surface under it is brighter away from the lamp, and darker towards it.
+vec3 caustic(vec3 normal, vec3 flat_normal)
+{
+    const vec3 tilt = normal - flat_normal * dot(normal, flat_normal);
+    vec3 bright = vec3(1.0);
+    const vec3 sky = vec3(dot(sh_coefficient(3u), vec3(1.0)), dot(sh_coefficient(1u), vec3(1.0)),
+                          dot(sh_coefficient(2u), vec3(1.0)));
+    const vec3 main_way = sky / max(length(sky), 1e-4);
+    const float away = -dot(tilt, main_way - flat_normal * dot(main_way, flat_normal));
+    bright *= 1.0 + 1.6 * max(away, 0.0) * max(away, 0.0) * 4.0 + 0.5 * min(away, 0.0);
+    for (uint i = 0u; i < view.light_count; i++) {
+        const vec3 way = normalize(to_vec(view.lights[i].position) - position);
+        const float far_side = max(-dot(tilt, way - flat_normal * dot(way, flat_normal)), 0.0);
+        bright += 4.0 * far_side * far_side;
+    }
+    return max(bright, vec3(0.2));
+}
+
+vec3 shown(Path path, vec3 d, float pixel_m)
+{
+    const vec3 flat_normal = normalize(cross(along_u, along_v));
+    const float width = max(0.5 * path.pixels * view.pixel_angle, 0.02);
+    const bool outside = dot(d, flat_normal) < 0.0;
+    const vec3 tint = to_vec(look.tint);
+    vec3 through;
+    if (path.total)
+        through = BEHIND * environment(path.mirrored, vec2(1.0)) * tint;
+    else
+        through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * tint;
+    if (look.opaque != 0u)
+        through *= caustic(path.normal, flat_normal);
+    else if (!path.total)
+        through += lamps_along(path.out_of, width) * tint;
+    const vec3 mirrored = outside ? environment(path.mirrored, vec2(1.0)) + lamps_along(path.mirrored, width)
+                                  : BEHIND * environment(path.mirrored, vec2(1.0));
+    return path.total ? through : mix(through, mirrored * look.gain, path.reflects);
+}
+
+// Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
+vec3 shown_by_mist(vec3 d)
+{
+    return 0.85 * to_vec(look.tint) * seen(true, gl_FragCoord.xy, d, 0.25 * view.viewport[3]);
+}
+
+void main()
+{
+    Water water = water_here();
+    const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
+    if (water.cover + water.mist <= 0.0 || behind_scene() || !is_glass())
+        discard;
+    const vec3 d = normalize(position);
+    if (look.opaque != 0u && dot(d, cross(along_u, along_v)) > 0.0)
+        discard; // the back of what is not glass
+    vec3 light = vec3(0.0);
+    if (water.cover > 0.0) {
+        add_relief(water);
+        light = water.cover * shown(path_through(d, water, pixel_m), d, pixel_m);
+    }
+    if (water.mist > 0.0)
+        light += water.mist * shown_by_mist(d);
+    radiance = vec4(light, water.cover + water.mist);
+}

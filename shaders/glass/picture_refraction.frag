@@ -1,0 +1,30 @@
+// picture_refraction.frag - where drops have the plate looked up, for a compositor: pixels to the right and down, and coverage.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture.glsl"
+#include "gpu/light.glsl"
+#include "picture_surface.glsl"
+#include "picture_plate.glsl"
+#include "picture_path.glsl"
+
+layout(location = 0) out vec4 offset_cover;
+
+void main()
+{
+    Water water = water_here();
+    const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
+    if (water.cover <= 0.0 || behind_scene() || !is_glass())
+        discard;
+    const vec3 d = normalize(position);
+    add_relief(water);
+    vec2 pixel = gl_FragCoord.xy;
+    if (look.style == 0u)
+        pixel = paper_pixel(water);
+    else if (look.opaque == 0u || dot(d, cross(along_u, along_v)) < 0.0) {
+        const Path path = path_through(d, water, pixel_m);
+        pixel = path.ahead && !path.total ? path.pixel : pixel;
+    } else
+        discard;
+    offset_cover = vec4(pixel - gl_FragCoord.xy, water.cover, water.cover);
+}

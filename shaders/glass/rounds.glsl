@@ -1,0 +1,33 @@
+// rounds.glsl - drops go from cell to cell in rounds: in each, every drop with way left claims the next cell, then all claims
+// are settled at once, so that no order of drops matters.
+//
+// choose: writes down who came to which cell in the round before, then claims: the lowest place wins a cell
+// enter:  the winner enters; who lost, and who came to a drop that stays, merges with it: water and momentum are added as
+//         integers, in whatever order
+//
+// A cell that its drop leaves in this round is free for those who come: two drops that follow each other do not merge.
+layout(push_constant) uniform Round
+{
+    uint round_index;  // claims alternate between two arrays: one is cleared while the other is in use
+    uint rounds; // the last call of choose has round == rounds: it only writes down
+};
+
+uint claim_of(uint cell, uint of_round) { return cell + (of_round & 1u) * cell_count(); }
+
+// Water and momentum of a drop that ends, given to another place.
+void give_to(uint other, virga_glass_drop_gpu drop)
+{
+    const ivec2 own = ivec2(round(to_vec2(drop.velocity) * 1000.0 * float(drop.water_nl)));
+    atomicAdd(drops[other].merged_nl, drop.water_nl + drop.merged_nl);
+    atomicAdd(drops[other].merged_nl_mm_s[0], own.x + drop.merged_nl_mm_s[0]);
+    atomicAdd(drops[other].merged_nl_mm_s[1], own.y + drop.merged_nl_mm_s[1]);
+}
+
+// What is left of its place.
+void end_drop(uint place)
+{
+    drops[place].kind = VIRGA_GLASS_FREE;
+    drops[place].water_nl = 0u;
+    drops[place].merged_nl = 0u;
+    drops[place].merged_nl_mm_s = int[2](0, 0);
+}

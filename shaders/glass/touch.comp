@@ -1,0 +1,70 @@
+// touch.comp - drops that a blade meets become particles (Goto et al. 2009, section 4.4): as many as their water gives, the first in
+// the drop's place, the others beside it by seeds. Those too small for a particle are gathered in the blade's bins.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "pane.glsl"
+#include "count.glsl"
+#include "alive.glsl"
+#include "blades.glsl"
+#include "rounds.glsl"
+
+uint seed_of(uint entry) { return tick.arrivals + tick.impacts + entry; }
+
+void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
+{
+    const uint water = drop.water_nl + drop.merged_nl;
+    const uint parts = min((water + tick.particle_nl / 2u) / tick.particle_nl, uint(VIRGA_GLASS_MOST_PARTS));
+    occupants[drop.cell] = 0u;
+    count(VIRGA_GLASS_TO_PARTS, 1u);
+    if (parts == 0u) {
+        end_drop(place);
+        atomicAdd(state.bins_nl[bin_at(blade, now_in_blade(blade, to_vec2(drop.position)).y)], water);
+        return;
+    }
+    const uint each = water / parts, extra = water % parts;
+    if (parts > 1u) {
+        // The seed may hold a tail that this drop left in the same tick: that water goes along.
+        const uint tail = seeds[seed_of(entry)].water_nl;
+        film[drop.cell] += tail;
+        seeds[seed_of(entry)] = virga_glass_seed_gpu(drop.position, float[2](0.0, 0.0), each, parts - 1u, extra > 0u ? extra - 1u : 0u,
+                                                     NOWHERE, drop.id, VIRGA_GLASS_PARTICLE);
+    }
+    drop.water_nl = each + (extra > 0u ? 1u : 0u);
+    drop.merged_nl = 0u;
+    drop.merged_nl_mm_s = int[2](0, 0);
+    drop.velocity = float[2](0.0, 0.0);
+    drop.kind = VIRGA_GLASS_PARTICLE;
+    drop.captor = drop.target = NOWHERE;
+    drops[place] = drop;
+}
+
+// Beside the blade, on the side that it was on when the tick began: for what a blade caught up with that is its front.
+vec2 in_front(uint i, vec2 was, vec2 at)
+{
+    const float start = before_in_blade(i, was).x, side = abs(start) > 1e-7 ? sign(start) : tick.blades[i].side;
+    const float reach = tick.blades[i].half_width_m + tick.particle_m;
+    return out_of_blade(i, vec2((side == 0.0 ? 1.0 : side) * reach, now_in_blade(i, at).y));
+}
+
+void main()
+{
+    const uint entry = gl_GlobalInvocationID.x;
+    const uint place = awake_place();
+    if (place == NOWHERE)
+        return;
+    virga_glass_drop_gpu drop = drops[place];
+    if (drop.target < OUTSIDE && kind_of(drop) != VIRGA_GLASS_PARTICLE)
+        claims[cell_count() + drop.target] = NOWHERE; // of the last round
+    drops[place].target = NOWHERE;
+    if (kind_of(drop) != VIRGA_GLASS_DROP)
+        return;
+    drop.target = NOWHERE;
+    const float radius = min(base_radius(drop.water_nl + drop.merged_nl), 0.004);
+    for (uint i = 0u; i < tick.blade_count; i++)
+        if (touched(i, to_vec2(drop.before), cell_middle(drop.cell), 0.7 * radius)) {
+            drop.position = to_array(in_front(i, to_vec2(drop.before), cell_middle(drop.cell)));
+            split(place, entry, i, drop);
+            return;
+        }
+}

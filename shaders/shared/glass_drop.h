@@ -1,0 +1,52 @@
+/* glass_drop.h - a place for water on a pane: a drop of the mesh model or a particle beside a blade. */
+#ifndef VIRGA_SHARED_GLASS_DROP_H
+#define VIRGA_SHARED_GLASS_DROP_H
+
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
+#endif
+
+/* What a place holds, in the low bits of `kind`. */
+#define VIRGA_GLASS_FREE     0 /* nothing */
+#define VIRGA_GLASS_DROP     1 /* a drop of the mesh model (Goto et al. 2009, section 4.1) */
+#define VIRGA_GLASS_PARTICLE 2 /* a particle (section 4.2) */
+#define VIRGA_GLASS_KIND     3 /* mask of the above */
+/* Flags. */
+#define VIRGA_GLASS_RUNNING  4  /* (drop) it moved in the newest tick */
+#define VIRGA_GLASS_TAIL     8  /* (drop) left behind by one that ran; it shrinks */
+#define VIRGA_GLASS_HELD     16 /* (particle) out of its blade's band, but a large drop is too near (section 4.6) */
+#define VIRGA_GLASS_PUSHED   32 /* (particle) a blade pushed it in the newest tick */
+
+/* One drop, 80 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower left corner. */
+struct virga_glass_drop_gpu {
+    float position[2];   /* m, of its middle at the newest tick, where it is drawn */
+    float before[2];     /* m, the same a tick before */
+    float velocity[2];   /* m/s */
+    uint water_nl;       /* 1e-9 l */
+    uint kind;           /* VIRGA_GLASS_... */
+    uint cell;           /* (drop) that it is in: column + row x columns */
+    uint from_cell;      /* (drop) that it came from */
+    float ahead_m;       /* (drop) how far it has come towards the next cell */
+    float tail_m;        /* (drop) way since it last left a drop behind */
+    float age_s;         /* since it landed, or was left behind */
+    uint id;             /* of the rain's drop, or a hash for those that were left behind; a merged one keeps the heavier's */
+    uint random;         /* a hash of its own */
+    uint merged_nl;      /* water that came in this tick, counted in at the tick's end */
+    int merged_nl_mm_s[2]; /* its momentum: nl x mm/s */
+    uint target;         /* (drop) cell that it enters in this round; VIRGA_GLASS_NOWHERE: it stays */
+    uint captor;         /* (drop) place of the drop that takes it in, or VIRGA_GLASS_NOWHERE */
+};
+
+#define VIRGA_GLASS_NOWHERE 0xffffffffu
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_glass_drop_gpu, 80);
+VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, water_nl, 24);
+VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, target, 72);
+#undef uint
+#endif
+
+#endif

@@ -1,0 +1,72 @@
+/* glass_picture_gpu.h - what the passes that make and draw the height map share with the C that feeds them. Internal to Virga. */
+#ifndef VIRGA_SHARED_GLASS_PICTURE_GPU_H
+#define VIRGA_SHARED_GLASS_PICTURE_GPU_H
+
+#include "glass_gpu.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_glass_picture_gpu virga_glass_picture_gpu;
+typedef struct virga_glass_tile_gpu virga_glass_tile_gpu;
+#endif
+
+#define VIRGA_GLASS_TILE        16 /* texels a side; a workgroup of the gathering pass makes one */
+#define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
+#define VIRGA_GLASS_COPY        512 /* texels a side of the plate's largest copy; the others lie to its right */
+#define VIRGA_GLASS_COPY_WIDTH  776 /* 512 and 256 and 8 */
+#define VIRGA_GLASS_COPY_LEVELS 7   /* down to 8 x 8 */
+#define VIRGA_GLASS_MIST_ONE    65536 /* a texel that is all covered, in the mist's whole numbers */
+
+/* A view of the pane: its pose, its map's resolution, and the settings that matter to it. */
+struct virga_glass_picture_gpu {
+    virga_glass_pane_gpu pane;
+    float world_from_pane[9];
+    float origin[3];        /* of the pane's frame, relative to the camera */
+    uint map_columns;       /* texels in use */
+    uint map_rows;
+    uint tile_columns;
+    uint tile_rows;
+    float texel_m[2];
+    float share;            /* of the newest tick that has passed at the time drawn */
+    float late_s;           /* time drawn less that of the newest tick: 0 or less */
+    uint tick;
+    float tick_s;
+    float gravity[3];       /* m/s^2, in the pane's frame */
+    float drop_nl_of_m3;    /* cap: see virga_glass_tick_gpu */
+    float cap_height;       /* of a cap over the radius of its base */
+    float particle_m;       /* radius */
+    float impact_s;
+    float film_break_s;
+    uint density;           /* virga_glass_density */
+    uint weighted;          /* virga_glass_blend */
+    uint compress_steps;
+    float compress_from;
+    float compress_step;
+    float compress_k;
+    float threshold;
+    uint style;             /* virga_glass_style */
+    float paper_shift;
+    float thickness_m;
+    float tint[3];
+    uint opaque;
+    float gain;
+    uint max_entries;       /* of the tiles' lists, all together */
+    uint written_columns;   /* tiles in a row of the list that says what they hold: bit 0: their part of the map is not all zero;
+                             * bits 1 to 4: each quarter of one has something to show */
+};
+
+/* What lies over a tile of the map. */
+struct virga_glass_tile_gpu {
+    uint count;             /* balls that reach it */
+    uint first;             /* entry of its list */
+    uint filled;            /* entries so far */
+    uint film;              /* not 0: film to be seen */
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
+VIRGA_ASSERT_OFFSET(virga_glass_picture_gpu, map_columns, 80);
+#undef uint
+#endif
+
+#endif

@@ -1,0 +1,207 @@
+/* glass_fixture.h - a pane on a device with validation on, with rain and drops that a test chooses. */
+#ifndef VIRGA_TESTS_GLASS_FIXTURE_H
+#define VIRGA_TESTS_GLASS_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "../host/plate_fixture.h"
+
+#include "glass/glass_internal.h"
+
+#include <virga/shared/impact.h>
+#include <virga/shared/random.h>
+#include <virga/virga.h>
+
+typedef struct glass_fixture {
+    fixture gpu;
+    virga_context *context;
+    virga_glass *glass;
+    virga_glass_settings settings;
+    virga_glass_step_info info; /* of the next step; ticks are set by it */
+    host_buffer upload, download, impacts;
+    uint32_t impact_count; /* of the next step */
+    uint32_t tick;
+    /* Read back. */
+    const virga_glass_state_gpu *state;
+    const virga_glass_drop_gpu *drops;
+    const uint32_t *occupants, *film, *claims, *passed, *grid;
+} glass_fixture;
+
+#define REQUIRE(condition)                      \
+    do {                                        \
+        if (!(condition))                       \
+            fail_msg("not so: %s", #condition); \
+    } while (0)
+
+static inline void glass_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    (void)user;
+    if (level == VIRGA_LOG_ERROR)
+        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
+}
+
+/* A small pane. */
+static inline virga_glass_def glass_fixture_def(void)
+{
+    virga_glass_def def = virga_default_glass_def();
+    def.width_m = 0.16f;
+    def.height_m = 0.12f;
+    def.max_drops = 1024;
+    def.max_texels = 256;
+    def.max_ticks_per_step = 64;
+    return def;
+}
+
+static inline void glass_fixture_buffers(glass_fixture *f)
+{
+    const virga_glass *g = f->glass;
+    const VkDeviceSize size = g->state->size + g->drops->size + g->occupants->size + g->film->size + g->claims->size +
+                              g->passed->size + g->grid->size;
+    char *error = f->gpu.error;
+    REQUIRE(host_buffer_create(&f->gpu.device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "pane down",
+                               &f->download, error, sizeof f->gpu.error));
+    REQUIRE(host_buffer_create(&f->gpu.device, g->drops->size + g->occupants->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                               HOST_BUFFER_UPLOAD, "pane up", &f->upload, error, sizeof f->gpu.error));
+    REQUIRE(host_buffer_create(&f->gpu.device, sizeof(virga_impacts_gpu) + GLASS_MOST_IMPACTS * sizeof(virga_impact_gpu),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "impacts", &f->impacts, error,
+                               sizeof f->gpu.error));
+}
+
+static inline void glass_fixture_open(glass_fixture *f, const virga_glass_def *given)
+{
+    memset(f, 0, sizeof *f);
+    if (!fixture_begin(&f->gpu)) {
+        printf("skipped: %s\n", f->gpu.error);
+        exit(77);
+    }
+    virga_context_def def = virga_default_context_def();
+    def.instance = f->gpu.instance.instance;
+    def.physical_device = f->gpu.device.physical;
+    def.device = f->gpu.device.device;
+    def.queue_family = f->gpu.device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.log = glass_fixture_log;
+    def.timings = false; /* their barriers around each pass would hide those that are missing */
+    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    const virga_glass_def small = glass_fixture_def();
+    REQUIRE(virga_glass_create(f->context, given ? given : &small, &f->glass) == VIRGA_OK);
+    f->settings = virga_default_glass_settings();
+    f->tick = 1;
+    glass_fixture_buffers(f);
+}
+
+static inline VkCommandBuffer glass_fixture_begin(glass_fixture *f)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    return cmd;
+}
+
+static inline void glass_fixture_submit(glass_fixture *f)
+{
+    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
+}
+
+static inline void glass_fixture_transfers(VkCommandBuffer cmd)
+{
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
+static inline const void *glass_fixture_copy(const glass_fixture *f, VkCommandBuffer cmd, const virga_buffer *from,
+                                             VkDeviceSize *offset)
+{
+    const VkBufferCopy copy = {0, *offset, from->size};
+    const char *there = (const char *)f->download.mapped + *offset;
+    vkCmdCopyBuffer(cmd, from->buffer, f->download.buffer, 1, &copy);
+    *offset += from->size;
+    return there;
+}
+
+static inline void glass_fixture_read(glass_fixture *f, VkCommandBuffer cmd)
+{
+    VkDeviceSize offset = 0;
+    glass_fixture_transfers(cmd);
+    f->state = glass_fixture_copy(f, cmd, f->glass->state, &offset);
+    f->drops = glass_fixture_copy(f, cmd, f->glass->drops, &offset);
+    f->occupants = glass_fixture_copy(f, cmd, f->glass->occupants, &offset);
+    f->film = glass_fixture_copy(f, cmd, f->glass->film, &offset);
+    f->claims = glass_fixture_copy(f, cmd, f->glass->claims, &offset);
+    f->passed = glass_fixture_copy(f, cmd, f->glass->passed, &offset);
+    f->grid = glass_fixture_copy(f, cmd, f->glass->grid, &offset);
+}
+
+/* Another drop of the next step, that lands in its first tick. */
+static inline virga_impact_gpu *glass_fixture_land(glass_fixture *f, double u, double v, uint32_t water_nl)
+{
+    REQUIRE(f->impact_count < GLASS_MOST_IMPACTS);
+    virga_impact_gpu *impact = (virga_impact_gpu *)((virga_impacts_gpu *)f->impacts.mapped + 1) + f->impact_count;
+    *impact = (virga_impact_gpu){.position = {(float)u, (float)v, 0},
+                                 .weight = 1,
+                                 .id = virga_hash2(f->tick, f->impact_count),
+                                 .water_nl = water_nl,
+                                 .tick = f->tick};
+    f->impact_count++;
+    return impact;
+}
+
+/* One frame of `ticks` ticks. Reads back everything where `read`. */
+static inline void glass_fixture_step(glass_fixture *f, uint32_t ticks, bool read)
+{
+    REQUIRE(virga_glass_set(f->glass, &f->settings) == VIRGA_OK);
+    *(virga_impacts_gpu *)f->impacts.mapped =
+        (virga_impacts_gpu){.count = f->impact_count, .first_tick = f->tick, .ticks = ticks};
+    const VkCommandBuffer cmd = glass_fixture_begin(f);
+    f->info.first_tick = f->tick;
+    f->info.ticks = ticks;
+    f->info.impacts = f->impact_count ? f->impacts.buffer : VK_NULL_HANDLE;
+    REQUIRE(virga_glass_step(f->glass, cmd, &f->info) == VIRGA_OK);
+    if (read)
+        glass_fixture_read(f, cmd);
+    glass_fixture_submit(f);
+    if (read)
+        host_buffer_invalidate(&f->gpu.device, &f->download);
+    f->tick += ticks;
+    f->impact_count = 0;
+}
+
+static inline uint64_t glass_fixture_count(const glass_fixture *f, uint32_t index)
+{
+    return (uint64_t)f->state->counts[index].high << 32 | f->state->counts[index].low;
+}
+
+static inline uint32_t glass_fixture_kind(const virga_glass_drop_gpu *drop)
+{
+    return drop->kind & VIRGA_GLASS_KIND;
+}
+
+/* Returns what validation said plus what is still alive: 0 is right. */
+static inline uint32_t glass_fixture_end(glass_fixture *f)
+{
+    virga_glass_destroy(&f->glass);
+    virga_context_destroy(&f->context);
+    host_buffer *buffers[] = {&f->upload, &f->download, &f->impacts};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+        if (buffers[i]->buffer)
+            host_buffer_destroy(&f->gpu.device, buffers[i]);
+    if (f->gpu.instance.messages)
+        fprintf(stderr, "validation: %s\n", f->gpu.instance.first_message);
+    return fixture_end(&f->gpu);
+}
+
+static inline void glass_fixture_close(glass_fixture *f)
+{
+    assert_int_equal(glass_fixture_end(f), 0);
+}
+
+#endif

@@ -1,0 +1,191 @@
+/* What must hold on a pane whatever happens to it: one drop to a cell, water to the nanolitre, particles beside blades and not
+ * in them or in each other, nothing under a blade and nothing outside; and the same input gives the same bits. */
+#include "glass_fixture.h"
+
+#include <math.h>
+
+static glass_fixture f;
+
+/* ---- what must hold after each step */
+
+static void blade_local(const virga_glass_blade_gpu *blade, const float place[2], double out[2])
+{
+    const double off[2] = {(double)place[0] - (double)blade->middle[0], (double)place[1] - (double)blade->middle[1]};
+    out[0] = -off[0] * (double)blade->along[1] + off[1] * (double)blade->along[0];
+    out[1] = off[0] * (double)blade->along[0] + off[1] * (double)blade->along[1];
+}
+
+static void cell_middle(uint32_t cell, float out[2])
+{
+    out[0] = ((float)(cell % f.glass->columns) + 0.5f) * f.glass->def.cell_m;
+    out[1] = ((float)(cell / f.glass->columns) + 0.5f) * f.glass->def.cell_m;
+}
+
+static bool under_blade(const virga_glass_tick_gpu *tick, const float place[2], double by)
+{
+    for (uint32_t i = 0; i < tick->blade_count; i++) {
+        double local[2];
+        blade_local(&tick->blades[i], place, local);
+        if (fabs(local[0]) < (double)tick->blades[i].half_width_m + by && fabs(local[1]) < (double)tick->blades[i].half_length_m + by)
+            return true;
+    }
+    return false;
+}
+
+static void assert_cells(void)
+{
+    const uint32_t cells = f.glass->columns * f.glass->rows;
+    uint32_t drops = 0, occupied = 0;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++) {
+        const virga_glass_drop_gpu *drop = &f.drops[i];
+        if (glass_fixture_kind(drop) != VIRGA_GLASS_DROP)
+            continue;
+        drops++;
+        REQUIRE(drop->cell < cells && f.occupants[drop->cell] == i + 1);
+        REQUIRE(drop->water_nl > 0 && isfinite(drop->velocity[0]) && isfinite(drop->velocity[1]));
+    }
+    for (uint32_t i = 0; i < cells; i++) {
+        occupied += f.occupants[i] != 0;
+        REQUIRE(f.claims[i] == VIRGA_GLASS_NOWHERE && f.claims[cells + i] == VIRGA_GLASS_NOWHERE);
+    }
+    assert_int_equal(drops, occupied);
+}
+
+static uint64_t water_on_pane(void)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f.drops[i]) != VIRGA_GLASS_FREE)
+            sum += f.drops[i].water_nl + f.drops[i].merged_nl;
+        else
+            REQUIRE(f.drops[i].water_nl == 0 && f.drops[i].merged_nl == 0);
+    for (uint32_t i = 0; i < f.glass->columns * f.glass->rows; i++)
+        sum += f.film[i];
+    for (uint32_t i = 0; i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS; i++)
+        sum += f.state->bins_nl[i];
+    return sum;
+}
+
+static void assert_budget(void)
+{
+    const uint64_t gone = glass_fixture_count(&f, VIRGA_GLASS_RUN_OFF) + glass_fixture_count(&f, VIRGA_GLASS_WIPED) +
+                          glass_fixture_count(&f, VIRGA_GLASS_EVAPORATED);
+    assert_int_equal(glass_fixture_count(&f, VIRGA_GLASS_LANDED), water_on_pane() + gone);
+    virga_glass_stats stats;
+    virga_glass_stats_get(f.glass, &stats);
+    assert_int_equal(stats.landed_nl, stats.drops_nl + stats.particles_nl + stats.film_nl + stats.run_off_nl +
+                                          stats.wiped_nl + stats.evaporated_nl);
+    assert_int_equal(stats.landed_nl, glass_fixture_count(&f, VIRGA_GLASS_LANDED));
+}
+
+static void assert_blades(const virga_glass_tick_gpu *tick)
+{
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++) {
+        const virga_glass_drop_gpu *drop = &f.drops[i];
+        float middle[2];
+        if (glass_fixture_kind(drop) == VIRGA_GLASS_DROP) {
+            cell_middle(drop->cell, middle);
+            REQUIRE(!under_blade(tick, middle, 0));
+        }
+        /* One that began in this tick is pushed out in the next. */
+        if (glass_fixture_kind(drop) == VIRGA_GLASS_PARTICLE && drop->age_s > 0)
+            REQUIRE(!under_blade(tick, drop->position, -1e-5));
+        if (glass_fixture_kind(drop) != VIRGA_GLASS_FREE)
+            REQUIRE(drop->position[0] > -0.02f && drop->position[0] < f.glass->def.width_m + 0.02f &&
+                    drop->position[1] > -0.02f && drop->position[1] < f.glass->def.height_m + 0.02f);
+    }
+}
+
+/* ---- a pane in the rain under two wipers that do not agree */
+
+static void two_wipers(virga_glass_settings *settings)
+{
+    settings->wiper_count = 2;
+    for (uint32_t i = 0; i < 2; i++) {
+        virga_glass_wiper *wiper = &settings->wipers[i];
+        wiper->pivot_m[0] = i ? 0.1f : 0.01f;
+        wiper->pivot_m[1] = -0.01f;
+        wiper->reach_m = 0.09f;
+        wiper->blade_m = 0.07f;
+        wiper->sweep_s = i ? 0.9f : 0.7f;
+        wiper->low_deg = 10;
+        wiper->high_deg = 140;
+        wiper->drive = i ? VIRGA_GLASS_INTERMITTENT : VIRGA_GLASS_CONTINUOUS;
+        wiper->pause_s = 0.7f;
+    }
+}
+
+static uint64_t hash_of(const void *data, size_t bytes)
+{
+    const uint32_t *words = data;
+    uint64_t hash = 1469598103934665603u;
+    for (size_t i = 0; i < bytes / 4; i++)
+        hash = (hash ^ words[i]) * 1099511628211u;
+    return hash;
+}
+
+static uint64_t state_hash(void)
+{
+    const size_t cells = (size_t)f.glass->columns * f.glass->rows;
+    return hash_of(f.drops, f.glass->def.max_drops * sizeof *f.drops) ^ hash_of(f.film, cells * 4) * 3 ^
+           hash_of(f.state, sizeof *f.state) * 7;
+}
+
+static void budget_and_cells_hold_over_10000_ticks(void **unused)
+{
+    (void)unused;
+    glass_fixture_open(&f, NULL);
+    two_wipers(&f.settings);
+    f.settings.film_um = 10;
+    uint32_t hash = 7;
+    for (uint32_t done = 0; done < 10000; done += 25) {
+        hash = virga_hash1(hash);
+        f.info.rate_mm_h = (float)(hash % 150);
+        f.info.velocity_m_s[2] = (float)(hash >> 8 & 31);
+        f.info.acceleration_m_s2[0] = (float)(hash >> 16 & 15) - 8;
+        for (uint32_t i = 0; i < (hash >> 20 & 7); i++)
+            glass_fixture_land(&f, 0.16 * (double)virga_unit(virga_hash2(hash, i)), 0.12 * (double)virga_unit(virga_hash2(hash, 9 + i)),
+                               virga_hash2(hash, 20 + i) % 60000);
+        glass_fixture_step(&f, 25, true);
+        assert_cells();
+        assert_budget();
+        assert_blades(f.glass->blades);
+    }
+    virga_glass_stats stats;
+    virga_glass_stats_get(f.glass, &stats);
+    printf("landed %.1f ml, run off %.1f, wiped %.1f, evaporated %.1f; %u drops, %u particles, %u held; merged %llu, to particles %llu, to drops %llu, crowded %llu\n",
+           (double)stats.landed_nl * 1e-6, (double)stats.run_off_nl * 1e-6, (double)stats.wiped_nl * 1e-6,
+           (double)stats.evaporated_nl * 1e-6, stats.drops, stats.particles, stats.held, (unsigned long long)stats.merged,
+           (unsigned long long)stats.to_particles, (unsigned long long)stats.to_drops, (unsigned long long)stats.crowded);
+    glass_fixture_close(&f);
+}
+
+static uint64_t run_of(uint32_t ticks_a_step)
+{
+    glass_fixture_open(&f, NULL);
+    two_wipers(&f.settings);
+    f.info.rate_mm_h = 60;
+    f.info.velocity_m_s[2] = 10;
+    for (uint32_t done = 0; done < 240; done += ticks_a_step)
+        glass_fixture_step(&f, ticks_a_step, done + ticks_a_step == 240);
+    const uint64_t hash = state_hash();
+    glass_fixture_close(&f);
+    return hash;
+}
+
+static void same_bits_whatever_the_frames(void **unused)
+{
+    (void)unused;
+    const uint64_t first = run_of(4);
+    assert_int_equal(first, run_of(4));
+    assert_int_equal(first, run_of(12));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(budget_and_cells_hold_over_10000_ticks),
+        cmocka_unit_test(same_bits_whatever_the_frames),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
