@@ -17,7 +17,9 @@ typedef struct virga_splash_draw_gpu virga_splash_draw_gpu;
 typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
-#define VIRGA_SPLASH_GROUP      256
+#define VIRGA_SPLASH_BLOCK      256 /* rings and buffers hold whole blocks of so many */
+#define VIRGA_SPLASH_GROUP      64  /* invocations of a pass over places: few, so that a hundred splashes are work for two */
+#define VIRGA_SPLASH_LANES      256 /* of the passes with one workgroup for all */
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
@@ -122,6 +124,7 @@ struct virga_splash_prepared_gpu {
     virga_splash_draw_gpu wide;     /* sprites that show what is behind them; (paper) pyramids */
     virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
     uint sprites;
+    uint list_groups[3];            /* of the pass that lists; 0 where the scan has done so */
 };
 
 /* A sheet's mesh: columns around, rows up; and the pyramids that stand for it in the paper's style. */
@@ -133,7 +136,7 @@ struct virga_splash_prepared_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
-VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 64);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 76);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 88 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);

@@ -1,4 +1,4 @@
-// droplet_find.comp - marks the droplets that a view may see.
+// droplet_find.comp - marks the droplets and the piles that a view may see.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,5 +8,10 @@
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
-    mark_pick(place < state.staying ? kind_of(droplet_sprite(droplets[place])) : NOT_PICKED);
+    uint kinds[2] = uint[2](NOT_PICKED, NOT_PICKED);
+    if (place < state.staying) {
+        const virga_droplet_gpu droplet = droplets[place];
+        kinds = uint[2](kind_of(droplet_sprite(droplet)), kind_of(pile_sprite(droplet)));
+    }
+    mark_picks(kinds, uint[2](0u, state.view_groups[0]));
 }

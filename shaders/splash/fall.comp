@@ -9,7 +9,7 @@
 #include "returns.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-layout(scalar, set = 0, binding = 19) writeonly buffer Staying { virga_droplet_gpu staying[]; };
+layout(scalar, set = 0, binding = 12) writeonly buffer Staying { virga_droplet_gpu staying[]; };
 
 void main()
 {

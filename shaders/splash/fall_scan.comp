@@ -9,9 +9,10 @@
 #include "spawn.glsl"
 #include "fall_buffers.glsl"
 #include "returns.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
 uint spawns_to_come()
@@ -30,7 +31,7 @@ uint spawns_to_come()
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, words = (state.end_droplet + 31u) / 32u;
-    const uint run = (words + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+    const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)

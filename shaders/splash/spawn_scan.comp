@@ -7,9 +7,10 @@
 #include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
 shared uint crowded_rank, crowded_droplets, expired;
 
@@ -19,7 +20,7 @@ void forget_splashes(uint lane)
     uint first = state.first_splash;
     for (;;) {
         if (lane == 0u)
-            expired = VIRGA_SPLASH_GROUP;
+            expired = VIRGA_SPLASH_LANES;
         barrier();
         const uint place = first + lane;
         bool live = place - first >= state.end_splash - first;
@@ -33,7 +34,7 @@ void forget_splashes(uint lane)
         const uint passed = expired;
         first += passed;
         barrier();
-        if (passed < VIRGA_SPLASH_GROUP)
+        if (passed < VIRGA_SPLASH_LANES)
             break;
     }
     if (lane == 0u)
@@ -43,7 +44,7 @@ void forget_splashes(uint lane)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = spawn_count();
-    const uint run = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+    const uint run = (all + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, all), end = min(begin + run, all);
     forget_splashes(lane);
     uvec2 sum = uvec2(0u);
@@ -80,8 +81,8 @@ void main()
     state.tick_splash = state.end_splash;
     state.end_droplet = state.staying + crowded_droplets;
     state.end_splash += found.x;
-    if (state.end_splash - (state.first_splash & ~uint(VIRGA_SPLASH_GROUP - 1)) > tick.max_splashes)
-        state.first_splash = (state.end_splash - tick.max_splashes + VIRGA_SPLASH_GROUP - 1u) & ~uint(VIRGA_SPLASH_GROUP - 1);
+    if (state.end_splash - (state.first_splash & ~uint(VIRGA_SPLASH_BLOCK - 1)) > tick.max_splashes)
+        state.first_splash = (state.end_splash - tick.max_splashes + VIRGA_SPLASH_BLOCK - 1u) & ~uint(VIRGA_SPLASH_BLOCK - 1);
     const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
     state.crowded_from = crowded_rank;
     state.returns_before = tick.tick_in_step == 0u ? 0u : state.returns;

@@ -1,5 +1,6 @@
-// sprite_find.glsl - which kind of sprite one is on the picture. Droplets, piles and splashes have a dispatch each, as software
-// Vulkan runs every lane through all branches.
+// sprite_find.glsl - which kind of sprite one is on the picture. Droplets and splashes have a dispatch each, as software Vulkan
+// runs every lane through all branches; an invocation looks at all that its droplet or its splash may show.
+#define COMPACT_SETS 2
 #include "sprite.glsl"
 #include "compact.glsl"
 #include "gpu/compact_find.glsl"

@@ -9,7 +9,7 @@
 #include "gpu/compact_buffers.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-layout(scalar, set = 0, binding = 14) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
+layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
 // A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines of
 // those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is white and
@@ -25,7 +25,7 @@ void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= list.count)
+    if (gl_GlobalInvocationID.x >= lists[SPRITES].count)
         return;
     const Sprite sprite = sprite_of(slot_of(listed[gl_GlobalInvocationID.x]));
     const Projected p = project_sprite(sprite);
