@@ -6,7 +6,7 @@
 #ifndef SCAN_LANES
 #define SCAN_LANES 256u
 #endif
-#define SCAN_BLOCK 16u
+#define SCAN_BLOCK (SCAN_LANES < 256u ? 8u : 16u)
 
 shared uvec2 scan_sums[SCAN_LANES], scan_blocks[SCAN_LANES / SCAN_BLOCK + 1u];
 

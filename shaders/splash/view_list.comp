@@ -6,7 +6,7 @@
 #include "look.glsl"
 #include "compact.glsl"
 #include "gpu/compact_list.glsl"
-#include "view_words.glsl"
+#include "view_lists.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 

@@ -9,7 +9,7 @@
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/compact_scan.glsl"
 #include "gpu/compact_list.glsl"
-#include "view_words.glsl"
+#include "view_lists.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gpu prepared; };
@@ -46,7 +46,8 @@ void main()
         return;
     lists[kind].count = head.count;
     lists[kind].second_kind = head.second_kind;
-    lists[kind].group_count = head.group_count;
+    const uint written = head.count - unwritten(head);
+    lists[kind].group_count = uint[3]((written + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
     if (kind == SPRITES) {
         draw_sprites(head);
         prepared.list_groups = uint[3](listed_here ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
