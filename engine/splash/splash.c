@@ -6,6 +6,7 @@
 #include "shaders/splash_droplet_find_comp.spv.h"
 #include "shaders/splash_fall_comp.spv.h"
 #include "shaders/splash_fall_scan_comp.spv.h"
+#include "shaders/splash_few_find_comp.spv.h"
 #include "shaders/splash_indices_comp.spv.h"
 #include "shaders/splash_rebase_comp.spv.h"
 #include "shaders/splash_spawn_comp.spv.h"
@@ -133,7 +134,7 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
 
 /* ---- creating */
 
-enum { BUFFERS = 16, PASSES = 12 };
+enum { BUFFERS = 16, PASSES = 13 };
 
 static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
 {
@@ -184,6 +185,7 @@ static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
         {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
         {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
         {&splash->indices, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
+        {&splash->few_find, VIRGA_SPIRV(splash_few_find_comp), "splash.few_find"},
         {&splash->droplet_find, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
         {&splash->splash_find, VIRGA_SPIRV(splash_splash_find_comp), "splash.splash_find"},
         {&splash->view_scan, VIRGA_SPIRV(splash_view_scan_comp), "splash.view_scan"},

@@ -77,8 +77,9 @@ static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline
 static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->context;
-    over(splash, cmd, splash->droplet_find, splash->state, offsetof(virga_splash_state_gpu, view_groups));
-    over(splash, cmd, splash->splash_find, splash->state, offsetof(virga_splash_state_gpu, splash_groups));
+    over(splash, cmd, splash->few_find, splash->state, offsetof(virga_splash_state_gpu, find_groups));
+    over(splash, cmd, splash->droplet_find, splash->state, offsetof(virga_splash_state_gpu, find_droplet_groups));
+    over(splash, cmd, splash->splash_find, splash->state, offsetof(virga_splash_state_gpu, find_splash_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, splash->view_scan, 2);
     pass_barrier(splash, cmd);

@@ -8,9 +8,9 @@
 
 shared uint group_bits[COMPACT_SETS * SET_WORDS];
 
-// Of the invocation's slot in each set; first[i] is the first workgroup of set i among those of all slots. For all invocations
-// of a workgroup alike: there are barriers in it.
-void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS])
+// Of the invocation's slot in each set; first[i] is the first workgroup of set i among those of all slots, and it has groups[i] of
+// them. For all invocations of a workgroup alike: there are barriers in it.
+void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[COMPACT_SETS])
 {
     const uint lane = gl_LocalInvocationIndex;
     if (lane < COMPACT_SETS * SET_WORDS)
@@ -22,10 +22,11 @@ void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS])
     barrier();
     if (lane < COMPACT_SETS * GROUP_WORDS) {
         const uint set = lane / GROUP_WORDS, word = lane % GROUP_WORDS, bits = set * SET_WORDS + word;
-        picks[(first[set] + gl_WorkGroupID.x) * GROUP_WORDS + word] = uvec4(group_bits[bits], group_bits[bits + GROUP_WORDS], 0u, 0u);
+        if (gl_WorkGroupID.x < groups[set])
+            picks[(first[set] + gl_WorkGroupID.x) * GROUP_WORDS + word] = uvec4(group_bits[bits], group_bits[bits + GROUP_WORDS], 0u, 0u);
     }
 }
 
 #if COMPACT_SETS == 1
-void mark_pick(uint kind) { mark_picks(uint[1](kind), uint[1](0u)); }
+void mark_pick(uint kind) { mark_picks(uint[1](kind), uint[1](0u), uint[1](gl_NumWorkGroups.x)); }
 #endif

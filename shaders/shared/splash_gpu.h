@@ -74,6 +74,9 @@ struct virga_splash_state_gpu {
     uint pad;
     uint spawn_groups[3];   /* of the passes that start splashes and place what falls; 0 where their scan has done so */
     uint fall_groups[3];
+    uint find_groups[3];    /* of the pass that finds what of few droplets and splashes a view may see; of those for many */
+    uint find_droplet_groups[3];
+    uint find_splash_groups[3];
     uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
     uint view_groups[3];    /* the same over droplets alone */
     virga_splash_count_gpu counts[165];
@@ -141,7 +144,7 @@ VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 76);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
-VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 112 + 8 * VIRGA_SPLASH_COUNTS);
+VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, splash_groups, 48);
 #undef uint

@@ -16,7 +16,8 @@
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
-#define FEW 256u // droplets, that a lane takes some of: more are worth a dispatch
+#define FEW 512u         // droplets, of which a lane places some here: more are worth a dispatch
+#define FEW_GROUPS 8u    // as many of droplets and of splashes are found in one dispatch for both
 
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
 uint spawns_to_come()
@@ -63,6 +64,11 @@ void main()
     state.fall_groups = uint[3](few ? 0u : state.droplet_groups[0], 1u, 1u);
     state.view_groups = ring_groups(0u, all.y - fallen);
     state.sprite_groups = uint[3](2u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
+    const uint most = max(state.view_groups[0], state.splash_groups[0]);
+    const bool both = most <= FEW_GROUPS;
+    state.find_groups = uint[3](both ? most : 0u, 1u, 1u);
+    state.find_droplet_groups = uint[3](both ? 0u : state.view_groups[0], 1u, 1u);
+    state.find_splash_groups = uint[3](both ? 0u : state.splash_groups[0], 1u, 1u);
     count(VIRGA_SPLASH_FALLEN, fallen);
     returns_head.count = returned + fallen;
     returns_head.dropped = 0u;
