@@ -80,6 +80,8 @@ static void take_prepared(virga_splash *splash)
         const char *mapped = splash->readback_ring->memory.block.mapped;
         memcpy(&found, mapped + i * sizeof(splash_readback) + offsetof(splash_readback, prepared), sizeof found);
         splash->stats.sprites = found.sprites;
+        splash->stats.sprites_cut = found.cut[0];
+        splash->stats.sheets_cut = found.cut[1];
     }
 }
 

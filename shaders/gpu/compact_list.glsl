@@ -2,8 +2,8 @@
 #include "gpu/compact_buffers.glsl"
 
 #ifdef COMPACT_LISTS
-// Writes a word's picks into the entries from `entry` on, each at its place where there is room, as slots counted from its
-// own first, `slot`. A lane for a word: 32 lanes that read the same word cost software Vulkan four times as much.
+// Writes a word's picks into the entries from `entry` on, each at its place where there is room; `slot` is that of its
+// first bit. A lane for a word: 32 lanes that read the same word cost software Vulkan four times as much.
 void list_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
 {
     const uvec4 word = picks[word_index];

@@ -11,8 +11,8 @@ uvec2 lane_words(uint first, uint count)
     return first + uvec2(begin, min(begin + run, count));
 }
 
-// Places of all picks of `count` words from `first` on, in a list that has room for `most` (the second kind first). Returns to
-// all lanes how many there are of each kind.
+// Places of all picks of `count` words from `first` on, in a list that has room for `most` (the second kind first).
+// Returns to all lanes how many there are of each kind.
 uvec2 place_picks(uint first, uint count, uint most)
 {
     const uvec2 words = lane_words(first, count);

@@ -18,9 +18,11 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
 #define VIRGA_SPLASH_BLOCK      256 /* rings and buffers hold whole blocks of so many */
-#define VIRGA_SPLASH_GROUP      64  /* invocations of a pass over places: few, so that a hundred splashes are work for two */
-#define VIRGA_SPLASH_LANES      64  /* of the passes with one workgroup for all. More serve a GPU with a million droplets; software
-                                     * Vulkan runs idle lanes through everything that one lane does: 256 took 50 us longer */
+/* A workgroup of a pass over places: small, so that few splashes keep all cores busy. */
+#define VIRGA_SPLASH_GROUP      64
+/* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes through
+ * all that one does, and 256 cost it 50 us more. */
+#define VIRGA_SPLASH_LANES      64
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
@@ -74,8 +76,8 @@ struct virga_splash_state_gpu {
     uint pad;
     uint spawn_groups[3];   /* of the passes that start splashes and place what falls; 0 where their scan has done so */
     uint fall_groups[3];
-    uint find_groups[3];    /* of the pass that finds what of few droplets and splashes a view may see; of those for many */
-    uint find_droplet_groups[3];
+    uint find_groups[3];    /* of the pass that finds what a view may see of few droplets and splashes */
+    uint find_droplet_groups[3]; /* of those for many */
     uint find_splash_groups[3];
     uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
     uint view_groups[3];    /* the same over droplets alone */
@@ -131,6 +133,7 @@ struct virga_splash_prepared_gpu {
     virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
     uint sprites;
     uint list_groups[3];            /* of the pass that lists; 0 where the scan has done so */
+    uint cut[2];                    /* sprites and sheets that there was no room for */
 };
 
 /* A sheet's mesh: columns around, rows up; and the pyramids that stand for it in the paper's style. */
@@ -142,7 +145,7 @@ struct virga_splash_prepared_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
-VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 76);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 84);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);

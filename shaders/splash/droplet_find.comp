@@ -8,5 +8,6 @@
 
 void main()
 {
-    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[2](state.view_groups[0], state.view_groups[0]));
+    const uint groups = state.view_groups[0];
+    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[2](groups, groups));
 }

@@ -1,5 +1,5 @@
-// fall_place.glsl - what fell in this tick gives its water back; what stays moves up into the other buffer, in its order. The
-// buffer that it leaves is left without a living droplet.
+// fall_place.glsl - what fell in this tick gives its water back; what stays moves up into the other buffer, in its
+// order. The buffer that it leaves is left without a living droplet.
 layout(scalar, set = 0, binding = 12) writeonly buffer Staying { virga_droplet_gpu staying[]; };
 
 // `room`: for so many returns, from `first` on; more wait in the air.
@@ -16,7 +16,7 @@ void place_droplet(uint place, uint first, uint room)
         staying[alive - min(fallen, room)] = droplet;
         return;
     }
-    returns[first + fallen] = make_return(to_vec(droplet.position), to_vec(droplet.velocity), droplet.diameter_m, droplet.id,
-                                          VIRGA_DROPLET_MATERIAL(droplet.kind), droplet.water_nl);
+    returns[first + fallen] = make_return(to_vec(droplet.position), to_vec(droplet.velocity), droplet.diameter_m,
+                                          droplet.id, VIRGA_DROPLET_MATERIAL(droplet.kind), droplet.water_nl);
     count(VIRGA_SPLASH_RETURNED, droplet.water_nl);
 }

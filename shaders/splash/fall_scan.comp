@@ -1,5 +1,6 @@
-// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their places. One
-// workgroup; each lane takes a run of words. Where there are few it places them too, and spares the pass that else does.
+// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their
+// places. One workgroup; each lane takes a run of words. Where droplets are few it places them too, and spares the pass
+// that else does.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

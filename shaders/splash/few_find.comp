@@ -1,5 +1,5 @@
-// few_find.comp - marks what a view may see of droplets and of splashes, where both are few: an invocation looks at one of each,
-// and a dispatch is spared.
+// few_find.comp - marks what a view may see of droplets and of splashes, where both are few: an invocation looks at one
+// of each, and a dispatch is spared.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,9 +9,9 @@
 
 void main()
 {
-    const uint[2] droplet = droplet_kinds(gl_GlobalInvocationID.x), splash = splash_kinds(gl_GlobalInvocationID.x);
-    const uint[2] droplets_from = droplet_sets(), splashes_from = splash_sets();
-    mark_picks(uint[4](droplet[0], droplet[1], splash[0], splash[1]),
-               uint[4](droplets_from[0], droplets_from[1], splashes_from[0], splashes_from[1]),
-               uint[4](state.view_groups[0], state.view_groups[0], state.splash_groups[0], state.splash_groups[0]));
+    const uint place = gl_GlobalInvocationID.x, groups = state.view_groups[0], splash_groups = state.splash_groups[0];
+    const uint[2] droplet = droplet_kinds(place), splash = splash_kinds(place);
+    const uint[2] from = droplet_sets(), behind = splash_sets();
+    mark_picks(uint[4](droplet[0], droplet[1], splash[0], splash[1]), uint[4](from[0], from[1], behind[0], behind[1]),
+               uint[4](groups, groups, splash_groups, splash_groups));
 }

@@ -1,5 +1,5 @@
-// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One workgroup; each lane
-// takes a run of spawns. Where that is one, it starts their splashes too, and spares the pass that else does.
+// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One workgroup; each
+// lane takes a run of spawns. Where that is one spawn it starts its splash too, and spares the pass that else does.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

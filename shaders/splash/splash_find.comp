@@ -8,5 +8,6 @@
 
 void main()
 {
-    mark_picks(splash_kinds(gl_GlobalInvocationID.x), splash_sets(), uint[2](state.splash_groups[0], state.splash_groups[0]));
+    const uint groups = state.splash_groups[0];
+    mark_picks(splash_kinds(gl_GlobalInvocationID.x), splash_sets(), uint[2](groups, groups));
 }

@@ -1,5 +1,5 @@
-// sprite_find.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets and
-// splashes have a dispatch each, as software Vulkan runs every lane through all branches.
+// sprite_find.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets
+// and splashes have a dispatch each, as software Vulkan runs every lane through all branches.
 #include "sprite.glsl"
 #include "compact.glsl"
 #include "gpu/compact_find.glsl"
@@ -58,7 +58,8 @@ uint[2] splash_kinds(uint entry)
         return uint[2](NOT_PICKED, NOT_PICKED);
     const virga_splash_gpu splash = splashes[place];
     const Crown crown = crown_at(splash, view.time_close_s);
-    return uint[2](is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash)), sheet_kind(splash, crown));
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash));
+    return uint[2](puff, sheet_kind(splash, crown));
 }
 
 // Behind droplets and piles; and behind all sprites.

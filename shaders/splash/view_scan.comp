@@ -1,5 +1,5 @@
-// view_scan.comp - gives what a view sees its places, and writes the arguments of their draws. A workgroup for sprites and one
-// for sheets. Where there is little it lists them too, and spares the pass that else does.
+// view_scan.comp - gives what a view sees its places, and writes the arguments of their draws. A workgroup for sprites
+// and one for sheets. Where there is little it lists them too, and spares the pass that else does.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -27,17 +27,19 @@ void draw_sprites(virga_list_gpu head)
 
 void draw_sheets(virga_list_gpu head)
 {
-    if (is_film()) // an instance each, of the mesh that lies behind sprites and pyramids
-        prepared.crowns = virga_splash_draw_gpu(VIRGA_CROWN_INDICES, head.count, 18u * look.max_sprites, 0, 0u);
+    const uint quads = 6u * look.max_sprites, pyramids = 12u * look.max_sprites; // indices before the sheet's
+    if (is_film()) // an instance each
+        prepared.crowns = virga_splash_draw_gpu(VIRGA_CROWN_INDICES, head.count, quads + pyramids, 0, 0u);
     else
-        prepared.crowns = virga_splash_draw_gpu(12u * VIRGA_CROWN_PYRAMIDS * head.count, 1u, 6u * look.max_sprites, 0, 0u);
+        prepared.crowns = virga_splash_draw_gpu(12u * VIRGA_CROWN_PYRAMIDS * head.count, 1u, quads, 0, 0u);
 }
 
 void main()
 {
     const uint kind = gl_WorkGroupID.x, all = words_of(SPRITES).count + words_of(SHEETS).count;
     const Words words = words_of(kind);
-    const virga_list_gpu head = list_head(place_picks(words.first, words.count, words.most), words.most);
+    const uvec2 found = place_picks(words.first, words.count, words.most);
+    const virga_list_gpu head = list_head(found, words.most);
     const bool listed_here = all <= LITTLE;
     const uvec2 own = listed_here ? lane_words(words.first, words.count) : uvec2(0u);
     for (uint i = own.x; i < own.y; i++)
@@ -48,9 +50,11 @@ void main()
     lists[kind].second_kind = head.second_kind;
     const uint written = head.count - unwritten(head);
     lists[kind].group_count = uint[3]((written + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
+    prepared.cut[kind] = found.x + found.y - head.count;
     if (kind == SPRITES) {
+        const uint groups = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
         draw_sprites(head);
-        prepared.list_groups = uint[3](listed_here ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
+        prepared.list_groups = uint[3](listed_here ? 0u : groups, 1u, 1u);
     } else {
         draw_sheets(head);
     }
