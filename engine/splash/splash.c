@@ -3,22 +3,19 @@
 
 #include "core/light.h"
 
-#include "shaders/splash_crown_find_comp.spv.h"
-#include "shaders/splash_crown_list_comp.spv.h"
-#include "shaders/splash_crown_scan_comp.spv.h"
 #include "shaders/splash_droplet_find_comp.spv.h"
 #include "shaders/splash_fall_comp.spv.h"
 #include "shaders/splash_fall_scan_comp.spv.h"
+#include "shaders/splash_few_find_comp.spv.h"
 #include "shaders/splash_indices_comp.spv.h"
-#include "shaders/splash_pile_find_comp.spv.h"
-#include "shaders/splash_puff_find_comp.spv.h"
 #include "shaders/splash_rebase_comp.spv.h"
 #include "shaders/splash_spawn_comp.spv.h"
 #include "shaders/splash_spawn_scan_comp.spv.h"
-#include "shaders/splash_sprite_list_comp.spv.h"
-#include "shaders/splash_sprite_scan_comp.spv.h"
+#include "shaders/splash_splash_find_comp.spv.h"
 #include "shaders/splash_sprite_write_comp.spv.h"
 #include "shaders/splash_step_comp.spv.h"
+#include "shaders/splash_view_list_comp.spv.h"
+#include "shaders/splash_view_scan_comp.spv.h"
 
 #include <string.h>
 
@@ -83,7 +80,7 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
         power_of_two(virga_clamp_setting_u32(log, "splash_def.max_splashes", def->max_splashes, 256, 1048576, NULL));
     def->max_droplets =
         virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL);
-    def->max_droplets = (def->max_droplets + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP * VIRGA_SPLASH_GROUP;
+    def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
     def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
         virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194304, NULL);
@@ -99,16 +96,19 @@ static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
     return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
 }
 
-/* What storage buffers of this device can hold, and its indices count. */
+/* What storage buffers of this device can hold, its indices count and its dispatches reach. */
 static void fit_device(const virga_context *context, virga_splash_def *def)
 {
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
     const VkDeviceSize widest = splash_index_bytes(def) / def->max_droplets; /* wider than a droplet */
-    const VkDeviceSize counted = context->properties.limits.maxDrawIndexedIndexValue / 8;
+    const VkDeviceSize indexed = context->properties.limits.maxDrawIndexedIndexValue / 8;
+    const VkDeviceSize grouped =
+        (VkDeviceSize)context->properties.limits.maxComputeWorkGroupCount[0] * VIRGA_SPLASH_GROUP;
+    const VkDeviceSize counted = indexed < grouped ? indexed : grouped;
     const VkDeviceSize fits = most / widest < counted ? most / widest : counted;
-    const uint32_t asked = def->max_droplets, groups = (uint32_t)(fits / VIRGA_SPLASH_GROUP) - 1;
-    if (def->max_droplets > groups * VIRGA_SPLASH_GROUP)
-        def->max_droplets = groups * VIRGA_SPLASH_GROUP;
+    const uint32_t asked = def->max_droplets, blocks = (uint32_t)(fits / VIRGA_SPLASH_BLOCK) - 1;
+    if (def->max_droplets > blocks * VIRGA_SPLASH_BLOCK)
+        def->max_droplets = blocks * VIRGA_SPLASH_BLOCK;
     if (asked != def->max_droplets)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
                       "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
@@ -128,13 +128,13 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * splash_tick_bytes() + splash_rules_bytes() +
                 SPLASH_MAX_VIEWS * splash_view_bytes()) +
-           VIRGA_PICK_BYTES(2 * (VkDeviceSize)def.max_droplets + 2 * (VkDeviceSize)def.max_splashes) +
+           VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def.max_droplets + def.max_splashes)) +
            (VkDeviceSize)splash_max_sprites(&def) * (sizeof(virga_sprite_gpu) + 4) + splash_index_bytes(&def);
 }
 
 /* ---- creating */
 
-enum { BUFFERS = 18, PASSES = 16 };
+enum { BUFFERS = 16, PASSES = 13 };
 
 static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
 {
@@ -155,14 +155,10 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
         {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
         {&splash->returns, sizeof(virga_impacts_gpu) + (VkDeviceSize)def->max_returns * sizeof(virga_impact_gpu),
          indirect, VIRGA_HEAP_DEVICE, "splash.returns"},
-        {&splash->sprite_picks, VIRGA_PICK_BYTES(2 * (VkDeviceSize)def->max_droplets + def->max_splashes), storage,
-         VIRGA_HEAP_DEVICE, "splash.sprite_picks"},
-        {&splash->sprite_list_buffer, sizeof(virga_list_gpu) + (VkDeviceSize)sprites * 4, indirect, VIRGA_HEAP_DEVICE,
-         "splash.sprite_list"},
-        {&splash->crown_picks, VIRGA_PICK_BYTES((VkDeviceSize)def->max_splashes), storage, VIRGA_HEAP_DEVICE,
-         "splash.crown_picks"},
-        {&splash->crown_list_buffer, sizeof(virga_list_gpu) + (VkDeviceSize)splash_max_crowns(def) * 4, indirect,
-         VIRGA_HEAP_DEVICE, "splash.crown_list"},
+        {&splash->picks, VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def->max_droplets + def->max_splashes)), storage,
+         VIRGA_HEAP_DEVICE, "splash.picks"},
+        {&splash->lists, 2 * sizeof(virga_list_gpu) + ((VkDeviceSize)sprites + splash_max_crowns(def)) * 4, indirect,
+         VIRGA_HEAP_DEVICE, "splash.lists"},
         {&splash->sprites, sprites * sizeof(virga_sprite_gpu), storage, VIRGA_HEAP_DEVICE, "splash.sprites"},
         {&splash->prepared_buffer, sizeof(virga_splash_prepared_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.prepared"},
         {&splash->index_buffer, splash_index_bytes(def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
@@ -189,15 +185,12 @@ static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
         {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
         {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
         {&splash->indices, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
+        {&splash->few_find, VIRGA_SPIRV(splash_few_find_comp), "splash.few_find"},
         {&splash->droplet_find, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
-        {&splash->pile_find, VIRGA_SPIRV(splash_pile_find_comp), "splash.pile_find"},
-        {&splash->puff_find, VIRGA_SPIRV(splash_puff_find_comp), "splash.puff_find"},
-        {&splash->sprite_scan, VIRGA_SPIRV(splash_sprite_scan_comp), "splash.sprite_scan"},
-        {&splash->sprite_list, VIRGA_SPIRV(splash_sprite_list_comp), "splash.sprite_list"},
+        {&splash->splash_find, VIRGA_SPIRV(splash_splash_find_comp), "splash.splash_find"},
+        {&splash->view_scan, VIRGA_SPIRV(splash_view_scan_comp), "splash.view_scan"},
+        {&splash->view_list, VIRGA_SPIRV(splash_view_list_comp), "splash.view_list"},
         {&splash->sprite_write, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},
-        {&splash->crown_find, VIRGA_SPIRV(splash_crown_find_comp), "splash.crown_find"},
-        {&splash->crown_scan, VIRGA_SPIRV(splash_crown_scan_comp), "splash.crown_scan"},
-        {&splash->crown_list, VIRGA_SPIRV(splash_crown_list_comp), "splash.crown_list"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
@@ -216,16 +209,14 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 marks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 places */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 returns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 10 picks of sprites */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 11 list of sprites */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 12 picks of sheets */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 13 list of sheets */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 14 sprites */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 15 prepared */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 16 indices */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 18 scene colour */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 droplets that stay */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 10 picks */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 11 lists */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 12 droplets that stay */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 13 sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 14 prepared */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 15 indices */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene colour */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -270,16 +261,14 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
         whole(splash->marks),
         whole(splash->places),
         whole(splash->returns),
-        whole(splash->sprite_picks),
-        whole(splash->sprite_list_buffer),
-        whole(splash->crown_picks),
-        whole(splash->crown_list_buffer),
+        whole(splash->picks),
+        whole(splash->lists),
+        whole(splash->droplet_buffers[current ^ 1]),
         whole(splash->sprites),
         whole(splash->prepared_buffer),
         whole(splash->index_buffer),
         image_or_blank(view ? &view->depth : NULL, splash->blank_depth, splash->context->nearest),
-        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view)),
-        whole(splash->droplet_buffers[current ^ 1])};
+        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view))};
     return virga_bindings_write(splash->context, splash->bindings, index, bound);
 }
 

@@ -66,29 +66,24 @@ static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
-static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, const virga_buffer *buffer,
+                 size_t groups)
 {
     splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    splash->context->vk.CmdDispatchIndirect(cmd, splash->state->buffer, groups);
+    splash->context->vk.CmdDispatchIndirect(cmd, buffer->buffer, groups);
 }
 
 /* What is to be seen of sprites and of sheets, found side by side. */
 static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->context;
-    const size_t sprites = offsetof(virga_splash_state_gpu, sprite_groups);
-    const size_t droplets = offsetof(virga_splash_state_gpu, view_groups);
-    const size_t crowns = offsetof(virga_splash_state_gpu, splash_groups);
-    over(splash, cmd, splash->droplet_find, droplets);
-    over(splash, cmd, splash->pile_find, droplets);
-    over(splash, cmd, splash->puff_find, crowns);
-    over(splash, cmd, splash->crown_find, crowns);
+    over(splash, cmd, splash->few_find, splash->state, offsetof(virga_splash_state_gpu, find_groups));
+    over(splash, cmd, splash->droplet_find, splash->state, offsetof(virga_splash_state_gpu, find_droplet_groups));
+    over(splash, cmd, splash->splash_find, splash->state, offsetof(virga_splash_state_gpu, find_splash_groups));
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, splash->sprite_scan, 1);
-    virga_dispatch(context, cmd, splash->crown_scan, 1);
-    virga_compute_barrier(context, cmd);
-    over(splash, cmd, splash->sprite_list, sprites);
-    over(splash, cmd, splash->crown_list, crowns);
+    virga_dispatch(context, cmd, splash->view_scan, 2);
+    pass_barrier(splash, cmd);
+    over(splash, cmd, splash->view_list, splash->prepared_buffer, offsetof(virga_splash_prepared_gpu, list_groups));
     pass_barrier(splash, cmd);
 }
 
@@ -105,7 +100,7 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->prepared_set);
     record_lists(splash, cmd);
-    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->sprite_list_buffer);
+    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->lists);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,

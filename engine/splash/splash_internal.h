@@ -57,13 +57,13 @@ struct virga_splash {
     uint32_t last_tick;
 
     virga_buffer *droplet_buffers[2], *droplets; /* the last: that of the two which is current */
-    virga_buffer *state, *splashes, *marks, *places, *returns, *sprite_picks, *sprite_list_buffer, *crown_picks,
-        *crown_list_buffer, *sprites, *prepared_buffer, *index_buffer;
+    virga_buffer *state, *splashes, *marks, *places, *returns, *picks, *lists, *sprites, *prepared_buffer,
+        *index_buffer;
     virga_buffer *tick_ring, *rules_ring, *view_ring, *readback_ring;
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices, *droplet_find, *pile_find, *puff_find, *sprite_scan, *sprite_list,
-        *sprite_write, *crown_find, *crown_scan, *crown_list;
+    virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices;
+    virga_pipeline *few_find, *droplet_find, *splash_find, *view_scan, *view_list, *sprite_write;
     splash_target targets[SPLASH_MAX_TARGETS];
 
     uint64_t ring_frame, rules_frame, view_frame; /* that the cursors below belong to */

@@ -80,6 +80,8 @@ static void take_prepared(virga_splash *splash)
         const char *mapped = splash->readback_ring->memory.block.mapped;
         memcpy(&found, mapped + i * sizeof(splash_readback) + offsetof(splash_readback, prepared), sizeof found);
         splash->stats.sprites = found.sprites;
+        splash->stats.sprites_cut = found.cut[0];
+        splash->stats.sheets_cut = found.cut[1];
     }
 }
 
@@ -162,11 +164,11 @@ static void dispatch(virga_splash *splash, VkCommandBuffer cmd, const virga_pipe
     pass_barrier(splash, cmd);
 }
 
-static void dispatch_indirect(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline,
-                              VkBuffer buffer, VkDeviceSize offset)
+/* As large as a scan before it has written at `groups` in the state. */
+static void dispatch_indirect(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
     splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    splash->context->vk.CmdDispatchIndirect(cmd, buffer, offset);
+    splash->context->vk.CmdDispatchIndirect(cmd, splash->state->buffer, groups);
     pass_barrier(splash, cmd);
 }
 
@@ -174,18 +176,16 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
 {
     virga_context *context = splash->context;
     const double still[3] = {0, 0, 0};
-    const VkDeviceSize droplets = offsetof(virga_splash_state_gpu, droplet_groups);
     push_tick(splash, info, i, still);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
     dispatch(splash, cmd, splash->spawn_scan, 1);
-    dispatch_indirect(splash, cmd, splash->spawn, info->spawns,
-                      info->spawns_offset + offsetof(virga_spawns_gpu, group_count));
+    dispatch_indirect(splash, cmd, splash->spawn, offsetof(virga_splash_state_gpu, spawn_groups));
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "splash.step");
-    dispatch_indirect(splash, cmd, splash->step, splash->state->buffer, droplets);
+    dispatch_indirect(splash, cmd, splash->step, offsetof(virga_splash_state_gpu, droplet_groups));
     dispatch(splash, cmd, splash->fall_scan, 1);
-    dispatch_indirect(splash, cmd, splash->fall, splash->state->buffer, droplets);
+    dispatch_indirect(splash, cmd, splash->fall, offsetof(virga_splash_state_gpu, fall_groups));
     virga_pass_end(context, cmd, scope);
     splash->droplets = splash->droplet_buffers[splash_current(splash) ^ 1];
     splash->ticks++;

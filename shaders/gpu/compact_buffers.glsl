@@ -10,10 +10,15 @@
 // The list is in the order of slots, whatever order the device runs groups in. Slots are picked as one of two kinds,
 // and the list has all of the second kind first.
 //
-// The includer says in COMPACT_GROUP how many slots a workgroup has (a multiple of 32, and the local size of all four
-// passes), and in COMPACT_PICKS_BINDING and COMPACT_LIST_BINDING where the two buffers are bound. The host gives the
-// picks VIRGA_PICK_BYTES, records the first three passes with virga_record_list and the last with
-// virga_dispatch_indirect.
+// The includer says in COMPACT_GROUP how many slots a workgroup has (a multiple of 32, and the local size of find, list
+// and write; that of scan is SCAN_LANES, 256 where nothing else is said), and in COMPACT_PICKS_BINDING and
+// COMPACT_LIST_BINDING where the two buffers are bound. The host gives the picks VIRGA_PICK_BYTES, records the first
+// three passes with virga_record_list and the last with virga_dispatch_indirect.
+//
+// With COMPACT_LISTS there are so many lists in the buffer: their heads, then what they list. Which words of picks
+// belong to which is the includer's affair, and so is the recording; place_picks and list_word take the words.
+#ifndef COMPACT_BUFFERS
+#define COMPACT_BUFFERS
 #include "shared/compact.h"
 
 #ifndef COMPACT_ACCESS
@@ -26,7 +31,11 @@ layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) COMPACT_ACCESS buffer P
 };
 layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer List
 {
+#ifdef COMPACT_LISTS
+    virga_list_gpu lists[COMPACT_LISTS];
+#else
     virga_list_gpu list;
+#endif
     uint listed[]; // slots
 };
 
@@ -34,3 +43,4 @@ layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer Li
 #define FIRST_KIND 1u
 #define SECOND_KIND 2u
 #define GROUP_WORDS (COMPACT_GROUP / 32)
+#endif

@@ -17,7 +17,12 @@ typedef struct virga_splash_draw_gpu virga_splash_draw_gpu;
 typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
-#define VIRGA_SPLASH_GROUP      256
+#define VIRGA_SPLASH_BLOCK      256 /* rings and buffers hold whole blocks of so many */
+/* A workgroup of a pass over places: small, so that few splashes keep all cores busy. */
+#define VIRGA_SPLASH_GROUP      64
+/* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes through
+ * all that one does, and 256 cost it 50 us more. */
+#define VIRGA_SPLASH_LANES      64
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
@@ -69,6 +74,11 @@ struct virga_splash_state_gpu {
     uint droplet_groups[3]; /* of a dispatch over all droplets of this tick */
     uint splash_groups[3];
     uint pad;
+    uint spawn_groups[3];   /* of the passes that start splashes and place what falls; 0 where their scan has done so */
+    uint fall_groups[3];
+    uint find_groups[3];    /* of the pass that finds what a view may see of few droplets and splashes */
+    uint find_droplet_groups[3]; /* of those for many */
+    uint find_splash_groups[3];
     uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
     uint view_groups[3];    /* the same over droplets alone */
     virga_splash_count_gpu counts[165];
@@ -122,6 +132,8 @@ struct virga_splash_prepared_gpu {
     virga_splash_draw_gpu wide;     /* sprites that show what is behind them; (paper) pyramids */
     virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
     uint sprites;
+    uint list_groups[3];            /* of the pass that lists; 0 where the scan has done so */
+    uint cut[2];                    /* sprites and sheets that there was no room for */
 };
 
 /* A sheet's mesh: columns around, rows up; and the pyramids that stand for it in the paper's style. */
@@ -133,9 +145,9 @@ struct virga_splash_prepared_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
-VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 64);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 84);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
-VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 88 + 8 * VIRGA_SPLASH_COUNTS);
+VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, splash_groups, 48);
 #undef uint

@@ -13,7 +13,7 @@ layout(scalar, set = 0, binding = 1) uniform View
     virga_splash_look_gpu look;
 };
 #include "gpu/light.glsl"
-#define SCENE_DEPTH_BINDING 17
+#define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "through.glsl"
 

@@ -6,7 +6,7 @@
 #define COMPACT_ACCESS readonly
 #include "state.glsl"
 #include "look.glsl"
-#include "compact_crowns.glsl"
+#include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
 
 layout(location = 0) out vec3 position; // relative to the camera
@@ -37,7 +37,7 @@ vec3 sheet_point(Shape s, float angle, float up)
 
 void main()
 {
-    const uint slot = splash_place(listed[gl_InstanceIndex]);
+    const uint slot = splash_place(listed[look.max_sprites + gl_InstanceIndex]);
     if (slot == NO_PLACE) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;

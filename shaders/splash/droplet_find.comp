@@ -1,12 +1,13 @@
-// droplet_find.comp - marks the droplets that a view may see.
+// droplet_find.comp - marks what a view may see of droplets, where they are many.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
+#define COMPACT_SETS 2
 #include "sprite_find.glsl"
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
-    mark_pick(place < state.staying ? kind_of(droplet_sprite(droplets[place])) : NOT_PICKED);
+    const uint groups = state.view_groups[0];
+    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[2](groups, groups));
 }

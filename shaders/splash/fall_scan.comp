@@ -1,5 +1,6 @@
-// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their places. One
-// workgroup; each lane takes a run of words.
+// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their
+// places. One workgroup; each lane takes a run of words. Where droplets are few it places them too, and spares the pass
+// that else does.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,11 +8,17 @@
 #include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
+#define MARKS_ACCESS coherent
 #include "fall_buffers.glsl"
 #include "returns.glsl"
+#include "fall_place.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
+
+#define FEW 512u         // droplets, of which a lane places some here: more are worth a dispatch
+#define FEW_GROUPS 8u    // as many of droplets and of splashes are found in one dispatch for both
 
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
 uint spawns_to_come()
@@ -29,8 +36,9 @@ uint spawns_to_come()
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, words = (state.end_droplet + 31u) / 32u;
-    const uint run = (words + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+    const uint lane = gl_LocalInvocationIndex, end_droplet = state.end_droplet, returned = state.returns;
+    const uint words = (end_droplet + 31u) / 32u;
+    const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
@@ -42,19 +50,30 @@ void main()
         marks[i].zw = before;
         before += uvec2(bitCount(word.xy));
     }
+    const uint taken = min(returned + spawns_to_come(), tick.max_returns);
+    const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
+    const bool few = end_droplet <= FEW;
+    memoryBarrierBuffer();
+    barrier();
+    for (uint place = few ? lane : end_droplet; place < end_droplet; place += VIRGA_SPLASH_LANES)
+        place_droplet(place, returned, fallen);
     if (lane != 0u)
         return;
-    const uint taken = min(state.returns + spawns_to_come(), tick.max_returns);
-    const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
-    state.returns_before = state.returns;
-    state.returns += fallen;
+    state.returns_before = returned;
+    state.returns = returned + fallen;
     state.staying = all.y - fallen;
-    state.view_groups = ring_groups(0u, state.staying);
+    state.fall_groups = uint[3](few ? 0u : state.droplet_groups[0], 1u, 1u);
+    state.view_groups = ring_groups(0u, all.y - fallen);
     state.sprite_groups = uint[3](2u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
+    const uint most = max(state.view_groups[0], state.splash_groups[0]);
+    const bool both = most <= FEW_GROUPS;
+    state.find_groups = uint[3](both ? most : 0u, 1u, 1u);
+    state.find_droplet_groups = uint[3](both ? 0u : state.view_groups[0], 1u, 1u);
+    state.find_splash_groups = uint[3](both ? 0u : state.splash_groups[0], 1u, 1u);
     count(VIRGA_SPLASH_FALLEN, fallen);
-    returns_head.count = state.returns;
+    returns_head.count = returned + fallen;
     returns_head.dropped = 0u;
-    returns_head.group_count = uint[3]((state.returns + 63u) / 64u, 1u, 1u);
+    returns_head.group_count = uint[3]((returned + fallen + 63u) / 64u, 1u, 1u);
     returns_head.capacity = tick.max_returns;
     returns_head.origin = tick.anchor;
     returns_head.tick_s = tick.tick_s;

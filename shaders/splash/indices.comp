@@ -6,7 +6,7 @@
 #include "shared/splash_gpu.h"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-layout(scalar, set = 0, binding = 16) writeonly buffer Indices { uint indices[]; };
+layout(scalar, set = 0, binding = 15) writeonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Size { uint max_sprites; };
 
 const uint quad[6] = uint[6](0u, 1u, 2u, 2u, 1u, 3u);

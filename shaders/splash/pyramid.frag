@@ -8,7 +8,7 @@
 #include "gpu/vectors.glsl"
 layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #include "gpu/light.glsl"
-#define SCENE_DEPTH_BINDING 17
+#define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;

@@ -1,11 +1,7 @@
 // pyramid.glsl - piles and crowns as the paper draws them (figures 4 and 5): pyramids of four sides.
 #include "state.glsl"
 #include "sprite.glsl"
-#ifdef CROWNS
-#include "compact_crowns.glsl"
-#else
 #include "compact.glsl"
-#endif
 #include "gpu/compact_buffers.glsl"
 
 layout(location = 0) out vec3 position; // relative to the camera
@@ -24,7 +20,7 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
 
 vec3 crown_corner(uint pyramid, uint corner)
 {
-    const uint slot = splash_place(listed[pyramid / VIRGA_CROWN_PYRAMIDS]);
+    const uint slot = splash_place(listed[look.max_sprites + pyramid / VIRGA_CROWN_PYRAMIDS]);
     if (slot == NO_PLACE)
         return vec3(0.0);
     const virga_splash_gpu splash = splashes[slot];

@@ -1,4 +1,4 @@
-// spawn.comp - this tick's splashes: the record of each, and its droplets at the start of their orbits.
+// spawn.comp - this tick's splashes, where they are many.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,187 +8,15 @@
 #include "spawn.glsl"
 #include "shape.glsl"
 #include "returns.glsl"
+#include "spawn_start.glsl"
 
-layout(local_size_x = 64) in;
-
-// Streams of chance of a splash, and of each of its droplets.
-#define TURN_HASH 1u
-#define CONE_HASH 2u
-#define DROPLET_HASH 16u // + 4 times its index
-
-struct Frame { // of the surface
-    vec3 normal, side, across;
-};
-
-Frame surface_frame(vec3 normal)
-{
-    Frame frame;
-    frame.normal = normal;
-    frame.side = normalize(abs(normal.y) > 0.7 ? vec3(normal.y, -normal.x, 0.0) : vec3(normal.z, 0.0, -normal.x));
-    frame.across = cross(frame.side, normal);
-    return frame;
-}
-
-// What the drop's way along the surface adds to its droplets (section 4.5).
-vec3 lean_of(virga_spawn_gpu spawn)
-{
-    const vec3 velocity = to_vec(spawn.velocity), normal = to_vec(spawn.normal);
-    return tick.bounce * (velocity - dot(velocity, normal) * normal);
-}
-
-float splash_life(virga_spawn_gpu spawn)
-{
-    switch (spawn_model(spawn)) {
-    case VIRGA_SPLASH_CROWN_CONE:
-        return crown_time(crown_height(spawn.diameter_m, weber_number(spawn)));
-    case VIRGA_SPLASH_DISK:
-        return DISK_S;
-    case VIRGA_SPLASH_DOT:
-        return DOT_S;
-    }
-    return max(SHEET_S, crown_time(MOST_SHEET * crown_height(spawn.diameter_m, weber_number(spawn))));
-}
-
-// Height a metre of the surface in x and z.
-vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec2(-50.0), vec2(50.0)); }
-
-void write_splash(uint place, virga_spawn_gpu spawn, vec3 position, uint droplets)
-{
-    if (place - state.first_splash >= tick.max_splashes)
-        return; // newer ones of this very tick have its place
-    const vec3 lean = lean_of(spawn);
-    virga_splash_gpu splash;
-    splash.position = float[3](position.x, position.y, position.z);
-    splash.share = spawn.share;
-    splash.tick = tick.tick;
-    splash.diameter_m = spawn.diameter_m;
-    splash.speed_m_s = drop_speed(spawn);
-    splash.depth_weight = halves(spawn.depth_m * 1e3, spawn.weight);
-    splash.normal = spawn.normal;
-    splash.random = spawn.random;
-    splash.life_s = splash_life(spawn);
-    splash.lean = halves(lean.x, lean.z);
-    splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16;
-    splash.id = spawn.id;
-    splashes[place & (tick.max_splashes - 1u)] = splash;
-}
-
-// Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into their
-// surfaces, n pi d^2 sigma, the rest moves their mass. Most are slower than that mean of squares, and none that has been
-// filmed leaves at more than a third of the drop's speed (2 m/s at 4.4 to 6.5 m/s: table 1 of Mizukami et al.).
-float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
-{
-    const float d3 = spawn.diameter_m * spawn.diameter_m * spawn.diameter_m, speed = drop_speed(spawn);
-    const float mass = WATER_DENSITY * 0.5235988 * d3, flown = 1e-9 * float(spawn.water_nl) / max(spawn.drops, 1e-3) * 0.9982;
-    const float diameter = pow(6.0 / 3.14159265 * flown / (WATER_DENSITY * float(n)), 1.0 / 3.0);
-    const float energy = 0.1 * mass * speed * speed - float(n) * 3.14159265 * diameter * diameter * 0.0728;
-    const float fastest = sqrt(2.0 * max(energy, 0.0) / max(flown, 1e-12));
-    return clamp(fastest * normal_between(0.08, 0.5, hash), 0.1, max(0.35 * speed, 0.1));
-}
-
-// A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the next.
-void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 centre, uint i, uint n)
-{
-    const virga_splash_rule_gpu rule = rule_of(spawn);
-    const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
-    const float turn = virga_unit(virga_hash2(spawn.random, TURN_HASH));
-    const float azimuth = 6.2831853 * (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
-    // What a crown lets go leaves the way that its rim flares, whatever its cone does.
-    const bool crown = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
-    const vec2 angles = crown ? vec2(0.87, 1.4) : vec2(rule.angle[0], rule.angle[1]);
-    const float elevation = normal_between(angles.x, angles.y, virga_hash1(hash));
-    const uint chance = virga_hash2(hash, 1u);
-    float speed = is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
-    if (crown)
-        speed *= 0.4; // deep water takes more of it
-    const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
-    vec3 base = centre + rule.circle * spawn.diameter_m * outward, start = base;
-    const vec3 velocity = speed * (cos(elevation) * outward + sin(elevation) * frame.normal) + lean_of(spawn);
-    if (crown) {
-        // They leave the rim while the crown rises.
-        const float weber = weber_number(spawn), t = 0.15 + 0.3 * virga_unit(virga_hash2(hash, 2u));
-        const float height = crown_height(spawn.diameter_m, weber);
-        base = centre + crown_radius(spawn.diameter_m, weber) * crown_spread(t) * outward;
-        start = base + height * crown_rise(t) * frame.normal;
-        droplet.age_s -= t * crown_time(height);
-    }
-    droplet.base = float[3](base.x, base.y, base.z);
-    droplet.position = float[3](start.x, start.y, start.z);
-    droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
-}
-
-// The droplet of the cone goes straight up and down.
-void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 centre)
-{
-    const virga_splash_rule_gpu rule = rule_of(spawn);
-    const uint hash = virga_hash2(spawn.random, CONE_HASH);
-    const float weber = weber_number(spawn);
-    const float speed = is_physical() ? cone_speed(spawn.diameter_m, weber, virga_unit(hash))
-                                      : normal_between(rule.speed[0], rule.speed[1], hash);
-    droplet.base = float[3](centre.x, centre.y, centre.z);
-    droplet.position = droplet.base;
-    droplet.velocity = float[3](0.0, speed, 0.0);
-    droplet.age_s -= crown_time(crown_height(spawn.diameter_m, weber)); // when the crown is over
-}
-
-// Parts of the water, in tenths: a droplet has between 1 and 4 times the least.
-uint part_of(virga_spawn_gpu spawn, uint i, uint n)
-{
-    const uint u = virga_hash2(spawn.random, DROPLET_HASH + 4u * i + 1u) >> 16;
-    const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE && i == 0u;
-    return cone ? 8u * n : 10u + (30u * ((u * u) >> 16) >> 16);
-}
-
-void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
-{
-    const Frame frame = surface_frame(to_vec(spawn.normal));
-    const vec2 slopes = slopes_of(frame.normal);
-    const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
-    uint parts = 0u, left = spawn.water_nl;
-    for (uint i = 0u; i < n; i++)
-        parts += part_of(spawn, i, n);
-    // Each has a nanolitre at least, or it would have no size; the parts are of what is left.
-    const uint unit = (spawn.water_nl - n) / parts, rest = spawn.water_nl - n - unit * parts;
-    for (uint i = 0u; i < n; i++) {
-        virga_droplet_gpu droplet;
-        const uint part = part_of(spawn, i, n);
-        // Below 2^32: parts are at most 64 x 40, and what does not divide is below parts.
-        const uint water = i + 1u == n ? left : 1u + unit * part + rest * part / parts;
-        left -= water;
-        droplet.water_nl = water;
-        droplet.age_s = -spawn.share * tick.tick_s;
-        droplet.diameter_m = pow(6e-12 / 3.14159265 * float(water) / max(spawn.drops, 1e-3), 1.0 / 3.0);
-        droplet.slopes = halves(slopes.x, slopes.y);
-        droplet.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | i << 16 |
-                       ((spawn.kind >> 24) & 31u) << 24 | VIRGA_DROPLET_ALIVE;
-        droplet.id = spawn.id;
-        droplet.weight_free = halves(spawn.weight, 0.0);
-        if (cone && i == 0u)
-            start_cone(droplet, spawn, centre);
-        else
-            start_pile(droplet, spawn, frame, centre, i, n);
-        droplets[first + i] = droplet;
-    }
-}
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= spawn_count() || spawns[index].tick != tick.tick)
         return;
-    const virga_spawn_gpu spawn = spawns[index];
-    const uvec2 place = places[index];
-    const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
-    const bool crowded = place.x >= state.crowded_from;
-    const uint n = crowded ? 0u : placed_droplets(place.y);
-    write_splash(state.tick_splash + place.x, spawn, centre, n);
-    count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
-    count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
-    if (n > 0u)
-        start_droplets(spawn, centre, state.tick_droplet + first_droplet(place.y), n);
-    const uint at = state.returns_before + (place.x - state.crowded_from);
-    if (crowded && at < tick.max_returns) {
-        returns[at] = make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
-        count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
-    }
+    start_splash(spawns[index], places[index], Starts(state.tick_splash, state.tick_droplet, state.returns_before,
+                                                      state.first_splash, state.crowded_from));
 }

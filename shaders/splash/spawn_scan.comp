@@ -1,5 +1,5 @@
-// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One
-// workgroup; each lane takes a run of spawns.
+// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One workgroup; each
+// lane takes a run of spawns. Where that is one spawn it starts its splash too, and spares the pass that else does.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,19 +7,23 @@
 #include "count.glsl"
 #include "orbit.glsl"
 #include "spawn.glsl"
+#include "shape.glsl"
+#include "returns.glsl"
+#include "spawn_start.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
 shared uint crowded_rank, crowded_droplets, expired;
 
-// The oldest splashes that are over make room.
-void forget_splashes(uint lane)
+// The oldest splashes that are over make room. Returns the first that is not.
+uint forget_splashes(uint lane)
 {
     uint first = state.first_splash;
     for (;;) {
         if (lane == 0u)
-            expired = VIRGA_SPLASH_GROUP;
+            expired = VIRGA_SPLASH_LANES;
         barrier();
         const uint place = first + lane;
         bool live = place - first >= state.end_splash - first;
@@ -33,19 +37,20 @@ void forget_splashes(uint lane)
         const uint passed = expired;
         first += passed;
         barrier();
-        if (passed < VIRGA_SPLASH_GROUP)
+        if (passed < VIRGA_SPLASH_LANES)
             break;
     }
-    if (lane == 0u)
-        state.first_splash = first;
+    return first;
 }
 
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, all = spawn_count();
-    const uint run = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+    const uint run = (all + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, all), end = min(begin + run, all);
-    forget_splashes(lane);
+    const uint staying = state.staying, end_splash = state.end_splash;
+    const uint returned = tick.tick_in_step == 0u ? 0u : state.returns;
+    uint first_splash = forget_splashes(lane);
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
         if (spawns[i].tick == tick.tick) {
@@ -56,7 +61,7 @@ void main()
         crowded_rank = NO_PLACE;
     uvec2 found;
     uvec2 place = scan_group(sum, found);
-    const uint room = tick.max_droplets - state.staying;
+    const uint room = tick.max_droplets - staying;
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
             continue;
@@ -74,20 +79,26 @@ void main()
         if (spawns[i].tick == tick.tick && places[i].x == crowded_rank)
             crowded_droplets = first_droplet(places[i].y); // one invocation at most
     barrier();
+    const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
+    if (end_after - (first_splash & ~block) > tick.max_splashes)
+        first_splash = (end_after - tick.max_splashes + block) & ~block;
+    const bool few = all <= VIRGA_SPLASH_LANES;
+    if (few && lane < all && spawns[lane].tick == tick.tick)
+        start_splash(spawns[lane], places[lane], Starts(end_splash, staying, returned, first_splash, crowded_rank));
     if (lane != 0u)
         return;
-    state.tick_droplet = state.staying;
-    state.tick_splash = state.end_splash;
-    state.end_droplet = state.staying + crowded_droplets;
-    state.end_splash += found.x;
-    if (state.end_splash - (state.first_splash & ~uint(VIRGA_SPLASH_GROUP - 1)) > tick.max_splashes)
-        state.first_splash = (state.end_splash - tick.max_splashes + VIRGA_SPLASH_GROUP - 1u) & ~uint(VIRGA_SPLASH_GROUP - 1);
     const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
+    state.first_splash = first_splash;
+    state.end_splash = end_after;
+    state.tick_splash = end_splash;
+    state.tick_droplet = staying;
+    state.end_droplet = staying + crowded_droplets;
     state.crowded_from = crowded_rank;
-    state.returns_before = tick.tick_in_step == 0u ? 0u : state.returns;
-    state.returns = min(state.returns_before + crowded, tick.max_returns);
-    state.droplet_groups = ring_groups(0u, state.end_droplet);
-    state.splash_groups = ring_groups(state.first_splash, state.end_splash);
+    state.returns_before = returned;
+    state.returns = min(returned + crowded, tick.max_returns);
+    state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
+    state.droplet_groups = ring_groups(0u, staying + crowded_droplets);
+    state.splash_groups = ring_groups(first_splash, end_after);
     count(VIRGA_SPLASH_CROWDED, crowded);
     count(VIRGA_SPLASH_DROPLETS, crowded_droplets);
 }

@@ -3,7 +3,7 @@
 //
 // Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan half
 // as much again.
-layout(scalar, set = 0, binding = 14) readonly buffer Sprites { virga_sprite_gpu sprites[]; };
+layout(scalar, set = 0, binding = 13) readonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
 layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; view depth; -
 layout(location = 1) flat out vec4 centre_alpha;

@@ -1,5 +1,5 @@
-// sprite_find.glsl - which kind of sprite one is on the picture. Droplets, piles and splashes have a dispatch each, as software
-// Vulkan runs every lane through all branches.
+// sprite_find.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets
+// and splashes have a dispatch each, as software Vulkan runs every lane through all branches.
 #include "sprite.glsl"
 #include "compact.glsl"
 #include "gpu/compact_find.glsl"
@@ -14,3 +14,53 @@ uint kind_of(Sprite sprite)
     const bool second = is_film() ? p.width_px >= WIDE_PX && sprite.kind != VIRGA_SPRITE_PUFF : pile;
     return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
 }
+
+// A droplet's, and its pile's.
+uint[2] droplet_kinds(uint place)
+{
+    if (place >= state.staying)
+        return uint[2](NOT_PICKED, NOT_PICKED);
+    const virga_droplet_gpu droplet = droplets[place];
+    return uint[2](kind_of(droplet_sprite(droplet)), kind_of(pile_sprite(droplet)));
+}
+
+uint[2] droplet_sets() { return uint[2](0u, state.view_groups[0]); }
+
+// In the film's style by its sheet; in the paper's by its pyramids, a crown where it is large enough.
+bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
+{
+    return is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE ? is_sheet(splash, crown) : splash.kind >> 16 != 0u;
+}
+
+bool on_picture(Crown crown)
+{
+    const vec4 clip = project(to_mat(view.clip_from_rel), crown.centre);
+    const float margin = 2.0 * crown.radius + 2.0 * crown.height;
+    const vec2 m = margin / view.pixel_angle * 2.0 / vec2(view.viewport[2], view.viewport[3]);
+    return clip.w > NEAR_W && all(lessThan(abs(clip.xy) - clip.w, m));
+}
+
+uint sheet_kind(virga_splash_gpu splash, Crown crown)
+{
+    const Crown before = crown_at(splash, view.time_open_s);
+    if (max(crown.height, before.height) <= 0.0 || !on_picture(crown))
+        return NOT_PICKED;
+    // The paper has no sheets but crowns, which are pyramids.
+    const bool drawn = is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE;
+    return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
+}
+
+// A splash's seen from afar, and its sheet's where that is large enough on the picture to be drawn as such.
+uint[2] splash_kinds(uint entry)
+{
+    const uint place = splash_place(entry);
+    if (place == NO_PLACE)
+        return uint[2](NOT_PICKED, NOT_PICKED);
+    const virga_splash_gpu splash = splashes[place];
+    const Crown crown = crown_at(splash, view.time_close_s);
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash));
+    return uint[2](puff, sheet_kind(splash, crown));
+}
+
+// Behind droplets and piles; and behind all sprites.
+uint[2] splash_sets() { return uint[2](2u * state.view_groups[0], state.sprite_groups[0]); }

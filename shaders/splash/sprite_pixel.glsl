@@ -1,6 +1,6 @@
 // sprite_pixel.glsl - how much of a pixel a sprite covers.
 #include "gpu/streak_profile.glsl"
-#define SCENE_DEPTH_BINDING 17
+#define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;

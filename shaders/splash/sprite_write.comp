@@ -7,9 +7,10 @@
 #include "gpu/light.glsl"
 #include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
+#include "view_lists.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-layout(scalar, set = 0, binding = 14) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
+layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
 // A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines of
 // those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is white and
@@ -25,9 +26,10 @@ void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= list.count)
+    const uint index = unwritten(lists[SPRITES]) + gl_GlobalInvocationID.x;
+    if (index >= lists[SPRITES].count)
         return;
-    const Sprite sprite = sprite_of(slot_of(listed[gl_GlobalInvocationID.x]));
+    const Sprite sprite = sprite_of(slot_of(listed[index]));
     const Projected p = project_sprite(sprite);
     const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
     virga_sprite_gpu record;
@@ -43,5 +45,5 @@ void main()
     record.id = sprite.id;
     const float torn = sprite.kind == VIRGA_SPRITE_PUFF ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
     set_light(record, 0.5 * (sprite.head + sprite.tail), torn);
-    sprites[gl_GlobalInvocationID.x] = record;
+    sprites[index] = record;
 }

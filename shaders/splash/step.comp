@@ -75,9 +75,18 @@ void move(inout virga_droplet_gpu droplet, float time_s)
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
 }
 
-void step_droplet(uint place)
+// Writes what may have changed: each word costs software Vulkan a loop over lanes.
+void store(uint place, virga_droplet_gpu droplet)
 {
-    virga_droplet_gpu droplet = droplets[place];
+    droplets[place].position = droplet.position;
+    droplets[place].age_s = droplet.age_s;
+    droplets[place].velocity = droplet.velocity;
+    droplets[place].weight_free = droplet.weight_free;
+    droplets[place].kind = droplet.kind;
+}
+
+void step_droplet(uint place, virga_droplet_gpu droplet)
+{
     if ((droplet.kind & VIRGA_DROPLET_FALLEN) == 0u) {
         droplet.age_s += tick.tick_s;
         const float time_s = min(tick.tick_s, droplet.age_s);
@@ -85,7 +94,7 @@ void step_droplet(uint place)
             move(droplet, time_s);
         if (droplet.age_s > MOST_AGE_S)
             droplet.kind |= VIRGA_DROPLET_FALLEN;
-        droplets[place] = droplet;
+        store(place, droplet);
     }
     const uint lane = gl_LocalInvocationIndex;
     atomicOr(alive_bits[lane >> 5], 1u << (lane & 31u));
@@ -99,8 +108,11 @@ void main()
     if (lane < WORDS)
         fallen_bits[lane] = alive_bits[lane] = 0u;
     barrier();
-    if (place < state.end_droplet && (droplets[place].kind & VIRGA_DROPLET_ALIVE) != 0u)
-        step_droplet(place);
+    if (place < state.end_droplet) {
+        const virga_droplet_gpu droplet = droplets[place];
+        if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
+            step_droplet(place, droplet);
+    }
     barrier();
     if (lane < WORDS)
         marks[gl_WorkGroupID.x * WORDS + lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);

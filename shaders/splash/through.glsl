@@ -1,6 +1,6 @@
 // through.glsl - what is seen through and on water: the scene behind it where the host gives its picture, else the
 // environment.
-layout(set = 0, binding = 18) uniform sampler2D scene_color;
+layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
 // What lies in a direction. The scene is taken to be far away: it is looked up where a ray from the camera itself in that
 // direction meets the picture; towards the picture's edges the environment takes over.

@@ -63,10 +63,10 @@ static void apply_settings(shot *s)
 }
 
 /* Nothing fades for being near; edges at the scene are hard; the shutter does not stay open. */
-static void open_shot(shot *s)
+static void open_shot_of(shot *s, const virga_splash_def *def)
 {
     memset(s, 0, sizeof *s);
-    splash_fixture_open(&s->f, NULL);
+    splash_fixture_open(&s->f, def);
     s->f.settings.near_m = 0;
     s->f.settings.soft_m = 0;
     apply_settings(s);
@@ -74,6 +74,11 @@ static void open_shot(shot *s)
     readback(s, sizeof(virga_splash_prepared_gpu), &s->prepared);
     s->scene_depth = 1;
     add_picture(s, SIDE);
+}
+
+static void open_shot(shot *s)
+{
+    open_shot_of(s, NULL);
 }
 
 static void close_shot(shot *s)
@@ -600,18 +605,56 @@ static void what_is_beside_the_picture_makes_no_sprite(void **state)
 /* ---- piles */
 
 /* A droplet whose pile rises from 20 mm below the picture's middle. */
+static virga_droplet_gpu rising(float age_s)
+{
+    return (virga_droplet_gpu){.position = {0, -0.02f, 0},
+                               .age_s = age_s,
+                               .velocity = {0, 1, 0},
+                               .diameter_m = 2e-3f,
+                               .base = {0, -0.02f, 0},
+                               .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE,
+                               .water_nl = 4,
+                               .weight_free = HALF_OF_ONE};
+}
+
 static void put_pile(shot *s, float age_s)
 {
-    const virga_droplet_gpu droplet = {.position = {0, -0.02f, 0},
-                                       .age_s = age_s,
-                                       .velocity = {0, 1, 0},
-                                       .diameter_m = 2e-3f,
-                                       .base = {0, -0.02f, 0},
-                                       .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE,
-                                       .water_nl = 4,
-                                       .weight_free = HALF_OF_ONE};
+    const virga_droplet_gpu droplet = rising(age_s);
     splash_fixture_put(&s->f, &droplet, 1);
     splash_fixture_step(&s->f, 1);
+}
+
+/* A droplet and its pile are two sprites, and a view has room for as many as there are droplets. */
+static void sprites_that_have_no_room_are_counted(void **state)
+{
+    (void)state;
+    enum { PILES = 200, ROOM = 256 };
+    virga_splash_def def = splash_fixture_def();
+    virga_droplet_gpu droplets[PILES];
+    virga_splash_stats stats;
+    shot s;
+    def.max_droplets = ROOM;
+    open_shot_of(&s, &def);
+    aim_from(&s, 0.1);
+    for (int style = 0; style < 2; style++) {
+        s.f.settings.style = style ? VIRGA_SPLASH_STYLE_FILM : VIRGA_SPLASH_STYLE_PAPER;
+        apply_settings(&s);
+        put_pile(&s, 0);
+        REQUIRE(drawn_alpha(&s) > 0);
+        virga_splash_stats_get(s.f.splash, &stats);
+        assert_int_equal(stats.sprites, 2);
+        assert_int_equal(stats.sprites_cut, 0);
+        for (int i = 0; i < PILES; i++)
+            droplets[i] = rising(0);
+        splash_fixture_put(&s.f, droplets, PILES);
+        splash_fixture_step(&s.f, 1);
+        REQUIRE(drawn_alpha(&s) > 0);
+        virga_splash_stats_get(s.f.splash, &stats);
+        assert_int_equal(stats.sprites, ROOM);
+        assert_int_equal(stats.sprites_cut, 2 * PILES - ROOM);
+        assert_int_equal(stats.sheets_cut, 0);
+    }
+    close_shot(&s);
 }
 
 static const virga_sprite_gpu *sprite_of_kind(const shot *s, uint32_t kind)
@@ -1170,6 +1213,7 @@ int main(void)
         cmocka_unit_test(lamps_brighten_droplets_and_change_no_coverage),
         cmocka_unit_test(a_wide_droplet_shows_the_scene_on_its_head),
         cmocka_unit_test(without_a_prepare_in_this_frame_nothing_is_drawn),
+        cmocka_unit_test(sprites_that_have_no_room_are_counted),
         cmocka_unit_test(into_a_target_not_attached_nothing_is_drawn),
         cmocka_unit_test(two_views_of_a_frame_both_come_out_right),
         cmocka_unit_test(more_views_than_there_is_room_for_are_refused),

@@ -41,7 +41,7 @@ typedef struct virga_splash_def {
     uint32_t size, cookie;
     uint32_t max_splashes; /* [256; 1048576] alive at once, raised to a power of two; 64 bytes each. The oldest make
                             * room. Default 65536 */
-    uint32_t max_droplets; /* [256; 4194304] in the air at once, raised to whole workgroups of 256; 128 bytes each, 64 for the
+    uint32_t max_droplets; /* [256; 4194304] in the air at once, raised to a multiple of 256; 128 bytes each, 64 for the
                             * sprites that a view needs and 72 for their indices. Where there is no room the water
                             * falls back at once. At most what a storage buffer of the device holds. Default 131072 */
     uint32_t max_spawns;   /* [256; 1048576] of one step, the same as the ground's. Default 65536 */
@@ -183,6 +183,7 @@ typedef struct virga_splash_stats {
     uint32_t splashes_alive, droplets_alive; /* of the newest tick; splashes: places in use from the oldest alive on */
     uint64_t crowded;         /* splashes that found no room for their droplets (or had none, behind one that did not) */
     uint32_t sprites;         /* of the newest prepare */
+    uint32_t sprites_cut, sheets_cut; /* that it had no room for: max_droplets sprites, a tenth as many sheets */
 } virga_splash_stats;
 
 VIRGA_API void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats);
