@@ -1,4 +1,5 @@
-/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), pipelines for a target (attach), drawing. */
+/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), pipelines for a target (attach),
+ * drawing. */
 #include "glass/glass_picture.h"
 
 #include "shaders/glass_picture_pane_vert.spv.h"
@@ -41,7 +42,8 @@ static void project(const glass_view_block *block, const float point[3], double 
         clip[i] = (double)p[i] * at[0] + (double)p[4 + i] * at[1] + (double)p[8 + i] * at[2] + (double)p[12 + i];
 }
 
-/* Pixels that a metre of the pane is long on the picture where it is largest, between the 3 x 3 points that outline it; a part
+/* Pixels that a metre of the pane is long on the picture where it is largest, between the 3 x 3 points that outline
+ * it; a part
  * that passes the camera counts as large as any. */
 static double pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
 {
@@ -189,13 +191,11 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     struct glass_picture *picture = glass->picture;
     const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
-    context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0,
-                              texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
+    context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, texels * 4, 0);
     context->vk.CmdFillBuffer(cmd, picture->counts->buffer, 0, VK_WHOLE_SIZE, 0);
     if (!picture->cleared)
@@ -227,8 +227,8 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.plate");
-    const VkPipelineStageFlags from = view->color.before.stage ? view->color.before.stage
-                                                               : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkPipelineStageFlags from =
+        view->color.before.stage ? view->color.before.stage : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     over_tiles(glass, cmd, picture->copy_pass, VIRGA_GLASS_COPY / 16, VIRGA_GLASS_COPY / 16);
     virga_compute_barrier(context, cmd);
@@ -400,9 +400,8 @@ virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
         [GLASS_DRAW_REFRACTION] = {VIRGA_SPIRV(glass_picture_refraction_frag), "glass.refraction"},
     };
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.vertex = VIRGA_SPIRV(glass_picture_pane_vert),
-                              .layout = glass->picture->bindings->layout,
-                              .depth_test = true};
+    virga_graphics_def def = {
+        .vertex = VIRGA_SPIRV(glass_picture_pane_vert), .layout = glass->picture->bindings->layout, .depth_test = true};
     for (uint32_t i = 0; i < GLASS_DRAWS * 2; i++) {
         def.constant = i % 2;
         def.fragment = rows[i / 2].fragment;

@@ -29,7 +29,8 @@ static uint32_t tiles_of(float side_m, float longer_m, uint32_t max_texels)
     return tiles > 1 ? (uint32_t)tiles : 1;
 }
 
-/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than the pane's
+/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than
+ * the pane's
  * texels over pi. One that reaches r texels is in (2 r / 16 + 2)^2 tiles at most, and r is three radii. */
 static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture)
 {
@@ -86,24 +87,24 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
 
 /* As in shaders/glass/picture*: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},              /* 0 view and look */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 1 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 2 film */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 3 passed */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, FRAGMENT},                              /* 4 surface */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT},  /* 5 nodes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 6 balls */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 7 tiles */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 8 entries */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 9 mist */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                               /* 10 counts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                /* 11 map, written */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 12 map, read */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                /* 13 copies of the plate, written */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 14 the same, read */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                      /* 15 scene depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},            /* 16 scene colour */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT},  /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 view and look */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 1 drops */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 2 film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 passed */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, FRAGMENT},                             /* 4 surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 nodes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 balls */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 entries */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 mist */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 counts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 11 map, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 map, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 copies of the plate, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 14 the same, read */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 15 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},           /* 16 scene colour */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 17 what tiles hold */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -115,8 +116,7 @@ static virga_bound whole(const virga_buffer *buffer)
 
 static virga_bound own_image(const virga_image_2d *image, VkSampler sampler)
 {
-    return (virga_bound){
-        .view = image->layer_views[0], .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
+    return (virga_bound){.view = image->layer_views[0], .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = sampler};
 }
 
 /* A host's image, or a blank in its place. */
@@ -124,8 +124,7 @@ static virga_bound image_or_blank(const virga_image *image, const virga_image_2d
 {
     return (virga_bound){.sampler = sampler,
                          .view = image->view ? image->view : blank->layer_views[0],
-                         .image_layout =
-                             image->view ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+                         .image_layout = image->view ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view)
@@ -133,8 +132,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
     const struct glass_picture *picture = glass->picture;
     virga_context *context = glass->context;
     /* Not every device filters four whole floats. */
-    const VkSampler color =
-        view->color.format == VK_FORMAT_R32G32B32A32_SFLOAT ? context->nearest : context->linear;
+    const VkSampler color = view->color.format == VK_FORMAT_R32G32B32A32_SFLOAT ? context->nearest : context->linear;
     const virga_bound bound[BINDINGS] = {
         {.buffer = picture->view_ring->buffer, .range = sizeof(glass_view_block)},
         whole(glass->drops),

@@ -12,12 +12,7 @@
 
 #define GLASS_MAX_TARGETS 8
 
-enum {
-    GLASS_DRAW_PAPER,
-    GLASS_DRAW_PHYSICAL,
-    GLASS_DRAW_REFRACTION,
-    GLASS_DRAWS
-};
+enum { GLASS_DRAW_PAPER, GLASS_DRAW_PHYSICAL, GLASS_DRAW_REFRACTION, GLASS_DRAWS };
 
 #define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
 #define GLASS_GATHERS                     16 /* of which those of five densities are made */
@@ -44,7 +39,7 @@ struct glass_picture {
     virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *copy_pass, *shrink_pass;
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density and blend */
     glass_target targets[GLASS_MAX_TARGETS];
-    bool cleared;  /* images have their layout, and `written` says that all is to be written */
+    bool cleared; /* images have their layout, and `written` says that all is to be written */
 
     uint64_t view_frame; /* that the cursors below belong to */
     uint32_t ring_views, view_offset;
@@ -52,7 +47,7 @@ struct glass_picture {
     virga_glass_style prepared_style;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];
-    uint32_t columns, rows; /* texels in use since the newest prepare */
+    uint32_t columns, rows;                             /* texels in use since the newest prepare */
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
 };
 

@@ -19,7 +19,8 @@ layout(scalar, set = 0, binding = 0) uniform Picture
 
 vec2 texel_m() { return vec2(look.texel_m[0], look.texel_m[1]); }
 
-// Below half a texel's radius a drop has no shape, only a share of a texel that it covers; from one texel on it is all shape.
+// Below half a texel's radius a drop has no shape, only a share of a texel that it covers; from one texel on it is
+// all shape.
 float shape_share(float radius_m) { return smoothstep(0.5, 1.0, radius_m / max(look.texel_m[0], look.texel_m[1])); }
 
 // Radius of the base of a cap with so much water: water = drop_nl_of_m3 a^3.

@@ -1,4 +1,5 @@
-// picture_balls.comp - each drop and particle becomes one to four metaballs (Goto et al. 2009, section 4.7), which count themselves
+// picture_balls.comp - each drop and particle becomes one to four metaballs (Goto et al. 2009, section 4.7), which
+// count themselves
 // in the tiles that they reach.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -33,8 +34,10 @@ vec2 gravity_at(vec2 middle)
     return vec2(dot(to_vec(look.gravity), to_vec(at.along_u)), dot(to_vec(look.gravity), to_vec(at.along_v)));
 }
 
-// A cap on an inclined surface, where it is flat enough: surface tension x laplacian of the height + density x gravity x way down
-// is the same everywhere, and 0 the height at the rim. Its solution is the level cap times 1 + s x, with the way down x over the
+// A cap on an inclined surface, where it is flat enough: surface tension x laplacian of the height + density x
+// gravity x way down
+// is the same everywhere, and 0 the height at the rim. Its solution is the level cap times 1 + s x, with the way
+// down x over the
 // radius and s = Bond number / (8 height over radius).
 vec2 sag_of(vec2 middle, float radius)
 {
@@ -64,7 +67,8 @@ void emit_ball(inout Drop drop, vec2 middle, float radius, float peak)
     count_tiles(middle, radius * density_reach());
 }
 
-// Three sub-balls around one that has just landed, which flow in (section 4.7). All have the shape of caps, so that radii are
+// Three sub-balls around one that has just landed, which flow in (section 4.7). All have the shape of caps, so that
+// radii are
 // cube roots of the shares of water.
 void emit_landing(inout Drop drop, float t, uint random)
 {

@@ -1,8 +1,10 @@
-// picture_density.glsl - density functions, as functions of x^2, the square of the distance over the ball's radius, scaled so that
+// picture_density.glsl - density functions, as functions of x^2, the square of the distance over the ball's radius,
+// scaled so that
 // all are 0.5 at x = 1; and back. x^2 is all that any of them needs but one.
 
 
-// Which one, and whether by Chen and Zhang's weights: constants of a pipeline, as software Vulkan runs all sides of a branch.
+// Which one, and whether by Chen and Zhang's weights: constants of a pipeline, as software Vulkan runs all sides of
+// a branch.
 #ifdef DENSITY_SPECIAL
 layout(constant_id = 0) const uint MODE = 0u;
 #define DENSITY (MODE & 7u)
@@ -21,7 +23,8 @@ float density_reach()
                                                : 3.0;
 }
 
-// 1 up to two thirds of the reach, then smoothly to 0: a function that were cut off would show as an edge on its neighbours.
+// 1 up to two thirds of the reach, then smoothly to 0: a function that were cut off would show as an edge on its
+// neighbours.
 float density_window(float x2, float reach)
 {
     const float t = clamp((x2 / (reach * reach) - 4.0 / 9.0) * (9.0 / 5.0), 0.0, 1.0);

@@ -1,4 +1,5 @@
-// picture_fill.comp - balls enter themselves in the lists of the tiles that they reach, in any order: the gathering pass adds in
+// picture_fill.comp - balls enter themselves in the lists of the tiles that they reach, in any order: the gathering
+// pass adds in
 // whole numbers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,5 @@
-// picture_film.comp - goes over the film of all cells: fine beads become mist, and tiles learn that they have film to show.
+// picture_film.comp - goes over the film of all cells: fine beads become mist, and tiles learn that they have film
+// to show.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

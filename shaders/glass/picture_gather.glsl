@@ -1,16 +1,24 @@
-// picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are added up, in whole
-// numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls around: SHUFFLE or not.
+// picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are
+// added up, in whole
+// numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls around:
+// SHUFFLE or not.
 //
-// Of each ball four sums: its density V; and, with the weight k, k V, k V z and k K, where z is its height, sag and all, over the
+// Of each ball four sums: its density V; and, with the weight k, k V, k V z and k K, where z is its height, sag and
+// all, over the
 // highest of the tile, and K = 1 / (1 + x^2)^2. With the weight k = z,
 //
-//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and by height, so that a small ball in or under
+//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and by height, so that a small ball
+// in or under
 //                                     a large one makes no dent
-//     P = 2 - ((sum k K) / Z)^(-1/2)  is 1 - x^2 for a ball alone, smooth wherever balls merge, and below 2 however many do
+//     P = 2 - ((sum k K) / Z)^(-1/2)  is 1 - x^2 for a ball alone, smooth wherever balls merge, and below 2 however
+// many do
 //
-// and Z P the height. Two drops that become one: P = 1.29 in their middle; for caps of one angle it is 2^(1/3) = 1.26. Near the rim
-// what the density says takes over, the x^2 of a ball alone that has it there, so that the water ends where the density is
-// 1/2. Both are the same for a ball alone. By Chen and Zhang's weights k = t_i is R_i less the distance, sums are divided by
+// and Z P the height. Two drops that become one: P = 1.29 in their middle; for caps of one angle it is 2^(1/3) =
+// 1.26. Near the rim
+// what the density says takes over, the x^2 of a ball alone that has it there, so that the water ends where the
+// density is
+// 1/2. Both are the same for a ball alone. By Chen and Zhang's weights k = t_i is R_i less the distance, sums are
+// divided by
 // that of the weights, and P is made of the weighted mean of K.
 #define DENSITY_SPECIAL
 #include "picture.glsl"
@@ -100,7 +108,8 @@ void add_balls(virga_glass_tile_gpu tile, vec2 place)
     for (uint from = 0u; from < tile.count; from += gl_SubgroupSize) {
         const uint some = min(tile.count - from, gl_SubgroupSize);
         const Ball mine = ball_of(tile.first + from + min(gl_SubgroupInvocationID, some - 1u));
-        const vec4 ends = vec4(mine.middle, mine.sag), sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.radius);
+        const vec4 ends = vec4(mine.middle, mine.sag);
+        const vec4 sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.radius);
         for (uint i = 0u; i < some; i++) {
             const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
             add(place, Ball(e.xy, e.zw, s.x, s.y, s.z, s.w), reach);
@@ -125,7 +134,10 @@ bool cells_are_wide() { return look.pane.cell_m >= max(look.texel_m[0], look.tex
 
 ivec2 first_cell(ivec2 tile) { return ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1; }
 
-float sheet_m(uint cell) { return float(film[cell]) * film_fresh(cell) * 1e-12 / (look.pane.cell_m * look.pane.cell_m); }
+float sheet_m(uint cell)
+{
+    return float(film[cell]) * film_fresh(cell) * 1e-12 / (look.pane.cell_m * look.pane.cell_m);
+}
 
 bool is_cell(ivec2 cell)
 {
@@ -233,7 +245,8 @@ void gather()
         return;
     for (int i = 0; i < OWN; i++) {
         const vec2 here = place + vec2(0.0, look.texel_m[1] * float(i));
-        // A loop without turns, not a branch: software Vulkan runs all sides of a branch, and unrolls what has a fixed length.
+        // A loop without turns, not a branch: software Vulkan runs all sides of a branch, and unrolls what has a
+        // fixed length.
         add_beads(tile, here, i, beads_shown ? 9 * BEADS : 0);
         const vec4 texel = texel_of(sums[i], at.film != 0u ? sheet_at(tile, here) : 0.0, shares[i]);
         imageStore(map_out, first + ivec2(0, i), texel);

@@ -1,10 +1,12 @@
-// picture_mist.glsl - water too small for the map: the share of a texel that it covers, in whole numbers, so that sums do not
+// picture_mist.glsl - water too small for the map: the share of a texel that it covers, in whole numbers, so that
+// sums do not
 // depend on their order.
 layout(scalar, set = 0, binding = 9) buffer Mist { uint mist[]; };
 
 void add_mist_at(ivec2 texel, float share)
 {
-    const bool on_map = all(greaterThanEqual(texel, ivec2(0))) && texel.x < int(look.map_columns) && texel.y < int(look.map_rows);
+    const ivec2 size = ivec2(look.map_columns, look.map_rows);
+    const bool on_map = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
     const uint whole = uint(share * float(VIRGA_GLASS_MIST_ONE) + 0.5);
     if (on_map && whole != 0u)
         atomicAdd(mist[uint(texel.x) + uint(texel.y) * look.map_columns], whole);

@@ -1,4 +1,5 @@
-// picture_pane.vert - the pane's quarters of tiles that have water to show, as two triangles each; the others have no area.
+// picture_pane.vert - the pane's quarters of tiles that have water to show, as two triangles each; the others have
+// no area.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// picture_paper.frag - drops as Goto et al. 2009 show them (section 5.4): the plate, from a copy of 64 x 64 texels, displaced by the
+// picture_paper.frag - drops as Goto et al. 2009 show them (section 5.4): the plate, from a copy of 64 x 64 texels,
+// displaced by the
 // normal. Premultiplied.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

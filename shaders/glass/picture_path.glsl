@@ -35,7 +35,8 @@ float scene_distance(vec3 d)
     return view_depth(stored) * abs(dot(ahead, axis)) / max(abs(dot(d, axis)), 1e-4);
 }
 
-// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there were no
+// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there
+// were no
 // glass, only that the glass has shifted it.
 void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
 {
@@ -115,7 +116,8 @@ Path path_through(vec3 d, Water water, float pixel_m)
 
 // ---- the paper's way (section 5.4)
 
-#define PAPER_RELIEF_M 0.005 // height (m) that a density of 1 stands for, so that its slopes do not depend on the resolution
+// Height (m) that a density of 1 stands for, so that its slopes do not depend on the resolution.
+#define PAPER_RELIEF_M 0.005
 
 // The normal's x and y displace the plate, as they lie on the picture.
 vec2 paper_pixel(Water water)

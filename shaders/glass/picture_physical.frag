@@ -1,4 +1,5 @@
-// picture_physical.frag - drops by Snell and Fresnel: the world through them, on its head, and what they reflect. Premultiplied.
+// picture_physical.frag - drops by Snell and Fresnel: the world through them, on its head, and what they reflect.
+// Premultiplied.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,7 +21,8 @@ vec3 lamps_along(vec3 direction, float width)
         const vec3 way = to_vec(view.lights[i].position) - position;
         const float distance2 = max(dot(way, way), 1e-4);
         const vec3 towards = way * inversesqrt(distance2);
-        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range, ends = clamp(1.0 - x * x, 0.0, 1.0);
+        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
+        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
         const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
                                      view.lights[i].inv_cos_width, 0.0, 1.0);
         const vec3 apart = towards - direction;
@@ -30,7 +32,8 @@ vec3 lamps_along(vec3 direction, float width)
     return sum;
 }
 
-// Light gathered at a drop's far side: an opaque surface under it is brighter away from the lamp, and darker towards it.
+// Light gathered at a drop's far side: an opaque surface under it is brighter away from the lamp, and darker
+// towards it.
 vec3 caustic(vec3 normal, vec3 flat_normal)
 {
     const vec3 tilt = normal - flat_normal * dot(normal, flat_normal);

@@ -1,4 +1,5 @@
-// picture_plate.glsl - the plate behind the pane, looked up sharp, or in smaller copies where a drop shows much of it in little.
+// picture_plate.glsl - the plate behind the pane, looked up sharp, or in smaller copies where a drop shows much of
+// it in little.
 layout(set = 0, binding = 14) uniform sampler2D copies;
 layout(set = 0, binding = 16) uniform sampler2D scene_color;
 
@@ -29,7 +30,8 @@ vec3 plate_at(vec2 pixel, float pixels)
     return mix(copy_at(uv, low), copy_at(uv, low + 1), clamp(level - float(low), 0.0, 1.0));
 }
 
-// Where a place relative to the camera (w = 1), or a direction (w = 0), is on the picture; false: not before the camera.
+// Where a place relative to the camera (w = 1), or a direction (w = 0), is on the picture; false: not before the
+// camera.
 bool on_picture(vec4 where, out vec2 pixel)
 {
     const vec4 clip = to_mat(view.clip_from_rel) * where;

@@ -1,4 +1,5 @@
-// picture_refraction.frag - where drops have the plate looked up, for a compositor: pixels to the right and down, and coverage.
+// picture_refraction.frag - where drops have the plate looked up, for a compositor: pixels to the right and down,
+// and coverage.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// picture_scan.comp - where each tile's list begins: sums of the counts before it. A list that does not fit is left out whole, so
+// picture_scan.comp - where each tile's list begins: sums of the counts before it. A list that does not fit is left
+// out whole, so
 // that what is seen does not depend on who came first.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

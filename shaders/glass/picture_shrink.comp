@@ -1,4 +1,5 @@
-// picture_shrink.comp - from 512 x 512 texels of the plate's copy all smaller ones, by halves, in one pass: a workgroup has
+// picture_shrink.comp - from 512 x 512 texels of the plate's copy all smaller ones, by halves, in one pass: a
+// workgroup has
 // 64 x 64 of them. They lie side by side to the right: 256 at the top, below it 128, 64, 32, 16 and 8.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,5 @@
-// picture_surface.glsl - what a pixel of the pane shows of the height map: coverage, slopes and curvature of the water there.
+// picture_surface.glsl - what a pixel of the pane shows of the height map: coverage, slopes and curvature of the
+// water there.
 #define SCENE_DEPTH_BINDING 15
 #include "gpu/scene_depth.glsl"
 #include "gpu/view.glsl"
@@ -20,7 +21,8 @@ struct Water {
     float bend;   // largest change of the slope, 1/m
 };
 
-// ---- one channel of the 4 x 4 texels around a place, and what they give there. Weights are whole floats: those of a sampler
+// ---- one channel of the 4 x 4 texels around a place, and what they give there. Weights are whole floats: those of
+// a sampler
 // have eight bits, whose steps slopes would show.
 
 vec4 gather_map(vec2 texel, int channel)
@@ -82,7 +84,8 @@ Water water_here()
     const float density = between(gather_map(low, 0), t);
     // Over one pixel the rim goes from nothing to all.
     const float width = max(fwidth(density), 1e-4);
-    const vec4 all = textureLod(map, (clamp(place / texel_m(), vec2(0.5), vec2(look.map_columns, look.map_rows) - 0.5)) /
+    const vec2 texels = vec2(look.map_columns, look.map_rows);
+    const vec4 all = textureLod(map, clamp(place / texel_m(), vec2(0.5), texels - 0.5) /
                                          vec2(textureSize(map, 0)), 0.0);
     const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, all.a) : 0.0; // the paper has no film
     Water water = Water(0.0, 0.0, 0.0, vec2(0.0), 0.0);

@@ -1,5 +1,6 @@
 // picture_tiles.glsl - balls, and the tiles of the map that they reach.
-layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; }; // four for each place, up to one without radius
+// Four for each place, of which those count that come before one without radius.
+layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; };
 layout(scalar, set = 0, binding = 7) buffer Tiles { virga_glass_tile_gpu tiles[]; };
 
 vec2 tile_m() { return texel_m() * float(VIRGA_GLASS_TILE); }

@@ -1,4 +1,5 @@
-/* glass_picture_gpu.h - what the passes that make and draw the height map share with the C that feeds them. Internal to Virga. */
+/* glass_picture_gpu.h - what the passes that make and draw the height map share with the C that feeds them.
+ * Internal to Virga. */
 #ifndef VIRGA_SHARED_GLASS_PICTURE_GPU_H
 #define VIRGA_SHARED_GLASS_PICTURE_GPU_H
 
@@ -51,8 +52,8 @@ struct virga_glass_picture_gpu {
     uint opaque;
     float gain;
     uint max_entries;       /* of the tiles' lists, all together */
-    uint written_columns;   /* tiles in a row of the list that says what they hold: bit 0: their part of the map is not all zero;
-                             * bits 1 to 4: each quarter of one has something to show */
+    uint written_columns;   /* tiles in a row of the list that says what they hold: bit 0: water anywhere in their part of the
+                             * map; bits 1 to 4: each quarter of one has something to show */
 };
 
 /* What lies over a tile of the map. */

@@ -127,8 +127,8 @@ VIRGA_API virga_glass_wiper virga_default_glass_wiper(void);
 VIRGA_API double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s);
 
 typedef enum virga_glass_density {
-    VIRGA_GLASS_DENSITY_GOTO = 0,      /* 1 / (1 + (h / R)^4), Goto et al., equation 1; 0 from 3 R on */
-    VIRGA_GLASS_DENSITY_BLINN = 1,     /* exp(-ln 2 (h / R)^2), Chen and Zhang, equation 2; 0 from 3 R on */
+    VIRGA_GLASS_DENSITY_GOTO = 0,      /* 1 / (1 + (h / R)^4), Goto et al., equation 1; faded to 0 from 2 R to 3 R */
+    VIRGA_GLASS_DENSITY_BLINN = 1,     /* exp(-ln 2 (h / R)^2), Chen and Zhang, equation 2; faded likewise */
     VIRGA_GLASS_DENSITY_MURAKAMI = 2,  /* equation 3 with its second branch for R / 3 to R (printed without the lower end) */
     VIRGA_GLASS_DENSITY_WYVILL = 3,    /* equation 4 */
     VIRGA_GLASS_DENSITY_NISHIMURA = 4, /* equation 5 with the missing term: 1 - 22/9 x^2 + 17/9 x^4 - 4/9 x^6, Wyvill's polynomial,
@@ -300,8 +300,9 @@ VIRGA_API virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd,
  * down), with the coverage as blue and alpha; not blended. For a layer that a compositor bends another plate with. */
 VIRGA_API virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
 
-/* The height map of the newest prepare, in VK_IMAGE_LAYOUT_GENERAL: R32G32_SFLOAT, red the density (compressed), green the height
- * of the water (m), the first row at v = 0. */
+/* The height map of the newest prepare, in VK_IMAGE_LAYOUT_GENERAL: R32G32B32A32_SFLOAT, red the density (compressed), green
+ * the height of the water (m; where red is below the threshold how deep the surface would lie if it went on), blue the share of the
+ * texel that water too small for a shape covers, alpha the thickness of the sheet of film (m). The first row is at v = 0. */
 typedef struct virga_glass_map {
     VkImageView view;
     VkImage image;
@@ -322,7 +323,8 @@ typedef struct virga_glass_stats {
     uint64_t to_particles, to_drops; /* conversions (sections 4.4, 4.5) */
     uint64_t crowded;          /* drops that found no place: their water joined the film */
     uint32_t drops, particles, held; /* now; held: particles that wait to become drops (section 4.6) */
-    uint32_t balls, balls_cut; /* metaballs of the newest prepare; and those that found no room */
+    uint32_t balls, balls_cut; /* metaballs of the newest prepare; and places in the lists of tiles
+                                * that found no room: such a tile shows no drops */
 } virga_glass_stats;
 
 VIRGA_API void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats);

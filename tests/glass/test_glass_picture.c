@@ -1,0 +1,544 @@
+/* test_glass_picture.c - the height map against the same sums in double precision, what a drop does to light in
+ * closed form, and
+ * what is drawn where. */
+#include "glass_picture_fixture.h"
+
+#define PLACES 60
+#define WATER  1.333
+
+enum { WIDTH = 240, HEIGHT = 160, DENSITIES = 5 };
+
+/* ---- the reference */
+
+typedef struct ball {
+    double middle[2], radius, height, sag[2];
+} ball;
+
+/* Over the radius of influence, as the papers print them; Goto's and Blinn's end at three radii, faded from two on. */
+static double fade(double x)
+{
+    const double t = fmin(fmax((x * x / 9 - 4.0 / 9) * 9 / 5, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
+}
+
+static const double influence[DENSITIES] = {3, 3, 2.3660254037844386, 1.8477590650225735, 2};
+
+static double density_of(int kind, double x)
+{
+    const double y = x / influence[kind];
+    if (y >= 1)
+        return 0;
+    switch (kind) {
+    case VIRGA_GLASS_DENSITY_GOTO: return fade(x) / (1 + pow(x, 4));
+    case VIRGA_GLASS_DENSITY_BLINN: return fade(x) * exp(-log(2) * x * x);
+    case VIRGA_GLASS_DENSITY_MURAKAMI: return y <= 1.0 / 3 ? 1 - 3 * y * y : 1.5 * (1 - y) * (1 - y);
+    case VIRGA_GLASS_DENSITY_WYVILL: return pow(1 - y * y, 2);
+    default: return 1 - 22.0 / 9 * y * y + 17.0 / 9 * pow(y, 4) - 4.0 / 9 * pow(y, 6);
+    }
+}
+
+/* The x that has the density v, by bisection. */
+static double inverse_of(int kind, double v)
+{
+    double low = 0, high = influence[kind];
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (density_of(kind, middle) > v)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double window_of(int kind, double x)
+{
+    return fade(x * 3 / influence[kind]);
+}
+
+static double compress(const virga_glass_settings *s, double v)
+{
+    double from = (double)s->compress_from;
+    for (uint32_t i = 0; s->compress && i < s->compress_steps; i++, from += (double)s->compress_step)
+        v = v > from ? (double)s->compress_k * (v - from) + from : v;
+    return v;
+}
+
+static double smooth(double low, double high, double x)
+{
+    const double t = fmin(fmax((x - low) / (high - low), 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+/* Density and height at a place; see picture_gather.glsl. */
+static void reference(const shot *s, const ball *balls, int count, double u, double v, double *density, double *height)
+{
+    const int kind = s->settings.density;
+    const bool weighted = s->settings.blend == VIRGA_GLASS_BLEND_WEIGHTED;
+    double own = 0, weights = 0, kv = 0, kvz = 0, around = 0;
+    for (int i = 0; i < count; i++) {
+        const ball *b = &balls[i];
+        const double x = (u - b->middle[0]) / b->radius, y = (v - b->middle[1]) / b->radius, r = hypot(x, y);
+        if (r >= influence[kind])
+            continue;
+        const double z = b->height * fmax(1 + b->sag[0] * x + b->sag[1] * y, 0.2);
+        const double k = weighted ? b->radius * (influence[kind] - r) : z, d = density_of(kind, r);
+        own += d;
+        weights += k;
+        kv += k * d;
+        kvz += k * d * z;
+        around += k * window_of(kind, r) / pow(1 + r * r, 2);
+    }
+    *density = *height = 0;
+    if (!(kv > 0))
+        return;
+    const double sum = weighted ? kv / weights : own, mean = kvz / kv;
+    const double inner = 2 - 1 / sqrt(fmax(weighted ? around / weights : around / mean, 1e-4));
+    const double x = sum < 1 ? inverse_of(kind, sum) : 0;
+    const double t = smooth(0.55, 0.9, sum);
+    *density = compress(&s->settings, sum);
+    *height = mean * fmin(fmax((1 - x * x) * (1 - t) + inner * t, -1), 2);
+}
+
+/* A drop at rest, as the pane has it: upright, so that it sags downwards. */
+static ball ball_of(const shot *s, const virga_glass_drop_gpu *drop)
+{
+    const double angle = glass_rest_deg(&s->settings), flat = tan(angle * M_PI / 360);
+    ball b = {.middle = {(double)drop->position[0], (double)drop->position[1]}};
+    b.radius = cbrt(drop->water_nl * 1e-12 / glass_cap_volume(angle));
+    b.height = b.radius * flat;
+    b.sag[1] = -fmin(998.2 * 9.80665 * b.radius * b.radius / (8 * 0.0728 * flat), 0.6);
+    return b;
+}
+
+static double random_in(uint32_t *state, double low, double high)
+{
+    *state = virga_hash1(*state);
+    return low + (high - low) * (double)virga_unit(*state);
+}
+
+static void put_balls(shot *s, ball balls[PLACES], int count)
+{
+    uint32_t random = 5;
+    shot_forget(s);
+    for (int i = 0; i < count; i++)
+        balls[i] = ball_of(s, shot_drop(s, random_in(&random, 0, 0.096), random_in(&random, 0, 0.064),
+                                        shot_water(s, random_in(&random, 1e-3, 4e-3))));
+}
+
+static void open_small(shot *s)
+{
+    shot_open(s, NULL, WIDTH, HEIGHT, false);
+    shot_face(s, 1, 30);
+}
+
+static const float *texel(const shot *s, uint32_t column, uint32_t row)
+{
+    return s->map + 4 * ((size_t)row * s->columns + column);
+}
+
+static double texel_u(const shot *s, uint32_t column)
+{
+    return (column + 0.5) * (double)s->glass->def.width_m / s->columns;
+}
+
+static double texel_v(const shot *s, uint32_t row)
+{
+    return (row + 0.5) * (double)s->glass->def.height_m / s->rows;
+}
+
+/* ---- the map */
+
+static void compare_map(const shot *s, const ball *balls, int count)
+{
+    for (uint32_t row = 0; row < s->rows; row++)
+        for (uint32_t column = 0; column < s->columns; column++) {
+            double density, height;
+            reference(s, balls, count, texel_u(s, column), texel_v(s, row), &density, &height);
+            const float *found = texel(s, column, row);
+            if (fabs((double)found[0] - density) > 1e-4 || (density > 0.45 && fabs((double)found[1] - height) > 4e-6))
+                fail_msg("density %d blend %d at %u, %u: %g and %g m, expected %g and %g m", s->settings.density,
+                         s->settings.blend, column, row, (double)found[0], (double)found[1], density, height);
+        }
+}
+
+/* Every texel, to 1e-4 of density and 4 um of height: sums are in steps of 2^-23 of the largest. */
+static void the_map_is_that_of_the_reference(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        s.settings.compress = i % 3 != 0;
+        put_balls(&s, balls, PLACES);
+        shot_draw(&s, false);
+        REQUIRE(s.columns == 192 && s.rows == 128);
+        compare_map(&s, balls, PLACES);
+    }
+    shot_close(&s);
+}
+
+/* Its height is that of the parabola, to 2 um, and its density that of the formula, 0.5 at its rim. */
+static void a_drop_alone_is_a_cap(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.compress = false;
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        shot_forget(&s);
+        const ball b = ball_of(&s, shot_drop(&s, 0.048, 0.032, shot_water(&s, 8e-3)));
+        shot_draw(&s, false);
+        for (uint32_t column = 0; column < s.columns; column++) {
+            const double x = (texel_u(&s, column) - b.middle[0]) / b.radius;
+            const double y = (texel_v(&s, 60) - b.middle[1]) / b.radius, r2 = x * x + y * y;
+            const float *found = texel(&s, column, 60);
+            assert_float_equal(found[0], density_of(i / 2, sqrt(r2)), 2e-5);
+            if (r2 < 1)
+                assert_float_equal(found[1], b.height * (1 - r2) * (1 + b.sag[1] * y), 2e-6);
+        }
+        assert_float_equal(density_of(i / 2, 1), 0.5, 1e-9);
+    }
+    shot_close(&s);
+}
+
+/* Two in one place weigh one half each, so together they are as one (to 1e-5). */
+static void weights_sum_to_one(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.blend = VIRGA_GLASS_BLEND_WEIGHTED;
+    shot_drop(&s, 0.05, 0.03, 20000);
+    shot_draw(&s, false);
+    const size_t size = 16ull * s.columns * s.rows;
+    float *alone = malloc(size);
+    memcpy(alone, s.map, size);
+    shot_drop(&s, 0.05, 0.03, 20000);
+    shot_draw(&s, false);
+    for (size_t i = 0; i < size / 16; i++) {
+        assert_float_equal(s.map[4 * i], alone[4 * i], 1e-5);
+        assert_float_equal(s.map[4 * i + 1], alone[4 * i + 1], 1e-6);
+    }
+    free(alone);
+    shot_close(&s);
+}
+
+/* The largest second difference of the height along the line through two drops that overlap, against that of the
+ * higher of the
+ * two, which has a crease: less than a third, for each density and blend. */
+static void merged_drops_have_no_crease(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        shot_forget(&s);
+        const ball a = ball_of(&s, shot_drop(&s, 0.041, 0.03225, shot_water(&s, 10e-3)));
+        const ball b = ball_of(&s, shot_drop(&s, 0.055, 0.03225, shot_water(&s, 10e-3)));
+        shot_draw(&s, false);
+        double worst = 0, crease = 0, last[3] = {0}, plain[3] = {0};
+        for (uint32_t column = 80; column < 112; column++) {
+            const double u = texel_u(&s, column), xa = (u - a.middle[0]) / a.radius, xb = (u - b.middle[0]) / b.radius;
+            memmove(last, last + 1, sizeof last - sizeof last[0]);
+            memmove(plain, plain + 1, sizeof plain - sizeof plain[0]);
+            last[2] = (double)texel(&s, column, 64)[1];
+            plain[2] = a.height * fmax(1 - xa * xa, 1 - xb * xb);
+            if (column < 82)
+                continue;
+            worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
+            crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
+        }
+        if (worst > crease / 3)
+            fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
+    }
+    shot_close(&s);
+}
+
+/* ---- light */
+
+static bool refract_ray(const double d[3], const double n[3], double ratio, double out[3])
+{
+    const double c = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]), k = 1 - ratio * ratio * (1 - c * c);
+    for (int i = 0; i < 3; i++)
+        out[i] = ratio * d[i] + (ratio * c - sqrt(fmax(k, 0))) * n[i];
+    return k >= 0;
+}
+
+/* Where a ray from the camera through a pixel leaves the pane to, through one cap, as tangents; false: thrown back. */
+static bool leaves(const double tangent[2], double side, const double slope[2], double out[2])
+{
+    const double length = sqrt(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    const double d[3] = {tangent[0] / length, tangent[1] / length, -side / length};
+    const double n = sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    const double normal[3] = {-slope[0] / n, -slope[1] / n, 1 / n}, flat[3] = {0, 0, side};
+    const double facing[3] = {side * normal[0], side * normal[1], side * normal[2]};
+    double in_water[3], e[3];
+    refract_ray(d, side > 0 ? facing : flat, 1 / WATER, in_water);
+    const bool passes = refract_ray(in_water, side > 0 ? flat : facing, WATER, e);
+    for (int i = 0; i < 2; i++)
+        out[i] = e[i] / fabs(e[2]);
+    return passes;
+}
+
+/* From both sides, straight on: to 4 % of the way and a pixel within 0.85 radii, where the map's texels show the
+ * slope. Where the
+ * closed form is thrown back (a coated pane, seen from behind), so is the ray. */
+static void compare_refraction(shot *s, double side, const ball *b, int *passed, int *thrown_back)
+{
+    shot_face(s, side, 30);
+    const float *pixels = shot_draw(s, true);
+    const double f = 0.5 * HEIGHT / tan(15 * M_PI / 180), away = fabs(s->camera.position_m[2]);
+    for (int y = 0; y < HEIGHT; y += 2)
+        for (int x = 0; x < WIDTH; x += 2) {
+            const double right = (x + 0.5 - 0.5 * WIDTH) / f, up = -(y + 0.5 - 0.5 * HEIGHT) / f;
+            const double tangent[2] = {right * side, up}; /* along u and v */
+            const double p = (0.048 + tangent[0] * away - b->middle[0]) / b->radius;
+            const double q = (0.032 + tangent[1] * away - b->middle[1]) / b->radius, r2 = p * p + q * q;
+            const float *found = pixels + 4 * (y * WIDTH + x);
+            if (r2 > 1.5)
+                assert_float_equal(found[3], 0, 0);
+            if (r2 > 0.72)
+                continue;
+            const double sag = 1 + b->sag[1] * q, steep = b->height / b->radius;
+            const double slope[2] = {-2 * p * sag * steep, (-2 * q * sag + (1 - r2) * b->sag[1]) * steep};
+            double out[2];
+            if (!leaves(tangent, side, slope, out)) {
+                if (hypot(slope[0], slope[1]) > 1.3)
+                    assert_float_equal(hypot((double)found[0], (double)found[1]), 0, 0);
+                *thrown_back += 1;
+                continue;
+            }
+            const double way[2] = {(out[0] - tangent[0]) * side * f, -(out[1] - tangent[1]) * f};
+            if (hypot(way[0], way[1]) > 500)
+                continue; /* grazing: a texel's slope decides */
+            *passed += 1;
+            assert_float_equal(found[2], 1, 0);
+            const double allowed = 1.5 + 0.04 * hypot(way[0], way[1]);
+            if (hypot((double)found[0] - way[0], (double)found[1] - way[1]) > allowed)
+                fail_msg("side %g at %d, %d: %g, %g px, expected %g, %g", side, x, y, (double)found[0],
+                         (double)found[1], way[0], way[1]);
+        }
+}
+
+static void a_drop_bends_light_by_snell(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.thickness_mm = 0;
+    for (int coated = 0; coated < 2; coated++) {
+        int passed = 0, thrown_back = 0;
+        s.settings.advancing_deg = coated ? 112 : 60;
+        s.settings.receding_deg = coated ? 98 : 38;
+        shot_forget(&s);
+        const ball b = ball_of(&s, shot_drop(&s, 0.048, 0.032, shot_water(&s, 20e-3)));
+        compare_refraction(&s, 1, &b, &passed, &thrown_back);
+        REQUIRE(passed > 500 && !thrown_back);
+        compare_refraction(&s, -1, &b, &passed, &thrown_back);
+        REQUIRE(!coated == !thrown_back);
+    }
+    shot_close(&s);
+}
+
+/* A film of the same thickness everywhere is drawn, and shows what lies behind it. */
+static void a_flat_film_does_not_bend(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.thickness_mm = 0;
+    shot_face(&s, -1, 30);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = 80; /* 20 um */
+        s.passed[i] = s.glass->last_tick;
+    }
+    const float *pixels = shot_draw(&s, true);
+    for (int y = 16; y < HEIGHT - 16; y++)
+        for (int x = 16; x < WIDTH - 16; x++) {
+            const float *found = pixels + 4 * (y * WIDTH + x);
+            assert_float_equal(found[3], 1, 1e-6);
+            assert_float_equal(hypot((double)found[0], (double)found[1]), 0, 0.02);
+        }
+    shot_close(&s);
+}
+
+/* Where the plate's colours are places, they tell what was looked up: right and down as shares of the picture. */
+static void put_places(shot *s)
+{
+    float *pixels = malloc(16ull * WIDTH * HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        pixels[4 * i] = (float)((i % WIDTH + 0.5) / WIDTH);
+        pixels[4 * i + 1] = (float)((i / WIDTH + 0.5) / HEIGHT);
+        pixels[4 * i + 2] = pixels[4 * i + 3] = 1;
+    }
+    shot_plate(s, pixels);
+    free(pixels);
+}
+
+static double mirrored(double x)
+{
+    return 1 - fabs(1 - (x - 2 * floor(x / 2)));
+}
+
+/* In the style of the paper always, mirrored at the borders; by Snell where the picture has it. To 3 % of the
+ * picture, as copies
+ * are coarse. */
+static void compare_lookup(shot *s, int *compared, int *beyond)
+{
+    float *vectors = malloc(16ull * WIDTH * HEIGHT);
+    memcpy(vectors, shot_draw(s, true), 16ull * WIDTH * HEIGHT);
+    const float *colors = shot_draw(s, false);
+    const bool paper = s->settings.style == VIRGA_GLASS_STYLE_PAPER;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float *v = vectors + 4 * i, *c = colors + 4 * i;
+        const double x = (i % WIDTH + 0.5 + (double)v[0]) / WIDTH, y = (i / WIDTH + 0.5 + (double)v[1]) / HEIGHT;
+        const bool inside = x > 0.16 && x < 0.84 && y > 0.16 && y < 0.84;
+        if (v[2] < 1 || (v[0] == 0 && v[1] == 0) || (!paper && !inside))
+            continue;
+        *compared += 1;
+        *beyond += x < -0.1 || x > 1.1 || y < -0.1 || y > 1.1;
+        assert_float_equal((double)c[0] / (double)c[2], mirrored(x), 0.03);
+        assert_float_equal((double)c[1] / (double)c[2], mirrored(y), 0.03);
+    }
+    free(vectors);
+}
+
+static void the_picture_is_looked_up_where_the_vectors_say(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    int compared = 0, beyond = 0;
+    open_small(&s);
+    put_places(&s);
+    put_balls(&s, balls, 20);
+    shot_face(&s, -1, 30);
+    s.settings.gain = 0;
+    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    compare_lookup(&s, &compared, &beyond);
+    print_message("%d compared\n", compared);
+    REQUIRE(compared > 300);
+    s.settings.style = VIRGA_GLASS_STYLE_PAPER;
+    s.settings.paper_shift = 4;
+    compared = 0;
+    compare_lookup(&s, &compared, &beyond);
+    REQUIRE(compared > 1000 && beyond > 200);
+    shot_close(&s);
+}
+
+/* ---- where, and how often the same */
+
+static double sum_of_alpha(const float *pixels, int from_column, int to_column)
+{
+    double sum = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        if (i % WIDTH >= from_column && i % WIDTH < to_column)
+            sum += (double)pixels[4 * i + 3];
+    return sum;
+}
+
+static void the_scene_hides_what_is_behind_it(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    s.give_depth = true;
+    const double distance = fabs(s.camera.position_m[2]);
+    const float *p = s.camera.clip_from_view;
+    for (int nearer = 0; nearer < 2; nearer++) {
+        s.scene_depth = (float)(-(double)p[10] + (double)p[14] / (distance * (nearer ? 0.95 : 1.05)));
+        const double alpha = sum_of_alpha(shot_draw(&s, false), 0, WIDTH);
+        REQUIRE(nearer ? alpha == 0 : alpha > 1000);
+    }
+    shot_close(&s);
+}
+
+static void nothing_is_drawn_where_there_is_no_glass(void **state)
+{
+    (void)state;
+    static const uint8_t half[2] = {0, 1};
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    virga_glass_shape shape = virga_default_glass_shape();
+    shape.mask = half;
+    shape.mask_columns = 2;
+    shape.mask_rows = 1;
+    REQUIRE(virga_glass_shape_set(s.glass, &shape) == VIRGA_OK);
+    shot_step(&s, 1);
+    put_balls(&s, balls, PLACES);
+    const float *pixels = shot_draw(&s, false);
+    REQUIRE(sum_of_alpha(pixels, 0, WIDTH / 2 - 1) == 0);
+    REQUIRE(sum_of_alpha(pixels, WIDTH / 2 + 1, WIDTH) > 1000);
+    shot_close(&s);
+}
+
+/* A frame's map and pixels, with film and beads; to be freed. */
+static float *whole_frame(const char *threads, bool share, size_t *count)
+{
+    shot s;
+    ball balls[PLACES];
+    setenv("LP_NUM_THREADS", threads, 1);
+    open_small(&s);
+    if (share)
+        REQUIRE(glass_picture_share(s.glass) == VIRGA_OK);
+    put_places(&s);
+    put_balls(&s, balls, PLACES);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = i % 5 * 20;
+        s.passed[i] = i % 2 * s.glass->last_tick;
+    }
+    for (int again = 0; again < 2; again++) {
+        const float *pixels = shot_draw(&s, false);
+        *count = 4ull * (s.columns * s.rows + WIDTH * HEIGHT);
+        if (!again)
+            continue;
+        float *all = malloc(*count * 4);
+        memcpy(all, s.map, 16ull * s.columns * s.rows);
+        memcpy(all + 4ull * s.columns * s.rows, pixels, 16ull * WIDTH * HEIGHT);
+        shot_close(&s);
+        return all;
+    }
+    return NULL;
+}
+
+static void the_same_bits_come_out_every_time(void **state)
+{
+    (void)state;
+    size_t count = 0;
+    float *first = whole_frame("1", false, &count);
+    for (int i = 0; i < 3; i++) {
+        float *other = whole_frame(i == 1 ? "1" : "2", i == 2, &count);
+        if (memcmp(first, other, count * 4))
+            fail_msg("other bits in run %d", i);
+        free(other);
+    }
+    free(first);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_map_is_that_of_the_reference),
+        cmocka_unit_test(a_drop_alone_is_a_cap),
+        cmocka_unit_test(weights_sum_to_one),
+        cmocka_unit_test(merged_drops_have_no_crease),
+        cmocka_unit_test(a_drop_bends_light_by_snell),
+        cmocka_unit_test(a_flat_film_does_not_bend),
+        cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
+        cmocka_unit_test(the_scene_hides_what_is_behind_it),
+        cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
+        cmocka_unit_test(the_same_bits_come_out_every_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
