@@ -106,7 +106,7 @@ VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bin
     VkDescriptorImageInfo images[VIRGA_MAX_BINDINGS];
     uint32_t count = 0;
     for (uint32_t i = 0; i < bindings->count; i++) {
-        if (!bound[i].buffer && !bound[i].view)
+        if (!bound[i].buffer && !bound[i].view && !bound[i].texels)
             continue; /* no pass that is recorded with this set reads it */
         writes[count] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                                .dstSet = set,
@@ -117,7 +117,8 @@ VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bin
             (VkDescriptorBufferInfo){bound[i].buffer, bound[i].offset, bound[i].range ? bound[i].range : VK_WHOLE_SIZE};
         images[count] = (VkDescriptorImageInfo){bound[i].sampler, bound[i].view, bound[i].image_layout};
         writes[count].pBufferInfo = bound[i].buffer ? &buffers[count] : NULL;
-        writes[count].pImageInfo = bound[i].buffer ? NULL : &images[count];
+        writes[count].pImageInfo = bound[i].view ? &images[count] : NULL;
+        writes[count].pTexelBufferView = bound[i].texels ? &bound[i].texels : NULL;
         count++;
     }
     context->vk.UpdateDescriptorSets(context->device, count, writes, 0, NULL);

@@ -34,6 +34,7 @@ typedef struct virga_resource {
 typedef struct virga_buffer {
     virga_resource resource; /* first */
     VkBuffer buffer;
+    VkBufferView texels; /* as R32G32B32A32_UINT, where it was made with the usage of a uniform texel buffer */
     VkDeviceSize size;
     virga_memory memory;
     bool coherent;
@@ -258,6 +259,7 @@ typedef struct virga_bindings {
 typedef struct virga_bound {
     VkBuffer buffer;
     VkDeviceSize offset, range;
+    VkBufferView texels;
     VkImageView view;
     VkImageLayout image_layout;
     VkSampler sampler;

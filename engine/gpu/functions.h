@@ -27,6 +27,8 @@
     X(InvalidateMappedMemoryRanges) \
     X(CreateBuffer)                 \
     X(DestroyBuffer)                \
+    X(CreateBufferView)             \
+    X(DestroyBufferView)            \
     X(GetBufferMemoryRequirements)  \
     X(BindBufferMemory)             \
     X(CreateImage)                  \

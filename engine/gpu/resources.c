@@ -19,6 +19,10 @@ void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, 
 static void buffer_destroy(virga_context *context, virga_resource *resource)
 {
     virga_buffer *buffer = (virga_buffer *)resource;
+    if (buffer->texels) {
+        context->vk.DestroyBufferView(context->device, buffer->texels, NULL);
+        context->objects--;
+    }
     if (buffer->buffer) {
         context->vk.DestroyBuffer(context->device, buffer->buffer, NULL);
         context->objects--;
@@ -45,6 +49,21 @@ static virga_result check_limit(virga_context *context, const char *name, const 
     virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "%s: %llu %s, and the device allows %llu",
                   name, (unsigned long long)value, what, (unsigned long long)limit);
     return VIRGA_ERROR_UNSUPPORTED;
+}
+
+/* A view of the whole of it, for shaders that fetch texels. */
+static virga_result create_texels(virga_context *context, const char *name, virga_buffer *buffer)
+{
+    virga_result result = VIRGA_OK;
+    const VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                         .buffer = buffer->buffer,
+                                         .format = VK_FORMAT_R32G32B32A32_UINT,
+                                         .range = VK_WHOLE_SIZE};
+    TRY(check_limit(context, name, "texels", buffer->size / 16, context->properties.limits.maxTexelBufferElements));
+    VK_TRY(context, CreateBufferView(context->device, &info, NULL, &buffer->texels));
+    context->objects++;
+error:
+    return result;
 }
 
 virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
@@ -80,6 +99,8 @@ virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBu
     buffer->coherent = context->memory_properties.memoryTypes[buffer->memory.type_index].propertyFlags &
                        VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     virga_set_name(context, VK_OBJECT_TYPE_BUFFER, (uint64_t)buffer->buffer, name);
+    if (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)
+        TRY(create_texels(context, name, buffer));
     *created = buffer;
     return VIRGA_OK;
 error:

@@ -154,8 +154,8 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
          device, "rain.impacts"},
         {&rain->pick_buffer, VIRGA_PICK_BYTES(slots), storage, device, "rain.picks"},
         {&rain->list_buffer, sizeof(virga_list_gpu) + slots * sizeof(uint32_t), indirect, device, "rain.list"},
-        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu), storage, device,
-         "rain.streaks"},
+        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu),
+         storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, device, "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
         {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
         {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
@@ -259,6 +259,10 @@ virga_result virga_rain_create(virga_context *context, const virga_rain_def *def
     virga_result result = check_def(&context->log, def, &checked);
     if (result)
         return result;
+    /* Vertex shaders read a streak as texels. */
+    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
+    checked.max_streaks = virga_clamp_setting_u32(&context->log, "rain_def.max_streaks", checked.max_streaks, 256,
+                                                  texels / (uint32_t)(sizeof(virga_streak_gpu) / 16), NULL);
     virga_rain *made = virga_alloc(&context->heap, sizeof *made);
     if (!made)
         return virga_out_of_host_memory(context, "rain");

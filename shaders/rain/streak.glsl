@@ -2,8 +2,9 @@
 // than it is drawn.
 //
 // Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
-// vertices cost software Vulkan half as much again.
-layout(scalar, set = 0, binding = 7) readonly buffer Streaks { virga_streak_gpu streaks[]; };
+// vertices cost software Vulkan half as much again. The buffer is read as texels: those are fetched for eight vertices
+// at once there, and a storage buffer word by word and vertex by vertex.
+layout(set = 0, binding = 17) uniform usamplerBuffer streaks; // a virga_streak_gpu is four texels
 
 struct Streak {
     vec3 centre, rim; // radiance
@@ -17,12 +18,13 @@ struct Streak {
 
 Streak streak_corner(uint vertex)
 {
-    const virga_streak_gpu record = streaks[vertex >> 2];
-    const vec2 head = vec2(record.head[0], record.head[1]), tail = vec2(record.tail[0], record.tail[1]);
-    const vec2 width_alpha = unpackHalf2x16(record.width_alpha), body_wave = unpackHalf2x16(record.body_wave);
-    const vec2 turns = unpackHalf2x16(record.turns);
-    const vec2 light[3] = vec2[3](unpackHalf2x16(record.light[0]), unpackHalf2x16(record.light[1]),
-                                  unpackHalf2x16(record.light[2]));
+    const int texel = int(vertex & ~3u); // four corners, four texels
+    const uvec4 ends = texelFetch(streaks, texel), depths = texelFetch(streaks, texel + 1),
+                shape = texelFetch(streaks, texel + 2), lit = texelFetch(streaks, texel + 3);
+    const vec2 head = uintBitsToFloat(ends.xy), tail = uintBitsToFloat(ends.zw);
+    const vec2 width_alpha = unpackHalf2x16(shape.x), body_wave = unpackHalf2x16(shape.y);
+    const vec2 turns = unpackHalf2x16(shape.z);
+    const vec2 light[3] = vec2[3](unpackHalf2x16(lit.x), unpackHalf2x16(lit.y), unpackHalf2x16(lit.z));
     const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const vec2 way = (head - tail) * half_viewport;
     const bool at_head = (vertex & 2u) != 0u;
@@ -43,11 +45,12 @@ Streak streak_corner(uint vertex)
     const float margin = 0.5 * streak.body_px + 0.5;
     streak.across = ((vertex & 1u) == 0u ? -1.0 : 1.0) * (streak.half_width + 0.5);
     streak.along = at_head ? streak.way_px + margin : -margin;
-    streak.distance = record.distance[at_head ? 0 : 1];
+    streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
     const vec2 side = vec2(-along.y, along.x);
     const vec2 corner = (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // The same w at all corners, so that everything is interpolated without perspective.
-    streak.position = streak.alpha > 0.0 ? vec4(corner, record.depth[at_head ? 0 : 1], 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    const float depth = uintBitsToFloat(at_head ? depths.x : depths.y);
+    streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     return streak;
 }
 

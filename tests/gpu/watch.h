@@ -14,6 +14,7 @@
     X(Buffer)              \
     X(Image)               \
     X(ImageView)           \
+    X(BufferView)          \
     X(Sampler)             \
     X(ShaderModule)        \
     X(DescriptorSetLayout) \
@@ -125,6 +126,7 @@ static inline void watch_uncount(watch_kind kind, bool object)
 #define watch_see_Buffer(info)
 #define watch_see_Image(info)
 #define watch_see_ImageView(info)
+#define watch_see_BufferView(info)
 #define watch_see_Sampler(info)
 #define watch_see_ShaderModule(info)
 #define watch_see_DescriptorSetLayout(info)
