@@ -316,6 +316,19 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
     return VIRGA_OK;
 }
 
+/* What the host's side needs of it. */
+static void remember(virga_glass *glass, const virga_glass_node_gpu *nodes)
+{
+    glass->farthest_m = 0;
+    for (uint32_t i = 0; i < NODES * NODES; i++) {
+        const float *p = nodes[i].position, far = sqrtf(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        memcpy(glass->normals[i], nodes[i].normal, sizeof glass->normals[i]);
+        glass->farthest_m = far > glass->farthest_m ? far : glass->farthest_m;
+    }
+    for (uint32_t i = 0; i < 9; i++)
+        memcpy(glass->outline[i], nodes[(i % 3 + i / 3 * NODES) * (NODES / 2)].position, sizeof glass->outline[i]);
+}
+
 /* Made whole in new upload buffers, which the next step copies. */
 virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *shape)
 {
@@ -337,12 +350,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
         goto error;
     }
     fill_cells(glass, shape, cells->memory.block.mapped);
-    for (uint32_t i = 0; i < NODES * NODES; i++)
-        memcpy(glass->normals[i], ((virga_glass_node_gpu *)nodes->memory.block.mapped)[i].normal, sizeof glass->normals[i]);
-    for (uint32_t i = 0; i < 9; i++)
-        memcpy(glass->outline[i],
-               ((virga_glass_node_gpu *)nodes->memory.block.mapped)[(i % 3 + i / 3 * NODES) * (NODES / 2)].position,
-               sizeof glass->outline[i]);
+    remember(glass, nodes->memory.block.mapped);
     virga_buffer_flush(context, cells, 0, cells->size);
     virga_buffer_flush(context, nodes, 0, nodes->size);
     VIRGA_RETIRE(context, glass->surface_upload);

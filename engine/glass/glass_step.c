@@ -101,6 +101,11 @@ static void to_pane(const virga_glass_step_info *info, const double world[3], do
                       : (double)m[3 * i] * world[0] + (double)m[3 * i + 1] * world[1] + (double)m[3 * i + 2] * world[2];
 }
 
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
 static void store(const double from[3], float out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -250,6 +255,10 @@ static void fill_place(const virga_glass *glass, const virga_glass_step_info *in
     store(local, out->spin);
     to_pane(info, air, local);
     store(local, out->air);
+    /* What acts anywhere on the pane, at most: turning pulls the more the farther from the axis. */
+    const double spin = length_of(turn);
+    out->most_pull = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
+    out->most_air = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
     out->pane = (virga_glass_pane_gpu){.columns = glass->columns,
                                        .rows = glass->rows,
                                        .cell_m = glass->def.cell_m,

@@ -162,7 +162,7 @@ typedef struct virga_glass_settings {
 
     /* What holds drops. A drop whose base has the radius a is held by up to 24 / pi^3 x surface tension x 2 a x
      * (cos receding - cos advancing) (Furmidge 1962; the factor: ElSherbini and Jacobi 2006). */
-    float advancing_deg, receding_deg; /* [5; 175], [1; advancing] contact angles. Default those of _KIND_PAPER: 60 and 38 */
+    float advancing_deg, receding_deg; /* [5; 175], [1; advancing] contact angles. Default those of _KIND_PAPER: 63 and 38 */
     float drag;            /* [0.01; 100] multiplies the resistance of a running drop, which is that of its wedge and its
                             * bulk (Huh and Scriven 1971; Kim, Lee and Kang 2002). Default 1 */
     float run_hold;        /* [0; 1] share of what holds a resting drop that still holds a running one. Default 0.6 */

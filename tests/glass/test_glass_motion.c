@@ -1,0 +1,393 @@
+/* How drops move: what holds them, the way they meander, what they leave behind, and how blades and particles meet them. */
+#include "glass_fixture.h"
+
+#include <math.h>
+
+#define NL_OF_M3 1e12
+
+static glass_fixture f;
+
+/* Water of a drop whose base has that radius, nl. */
+static uint32_t water_of(double radius_m)
+{
+    return (uint32_t)(glass_cap_volume(glass_rest_deg(&f.settings)) * radius_m * radius_m * radius_m * NL_OF_M3);
+}
+
+static const virga_glass_drop_gpu *only_drop(void)
+{
+    const virga_glass_drop_gpu *found = NULL;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP && (!found || f.drops[i].water_nl > found->water_nl))
+            found = &f.drops[i];
+    return found;
+}
+
+/* Even glass on which drops leave nothing behind. */
+static void open_even(const virga_glass_def *def)
+{
+    glass_fixture_open(&f, def);
+    f.settings.affinity = 0;
+    f.settings.tail_mm = 0;
+    f.settings.film_um = 0;
+    f.settings.evaporation_mm_h = 0;
+    f.settings.mist_mm = 0;
+}
+
+/* ---- what holds drops */
+
+static bool runs(double radius_m, double tilt_deg)
+{
+    open_even(NULL);
+    const float c = (float)cos(tilt_deg * M_PI / 180), s = (float)sin(tilt_deg * M_PI / 180);
+    const float lean[9] = {1, 0, 0, 0, c, -s, 0, s, c}; /* leaning back from upright by the tilt */
+    memcpy(f.info.world_from_pane, lean, sizeof lean);
+    glass_fixture_land(&f, 0.08, 0.1, water_of(radius_m));
+    glass_fixture_step(&f, 60, true);
+    const virga_glass_drop_gpu *drop = only_drop();
+    const bool moved = !drop || drop->velocity[0] != 0 || drop->velocity[1] != 0;
+    glass_fixture_close(&f);
+    return moved;
+}
+
+static void drops_run_from_a_radius_of_2_2_mm_on_upright_paper_glass(void **unused)
+{
+    (void)unused;
+    assert_false(runs(2.15e-3, 0));
+    assert_true(runs(2.25e-3, 0));
+}
+
+/* The radius goes with one over the root of the slope: a pane that leans by 60 degrees feels half of gravity. */
+static void a_leaning_pane_holds_larger_drops(void **unused)
+{
+    (void)unused;
+    const double critical = 2.2e-3 / sqrt(cos(60 * M_PI / 180));
+    assert_false(runs(critical * 0.97, 60));
+    assert_true(runs(critical * 1.03, 60));
+}
+
+static void cap_volume_is_the_hemisphere_at_90_degrees(void **unused)
+{
+    (void)unused;
+    assert_true(fabs(glass_cap_volume(90) - 2 * M_PI / 3) < 1e-12);
+    /* A flat cap is a parabola of half the height of its cone: pi a^2 h / 2 with h = a tan(t / 2). */
+    assert_true(fabs(glass_cap_volume(2) / (M_PI / 2 * tan(M_PI / 180)) - 1) < 1e-3);
+}
+
+/* On even glass v goes to (F - H) / C. */
+static void a_running_drop_reaches_its_terminal_speed(void **unused)
+{
+    (void)unused;
+    virga_glass_def def = glass_fixture_def();
+    def.height_m = 0.6f;
+    open_even(&def);
+    f.settings.meander = 0;
+    f.settings.path_ease = 0;
+    const double radius = 2.4e-3, mass = water_of(radius) * 0.9982e-9;
+    const double pulled = mass * VIRGA_GRAVITY, held = (double)f.settings.run_hold * glass_hold(&f.settings) * radius;
+    const double expected = (pulled - held) / (glass_drag(&f.settings) * radius);
+    glass_fixture_land(&f, 0.08, 0.58, water_of(radius));
+    glass_fixture_step(&f, 60, true);
+    const virga_glass_drop_gpu *drop = only_drop();
+    REQUIRE(drop);
+    print_message("terminal speed %.4f m/s, expected %.4f\n", -(double)drop->velocity[1], expected);
+    assert_true(fabs(-(double)drop->velocity[1] / expected - 1) < 0.01);
+    const double way = 0.58 - (double)drop->position[1];
+    assert_true(fabs(way / (expected * 59 / 60.0) - 1) < 0.12); /* less the start and what the drawing lags */
+    glass_fixture_close(&f);
+}
+
+/* ---- meander */
+
+#define LANES  4 /* drops that run side by side, too far apart to meet */
+#define TOP_M  0.29
+#define DOWN_M 0.25 /* that they run before they are looked at */
+
+typedef struct paths {
+    double mean, deviation; /* of u when a drop has come down by DOWN_M, less where it began */
+    uint32_t count;
+} paths;
+
+static const virga_glass_drop_gpu *drop_of(uint32_t id)
+{
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (f.drops[i].id == id && glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP)
+            return &f.drops[i];
+    return NULL;
+}
+
+static void open_tall(uint32_t seed, float affinity)
+{
+    virga_glass_def def = glass_fixture_def();
+    def.seed = seed;
+    def.width_m = 0.5f;
+    def.height_m = 0.3f;
+    open_even(&def);
+    f.settings.affinity = affinity;
+}
+
+/* Drops of 3 mm released at four spots of a tall pane, each of them on new glass; linear between two looks. */
+static void run_lanes(double *sum, double *squares, uint32_t *count)
+{
+    uint32_t ids[LANES];
+    double before[LANES][2];
+    bool seen[LANES] = {false};
+    for (uint32_t i = 0; i < LANES; i++) {
+        before[i][0] = 0.06 + 0.09 * i;
+        before[i][1] = TOP_M;
+        ids[i] = glass_fixture_land(&f, before[i][0], TOP_M, water_of(3e-3))->id;
+    }
+    for (uint32_t done = 0, tick = 0; done < LANES && tick < 400; tick += 8) {
+        glass_fixture_step(&f, 8, true);
+        for (uint32_t i = 0; i < LANES; i++) {
+            const virga_glass_drop_gpu *drop = drop_of(ids[i]);
+            if (seen[i] || (!drop && before[i][1] == TOP_M))
+                continue;
+            const double now[2] = {drop ? (double)drop->position[0] : before[i][0], drop ? (double)drop->position[1] : 0};
+            if (now[1] <= TOP_M - DOWN_M) {
+                const double t = (before[i][1] - (TOP_M - DOWN_M)) / (before[i][1] - now[1]);
+                const double off = before[i][0] + t * (now[0] - before[i][0]) - (0.06 + 0.09 * i);
+                *sum += off;
+                *squares += off * off;
+                (*count)++;
+                done++;
+                seen[i] = true;
+            }
+            before[i][0] = now[0];
+            before[i][1] = now[1];
+        }
+    }
+}
+
+static paths release(uint32_t panes, float affinity, float wind_m_s)
+{
+    double sum = 0, squares = 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < panes; i++) {
+        open_tall(100 + i, affinity);
+        f.info.wind_m_s[0] = wind_m_s;
+        run_lanes(&sum, &squares, &count);
+        glass_fixture_close(&f);
+    }
+    REQUIRE(count == panes * LANES);
+    return (paths){.mean = sum / count, .deviation = sqrt(squares / count - sum * sum / count / count), .count = count};
+}
+
+static void drops_run_straight_down_on_average_and_spread_with_affinity(void **unused)
+{
+    (void)unused;
+    const paths all[3] = {release(6, 0, 0), release(10, 0.6f, 0), release(10, 1.6f, 0)};
+    for (int i = 0; i < 3; i++) {
+        print_message("mean %.4f m, deviation %.4f m of %u\n", all[i].mean, all[i].deviation, all[i].count);
+        assert_true(fabs(all[i].mean) < 3 * all[i].deviation / sqrt(all[i].count) + 5e-4);
+    }
+    assert_true(all[0].deviation < all[1].deviation && all[1].deviation < all[2].deviation);
+}
+
+/* What holds and what drags lie along the way, so the way is that of the force. */
+static void wind_from_the_side_tilts_the_mean_as_the_force(void **unused)
+{
+    (void)unused;
+    const float wind = 14;
+    virga_glass_settings s = virga_default_glass_settings();
+    const double angle = glass_rest_deg(&s) * M_PI / 180, a = 3e-3;
+    const double section = (angle - sin(angle) * cos(angle)) / (sin(angle) * sin(angle));
+    const double along = (double)wind * (double)s.air_share;
+    const double aside = 0.5 * VIRGA_AIR_DENSITY * 0.9 * section * a * a * along * along;
+    const double down = glass_cap_volume(glass_rest_deg(&s)) * a * a * a * VIRGA_WATER_DENSITY * VIRGA_GRAVITY;
+    const paths tilted = release(6, 0.3f, wind);
+    print_message("mean %.4f m, expected %.4f\n", tilted.mean, aside / down * DOWN_M);
+    assert_true(aside / down > 0.1);
+    assert_true(fabs(tilted.mean - aside / down * DOWN_M) < 0.06 * aside / down * DOWN_M + 3 * tilted.deviation / sqrt(tilted.count));
+}
+
+/* Share of the cells of a second drop's path that lie on the first one's. */
+static double overlap(float path_ease)
+{
+    uint32_t common = 0, all = 0;
+    for (uint32_t seed = 0; seed < 8; seed++) {
+        open_tall(seed, 0.6f);
+        f.settings.path_ease = path_ease;
+        f.settings.path_s = 30;
+        uint32_t first = 0;
+        for (int drop = 0; drop < 2; drop++) {
+            first = f.tick;
+            glass_fixture_land(&f, 0.25, TOP_M, water_of(3e-3));
+            for (int i = 0; i < 12 && (i == 0 || only_drop()); i++)
+                glass_fixture_step(&f, 24, true);
+            if (drop == 0)
+                memcpy(f.upload.mapped, f.passed, f.glass->passed->size);
+        }
+        const uint32_t *before = f.upload.mapped;
+        for (uint32_t i = 0; i < f.glass->columns * f.glass->rows; i++)
+            if (f.passed[i] >= first) {
+                all++;
+                common += before[i] != 0;
+            }
+        glass_fixture_close(&f);
+    }
+    REQUIRE(all > 0);
+    return (double)common / all;
+}
+
+static void a_second_drop_follows_the_path_of_the_first(void **unused)
+{
+    (void)unused;
+    const double eased = overlap(0.8f), chance = overlap(0);
+    print_message("on the first one's path: %.2f, by chance %.2f\n", eased, chance);
+    assert_true(eased > chance + 0.1);
+}
+
+/* ---- blades and particles */
+
+/* One blade across a pane that is 0.16 m wide, which the host turns. */
+static void open_blade(float from_deg)
+{
+    open_even(NULL);
+    f.settings.wiper_count = 1;
+    virga_glass_wiper *wiper = &f.settings.wipers[0];
+    wiper->pivot_m[0] = 0.08f;
+    wiper->pivot_m[1] = -0.02f;
+    wiper->reach_m = 0.13f;
+    wiper->blade_m = 0.11f;
+    wiper->drive = VIRGA_GLASS_HOST;
+    wiper->host_deg = from_deg;
+    glass_fixture_step(&f, 1, false);
+}
+
+static void turn_to(float deg, uint32_t ticks)
+{
+    f.settings.wipers[0].host_deg = deg;
+    glass_fixture_step(&f, ticks, true);
+}
+
+static uint32_t count_of(uint32_t kind)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        count += glass_fixture_kind(&f.drops[i]) == kind;
+    return count;
+}
+
+/* Deepest overlap of two particles, in radii. */
+static double deepest_overlap(void)
+{
+    double deepest = 0;
+    const double radius = (double)f.settings.particle_mm * 1e-3;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        for (uint32_t k = 0; k < i; k++) {
+            const virga_glass_drop_gpu *a = &f.drops[i], *b = &f.drops[k];
+            if (glass_fixture_kind(a) != VIRGA_GLASS_PARTICLE || glass_fixture_kind(b) != VIRGA_GLASS_PARTICLE)
+                continue;
+            const double apart = hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
+            deepest = fmax(deepest, 2 - apart / radius);
+        }
+    return deepest;
+}
+
+/* Section 4.4: a drop of the water of three particles becomes three. */
+static void a_drop_becomes_as_many_particles_as_its_water_gives(void **unused)
+{
+    (void)unused;
+    open_blade(60);
+    const uint32_t particle = water_of((double)f.settings.particle_mm * 1e-3);
+    glass_fixture_land(&f, 0.08, 0.06, 3 * particle);
+    turn_to(60, 1);
+    assert_int_equal(count_of(VIRGA_GLASS_DROP), 1);
+    turn_to(120, 20);
+    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 3);
+    assert_int_equal(count_of(VIRGA_GLASS_DROP), 0);
+    uint32_t least = UINT32_MAX, most = 0;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_PARTICLE) {
+            least = f.drops[i].water_nl < least ? f.drops[i].water_nl : least;
+            most = f.drops[i].water_nl > most ? f.drops[i].water_nl : most;
+        }
+    assert_true(most - least <= 1);
+    glass_fixture_close(&f);
+}
+
+static void particles_settle_apart_in_front_of_the_blade(void **unused)
+{
+    (void)unused;
+    open_blade(45);
+    f.info.world_from_pane[0] = 1; /* lying flat, so that nothing but the blade moves them */
+    f.info.world_from_pane[5] = -1;
+    f.info.world_from_pane[7] = 1;
+    for (uint32_t i = 0; i < 40; i++)
+        glass_fixture_land(&f, 0.06 + 0.04 * (double)virga_unit(virga_hash1(i)), 0.03 + 0.06 * (double)virga_unit(virga_hash1(i + 100)),
+                           water_of((double)f.settings.particle_mm * 1e-3));
+    turn_to(45, 1);
+    turn_to(110, 24);
+    assert_in_range(count_of(VIRGA_GLASS_PARTICLE), 20, 40);
+    turn_to(110, 60);
+    print_message("%u particles, deepest overlap %.3f radii\n", count_of(VIRGA_GLASS_PARTICLE), deepest_overlap());
+    assert_true(deepest_overlap() < 0.05);
+    glass_fixture_close(&f);
+}
+
+/* Sections 4.5 and 4.6: particles that the blade left behind become drops, but not beside a large one; once that is gone, within a
+ * second. */
+static void held_particles_become_drops_when_the_way_is_free(void **unused)
+{
+    (void)unused;
+    open_blade(45);
+    f.info.world_from_pane[0] = 1;
+    f.info.world_from_pane[5] = -1;
+    f.info.world_from_pane[7] = 1;
+    f.settings.advancing_deg = 63;
+    glass_fixture_land(&f, 0.08, 0.05, water_of((double)f.settings.particle_mm * 1e-3));
+    turn_to(45, 1);
+    turn_to(90, 12);
+    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 1);
+    const virga_glass_drop_gpu *particle = NULL;
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_PARTICLE)
+            particle = &f.drops[i];
+    REQUIRE(particle);
+    glass_fixture_land(&f, (double)particle->position[0] - 0.005, (double)particle->position[1], water_of(2.5e-3));
+    turn_to(45, 12);
+    turn_to(45, 30);
+    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 1);
+    f.settings.hold_back_mm = 2.6f; /* the large one no longer counts as large */
+    turn_to(45, 60);
+    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 0);
+    assert_true(glass_fixture_count(&f, VIRGA_GLASS_TO_DROPS) == 1);
+    glass_fixture_close(&f);
+}
+
+/* The angle of a wiper has no jumps, and its speed none where it turns. */
+static void wipers_turn_back_smoothly(void **unused)
+{
+    (void)unused;
+    virga_glass_wiper wiper = virga_default_glass_wiper();
+    double before = virga_glass_wiper_deg(&wiper, 0), speed = 0;
+    for (int i = 1; i < 4000; i++) {
+        const double now = virga_glass_wiper_deg(&wiper, i * 1e-3);
+        assert_true(fabs(now - before - speed) < 2e-3);
+        speed = now - before;
+        before = now;
+    }
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 95) < 1e-9);
+    wiper.drive = VIRGA_GLASS_INTERMITTENT;
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 3.0) - 5) < 1e-9);
+    wiper.drive = VIRGA_GLASS_PARKED;
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 5) < 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cap_volume_is_the_hemisphere_at_90_degrees),
+        cmocka_unit_test(drops_run_from_a_radius_of_2_2_mm_on_upright_paper_glass),
+        cmocka_unit_test(a_leaning_pane_holds_larger_drops),
+        cmocka_unit_test(a_running_drop_reaches_its_terminal_speed),
+        cmocka_unit_test(drops_run_straight_down_on_average_and_spread_with_affinity),
+        cmocka_unit_test(wind_from_the_side_tilts_the_mean_as_the_force),
+        cmocka_unit_test(a_second_drop_follows_the_path_of_the_first),
+        cmocka_unit_test(a_drop_becomes_as_many_particles_as_its_water_gives),
+        cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
+        cmocka_unit_test(held_particles_become_drops_when_the_way_is_free),
+        cmocka_unit_test(wipers_turn_back_smoothly),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
