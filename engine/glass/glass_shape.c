@@ -329,6 +329,37 @@ static void remember(virga_glass *glass, const virga_glass_node_gpu *nodes)
         memcpy(glass->outline[i], nodes[(i % 3 + i / 3 * NODES) * (NODES / 2)].position, sizeof glass->outline[i]);
 }
 
+static void direction(const float from[3], const float to[3], double out[3])
+{
+    subtract(to, from, out);
+    if (!normalise(out))
+        out[0] = 1;
+}
+
+void virga_glass_rectangle(const virga_glass *glass, float corner[3], float along_u[3], float along_v[3], float *width_m,
+                           float *height_m)
+{
+    if (!glass || !corner || !along_u || !along_v || !width_m || !height_m)
+        return;
+    double u[3], v[3], n[3], middle[3] = {0, 0, 0};
+    direction(glass->outline[0], glass->outline[2], u);
+    direction(glass->outline[0], glass->outline[6], v);
+    cross(u, v, n);
+    normalise(n);
+    cross(n, u, v); /* at right angles, as a rectangle's sides are */
+    for (int i = 0; i < 9; i++)
+        for (int axis = 0; axis < 3; axis++)
+            middle[axis] += (double)glass->outline[i][axis] / 9;
+    for (int axis = 0; axis < 3; axis++) {
+        along_u[axis] = (float)u[axis];
+        along_v[axis] = (float)v[axis];
+        corner[axis] = (float)(middle[axis] - 0.5 * (double)glass->def.width_m * u[axis] -
+                               0.5 * (double)glass->def.height_m * v[axis]);
+    }
+    *width_m = glass->def.width_m;
+    *height_m = glass->def.height_m;
+}
+
 /* Made whole in new upload buffers, which the next step copies. */
 virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *shape)
 {

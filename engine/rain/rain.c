@@ -3,6 +3,11 @@
 
 #include "core/light.h"
 
+#include "shaders/rain_hit_count_comp.spv.h"
+#include "shaders/rain_hit_find_comp.spv.h"
+#include "shaders/rain_hit_place_comp.spv.h"
+#include "shaders/rain_hit_scan_comp.spv.h"
+#include "shaders/rain_hit_write_comp.spv.h"
 #include "shaders/rain_impact_find_comp.spv.h"
 #include "shaders/rain_impact_scan_comp.spv.h"
 #include "shaders/rain_impact_write_comp.spv.h"
@@ -78,6 +83,7 @@ static virga_result check_def(const virga_log *log, const virga_rain_def *given,
     def->max_streaks = virga_clamp_setting_u32(log, "rain_def.max_streaks", def->max_streaks, 256, 4194304, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "rain_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
+    def->max_panes = virga_clamp_setting_u32(log, "rain_def.max_panes", def->max_panes, 0, VIRGA_RAIN_MAX_PANES, NULL);
     def->tick_s = virga_clamp_setting(log, "rain_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     if (def->occlusion_size)
         def->occlusion_size =
@@ -128,6 +134,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
                     (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
+           def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
@@ -135,7 +142,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 /* ---- creating */
 
 /* What rain makes and lets go of, each in one table for both. */
-enum { BUFFERS = 15, PASSES = 10 };
+enum { BUFFERS = 16, PASSES = 15 };
 
 static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 {
@@ -158,6 +165,7 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
          storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, device, "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
         {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
+        {&rain->hit_buffer, rain->def.max_panes * rain_hits_bytes(), storage, device, "rain.hits"},
         {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
          "rain.sways"},
         {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},
@@ -185,6 +193,11 @@ static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
         {&rain->prepare_find, VIRGA_SPIRV(rain_prepare_find_comp), "rain.prepare_find"},
         {&rain->prepare_scan, VIRGA_SPIRV(rain_prepare_scan_comp), "rain.prepare_scan"},
         {&rain->prepare_write, VIRGA_SPIRV(rain_prepare_write_comp), "rain.prepare_write"},
+        {&rain->hit_find, VIRGA_SPIRV(rain_hit_find_comp), "rain.hit_find"},
+        {&rain->hit_scan, VIRGA_SPIRV(rain_hit_scan_comp), "rain.hit_scan"},
+        {&rain->hit_count, VIRGA_SPIRV(rain_hit_count_comp), "rain.hit_count"},
+        {&rain->hit_place, VIRGA_SPIRV(rain_hit_place_comp), "rain.hit_place"},
+        {&rain->hit_write, VIRGA_SPIRV(rain_hit_write_comp), "rain.hit_write"},
         {&rain->points, VIRGA_SPIRV(rain_points_comp), "rain.points"},
     };
     _Static_assert(sizeof all == PASSES * sizeof all[0], "a row for each pass");

@@ -21,13 +21,14 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 15 weights */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 16 list of picked slots */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},     /* 17 streaks as texels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 18 hits of a pane */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
 
 virga_result rain_descriptors_create(virga_rain *rain)
 {
-    return virga_bindings_create(rain->context, kinds, BINDINGS, RAIN_SETS, 0, &rain->bindings);
+    return virga_bindings_create(rain->context, kinds, BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu), &rain->bindings);
 }
 
 static virga_bound bound_buffer(const virga_buffer *buffer, VkDeviceSize range)
@@ -68,15 +69,17 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
         bound_buffer(rain->tick_ring, sizeof((rain_tick_block *)0)->travels),
         bound_buffer(rain->tick_ring, sizeof((rain_tick_block *)0)->weights),
         bound_buffer(rain->list_buffer, 0),
-        {.texels = rain->streak_buffer->texels}};
+        {.texels = rain->streak_buffer->texels},
+        rain->hit_buffer ? bound_buffer(rain->hit_buffer, rain_hits_bytes())
+                         : bound_buffer(unused, sizeof(virga_prepared_gpu))};
     return virga_bindings_write(context, rain->bindings, index, bound);
 }
 
 void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
     const uint32_t tick = rain->tick_offset;
-    const uint32_t offsets[4] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
+    const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
                                  tick + (uint32_t)offsetof(rain_tick_block, travels),
-                                 tick + (uint32_t)offsetof(rain_tick_block, weights)}; /* by binding */
-    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 4, offsets);
+                                 tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset}; /* by binding */
+    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 5, offsets);
 }

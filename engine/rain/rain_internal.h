@@ -124,7 +124,7 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
+        *prepared_buffer, *hit_buffer, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
     virga_mesh_map *map;
     virga_image_2d *blank;      /* depth, for the scene depth that a view has not */
@@ -140,9 +140,11 @@ struct virga_rain {
     VkDescriptorSet step_set; /* of the frame step_set_frame */
     uint64_t step_set_frame;
     virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan,
-        *prepare_write, *list, *points;
+        *prepare_write, *list, *points, *hit_find, *hit_scan, *hit_count, *hit_place, *hit_write;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
 
+    uint64_t hits_frame; /* that hits_panes belongs to */
+    uint32_t hits_panes, hits_offset;
     uint64_t ring_frame; /* frame that the ring cursors below belong to */
     uint32_t ring_ticks, ring_views;
     uint32_t tick_offset, view_offset; /* of the newest tick and view, bytes */
@@ -182,6 +184,9 @@ typedef struct rain_view_block {
 /* Bytes that one tick or view takes in its ring. */
 uint32_t rain_tick_bytes(void);
 uint32_t rain_view_bytes(void);
+
+/* ---- rain_hits.c: bytes of one pane's hits. */
+VkDeviceSize rain_hits_bytes(void);
 
 /* ---- rain_descriptors.c */
 virga_result rain_descriptors_create(virga_rain *rain);

@@ -41,12 +41,18 @@ float level_share(float radius, uint level)
     return max(box_share(radius, half_side) - inner, 0.0);
 }
 
-// Drops that a slot stands for, at a place relative to the origin; 0: the slot is not in use here and now.
-float drop_weight(vec3 p, uint level, uint size_class, uint rank)
+// Drops that a slot stands for where its box is the only one.
+float full_weight(uint level, uint size_class, uint rank)
 {
     const virga_weight_gpu weight = weights[level * VIRGA_RAIN_CLASSES + size_class];
     const float presence = clamp((weight.threshold - float(rank) * (1.0 / 65536.0)) / RANK_SOFTNESS, 0.0, 1.0);
-    return presence * weight.drops * level_share(box_radius(p), level);
+    return presence * weight.drops;
+}
+
+// The same at a place relative to the origin; 0: the slot is not in use here and now.
+float drop_weight(vec3 p, uint level, uint size_class, uint rank)
+{
+    return full_weight(level, size_class, rank) * level_share(box_radius(p), level);
 }
 
 // Where the line of fall through a place first meets something.

@@ -15,6 +15,7 @@ typedef struct virga_tick_gpu virga_tick_gpu;
 typedef struct virga_map_gpu virga_map_gpu;
 typedef struct virga_rain_look_gpu virga_rain_look_gpu;
 typedef struct virga_streak_gpu virga_streak_gpu;
+typedef struct virga_rain_pane_gpu virga_rain_pane_gpu;
 typedef struct virga_sway_gpu virga_sway_gpu;
 typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
@@ -95,6 +96,20 @@ struct virga_rain_look_gpu {
     uint max_streaks;
 };
 
+/* A pane that drops are caught on, at the end of a step. */
+struct virga_rain_pane_gpu {
+    float corner[3];     /* relative to the origin of the step */
+    float width_m;
+    float along_u[3];    /* unit length */
+    float height_m;
+    float along_v[3];
+    float step_s;        /* length of the step */
+    float velocity[3];   /* m/s */
+    uint first_tick;
+    uint ticks;
+    uint groups;         /* workgroups of slots that may reach it */
+};
+
 /* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
 struct virga_streak_gpu {
     float head[2];       /* where it is at the shutter's end (or where the drop met something), normalised device x, y */
@@ -143,6 +158,7 @@ VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 72);
+VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);

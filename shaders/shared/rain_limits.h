@@ -8,6 +8,8 @@
 #define VIRGA_RAIN_MAX_CASCADES 4
 #define VIRGA_RAIN_MAX_SLANTS 4
 #define VIRGA_RAIN_MAX_MAPS 16    /* cascades x slants */
+#define VIRGA_RAIN_MAX_PANES 8      /* that drops are caught on in a frame */
+#define VIRGA_RAIN_MAX_HITS 8192    /* drops that meet one of them in a step */
 #define VIRGA_RAIN_MAX_VIEWS 16     /* prepares a frame */
 #define VIRGA_RAIN_MAX_TARGETS 8    /* kinds of target attached at once */
 #define VIRGA_RAIN_ID_SLOT_BITS 22 /* low bits of an id: the slot; the rest tells the slot's drops apart */

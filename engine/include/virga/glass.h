@@ -92,6 +92,11 @@ VIRGA_API virga_result virga_glass_from_mesh(const float *positions, const float
                                              const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
                                              uint32_t columns, uint32_t rows, float *grid, uint8_t *mask);
 
+/* The rectangle that stands for the pane where drops are caught on a plane (virga_rain_pane): of its width and height, around
+ * the middle of its corners; in its own frame. along_u and along_v have unit length. */
+VIRGA_API void virga_glass_rectangle(const virga_glass *glass, float corner[3], float along_u[3], float along_v[3],
+                                     float *width_m, float *height_m);
+
 /* ---- settings -------------------------------------------------------------------------------------------------- */
 
 typedef enum virga_glass_drive {
@@ -253,7 +258,8 @@ typedef struct virga_glass_step_info {
     const virga_sizes *sizes;      /* (optional) of its drops. NULL: Marshall and Palmer */
     float air_density;             /* kg/m^3; 0: VIRGA_AIR_DENSITY */
     VkBuffer impacts;              /* (optional) drops that hit this pane: virga_impacts_gpu and virga_impact_gpu, positions (u, v, -) on
-                                    * the pane; they land beside those of the rate. Ready to be read by compute */
+                                    * the pane; they land beside those of the rate, as virga_rain_hits gives them.
+                                    * Ready to be read by compute. At most 8192 */
     VkDeviceSize impacts_offset;
 } virga_glass_step_info;
 

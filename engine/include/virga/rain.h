@@ -47,6 +47,7 @@ typedef struct virga_rain_def {
                                 * Memory: 8 bytes x size^2 x cascades x slants. Default 2 */
     uint32_t occluder_strides[4]; /* the vertex strides (bytes) that occluders will have: a pipeline each, as Vulkan 1.2
                             * fixes strides there. 0: unused. Default 12, 32, 0, 0 */
+    uint32_t max_panes;    /* [0; 8] panes that virga_rain_hits may be asked for in a frame, 544 KiB each. Default 0 */
     bool points;           /* room for virga_rain_points: 48 bytes a slot. Default false */
     bool wind_texture;     /* room to integrate drops in a host's 3D wind. Default false */
 } virga_rain_def;
@@ -180,6 +181,23 @@ typedef struct virga_rain_buffer {
 } virga_rain_buffer;
 
 VIRGA_API void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *impacts);
+
+/* A pane that drops fall on: a rectangle, moving evenly. */
+typedef struct virga_rain_pane {
+    double corner_m[3];      /* in the world, at the end of the newest step */
+    float along_u[3], along_v[3]; /* unit length: its sides from there; the cross product of both points to the outside, which is
+                              * where drops come from */
+    float width_m, height_m; /* (0; 100] along u, along v */
+    float velocity_m_s[3];   /* in the world: the faster it goes the more drops it meets */
+} virga_rain_pane;
+
+/* The drops that met a pane in the newest step, as impacts with positions (u, v, 0) in metres on it: a virga_impacts_gpu, then
+ * up to VIRGA_RAIN_MAX_HITS x virga_impact_gpu. What falls under a cover of the occlusion maps
+ * does not count; slots that stand for several drops have them scattered around. The first drop of a slot has the id of its streak.
+ * Outside rendering, after the step, in its frame; ready for compute and transfers. The pane does not stop the drops: hide
+ * their streaks by depth. VIRGA_NOT_READY before the first step of a frame. */
+VIRGA_API virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
+                                       virga_rain_buffer *hits);
 
 /* The drops of the newest tick: def.max_drops (rounded, see count) x virga_drop_gpu (virga/shared/drop.h), positions
  * relative to `origin_m`. */

@@ -1,0 +1,123 @@
+/* rain/rain_hits.c - drops that meet a pane: a windshield, a visor, the front of a camera. */
+#include "rain/rain_internal.h"
+
+#include <math.h>
+
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+
+#define HITS_SIZE (sizeof(virga_impacts_gpu) + VIRGA_RAIN_MAX_HITS * sizeof(virga_impact_gpu))
+
+VkDeviceSize rain_hits_bytes(void)
+{
+    const VkDeviceSize size = HITS_SIZE + VIRGA_RAIN_MAX_HITS * sizeof(uint32_t); /* and where each slot's go */
+    return (size + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT;
+}
+
+static bool unit_length(const float v[3])
+{
+    const double squared = (double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2];
+    return fabs(squared - 1) < 1e-3;
+}
+
+static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane)
+{
+    const virga_log *log = &rain->context->log;
+    if (!cmd || !pane)
+        return virga_wrong_argument(log, "virga_rain_hits: NULL argument");
+    if (rain->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (virga_settings_finite_double(log, "rain_pane.corner_m", pane->corner_m, 3) ||
+        virga_settings_finite(log, "rain_pane.velocity_m_s", pane->velocity_m_s, 3))
+        return VIRGA_ERROR_INVALID;
+    if (!unit_length(pane->along_u) || !unit_length(pane->along_v))
+        return virga_wrong_argument(log, "rain_pane: expected along_u and along_v of unit length");
+    if (!(pane->width_m > 0 && pane->width_m <= 100 && pane->height_m > 0 && pane->height_m <= 100))
+        return virga_wrong_argument(log, "rain_pane: expected a width and height of up to 100 m, got %g x %g",
+                                    (double)pane->width_m, (double)pane->height_m);
+    if (rain->hits_frame == rain->context->frame_index && rain->hits_panes >= rain->def.max_panes)
+        return virga_wrong_argument(log, "virga_rain_hits: more than rain_def.max_panes = %u in a frame",
+                                    rain->def.max_panes);
+    return VIRGA_OK;
+}
+
+/* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of its
+ * half side on, and drops of the pane's step come from a little farther. */
+static uint32_t groups_near(const virga_rain *rain, const virga_rain_pane_gpu *pane)
+{
+    double far = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double to_u = (double)pane->width_m * (double)pane->along_u[axis];
+        const double to_v = (double)pane->height_m * (double)pane->along_v[axis];
+        const double corners[4] = {0, to_u, to_v, to_u + to_v};
+        for (int i = 0; i < 4; i++)
+            far = fmax(far, fabs((double)pane->corner[axis] + corners[i]));
+    }
+    for (uint32_t level = 0; level < rain->levels; level++) {
+        const double half = 0.5 * ldexp(rain->classes->side_m, (int)level + 1 - (int)rain->levels);
+        if (0.5 * half > far)
+            return (level + 1) * rain->groups_per_level;
+    }
+    return rain->groups;
+}
+
+static virga_rain_pane_gpu pane_of(const virga_rain *rain, const virga_rain_pane *pane)
+{
+    virga_rain_pane_gpu out = {.width_m = pane->width_m,
+                               .height_m = pane->height_m,
+                               .step_s = (float)(rain->ticks_of_step * rain->def.tick_s),
+                               .ticks = rain->ticks_of_step};
+    for (int axis = 0; axis < 3; axis++) {
+        out.corner[axis] = (float)(pane->corner_m[axis] - rain->origin[axis]);
+        out.along_u[axis] = pane->along_u[axis];
+        out.along_v[axis] = pane->along_v[axis];
+        out.velocity[axis] = pane->velocity_m_s[axis];
+    }
+    virga_rain_ticks(rain, &out.first_tick, NULL);
+    out.groups = groups_near(rain, &out);
+    return out;
+}
+
+static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_gpu *pane)
+{
+    virga_context *context = rain->context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
+    /* Lists are shared with the impacts; a pane may still read the hits of a step before. */
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
+    context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
+    virga_record_list(context, cmd, rain->hit_find, rain->hit_scan, rain->list, pane->groups);
+    virga_dispatch_indirect(context, cmd, rain->hit_count, rain->list_buffer);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, rain->hit_place, 1);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch_indirect(context, cmd, rain->hit_write, rain->list_buffer);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT);
+    virga_pass_end(context, cmd, scope);
+}
+
+virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane, virga_rain_buffer *hits)
+{
+    if (!rain)
+        return VIRGA_ERROR_INVALID;
+    if (!hits)
+        return virga_wrong_argument(&rain->context->log, "virga_rain_hits: NULL argument");
+    *hits = (virga_rain_buffer){0};
+    const virga_result result = check_pane(rain, cmd, pane);
+    if (result)
+        return result;
+    if (!rain->stepped || rain->step_set_frame != rain->context->frame_index)
+        return VIRGA_NOT_READY;
+    if (rain->hits_frame != rain->context->frame_index)
+        rain->hits_panes = 0;
+    rain->hits_frame = rain->context->frame_index;
+    rain->hits_offset = (uint32_t)(rain->hits_panes++ * rain_hits_bytes());
+    const virga_rain_pane_gpu known = pane_of(rain, pane);
+    record(rain, cmd, &known);
+    *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, HITS_SIZE};
+    rain->hits_offset = 0;
+    return VIRGA_OK;
+}

@@ -1,0 +1,23 @@
+// hit_count.comp - how many drops of each of these slots did.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "field.glsl"
+#include "compact.glsl"
+#include "gpu/compact_buffers.glsl"
+#include "hit.glsl"
+#include "hit_list.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= list.count)
+        return;
+    const Slot slot = slot_at(listed[i]);
+    uint found = 0u;
+    for (uint k = 0u; k < slot.count; k++)
+        found += find_hit(slot, k).share >= 0.0 ? 1u : 0u;
+    hit_places[i] = found;
+}
