@@ -65,6 +65,32 @@ static void a_leaning_pane_holds_larger_drops(void **unused)
     assert_true(runs(critical * 1.03, 60));
 }
 
+/* Water (m^3) of the smallest drop that runs on an upright pane, and the speed of one of twice that. */
+static double critical_water(virga_glass_kind kind, double *speed_m_s)
+{
+    virga_glass_settings s = virga_default_glass_settings();
+    virga_glass_settings_of(kind, &s);
+    const double cap = glass_cap_volume(glass_rest_deg(&s)), weight = VIRGA_WATER_DENSITY * VIRGA_GRAVITY * cap;
+    const double radius = sqrt(glass_hold(&s) / weight), twice = radius * cbrt(2);
+    const double pulled = weight * twice * twice * twice - (double)s.run_hold * glass_hold(&s) * twice;
+    *speed_m_s = pulled / (glass_drag(&s) * twice);
+    return cap * radius * radius * radius;
+}
+
+/* Dirt holds more water than clean glass, and on a coating drops run faster than on either. */
+static void kinds_of_glass_differ_in_what_sticks_and_how_fast_it_runs(void **unused)
+{
+    (void)unused;
+    double clean_m_s, dirty_m_s, coated_m_s;
+    const double clean = critical_water(VIRGA_GLASS_KIND_CLEAN, &clean_m_s);
+    const double dirty = critical_water(VIRGA_GLASS_KIND_DIRTY, &dirty_m_s);
+    const double coated = critical_water(VIRGA_GLASS_KIND_COATED, &coated_m_s);
+    print_message("run from %.1f ul clean, %.1f dirty, %.1f coated on; twice as large at %.3f, %.3f, %.3f m/s\n", clean * 1e9,
+                  dirty * 1e9, coated * 1e9, clean_m_s, dirty_m_s, coated_m_s);
+    assert_true(dirty > 1.5 * clean);
+    assert_true(coated_m_s > 1.5 * clean_m_s && coated_m_s > 1.5 * dirty_m_s);
+}
+
 static void cap_volume_is_the_hemisphere_at_90_degrees(void **unused)
 {
     (void)unused;
@@ -377,6 +403,7 @@ static void wipers_turn_back_smoothly(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kinds_of_glass_differ_in_what_sticks_and_how_fast_it_runs),
         cmocka_unit_test(cap_volume_is_the_hemisphere_at_90_degrees),
         cmocka_unit_test(drops_run_from_a_radius_of_2_2_mm_on_upright_paper_glass),
         cmocka_unit_test(a_leaning_pane_holds_larger_drops),
