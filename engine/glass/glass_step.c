@@ -9,7 +9,7 @@
 #define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define PI         3.14159265358979323846
 
-#define ROUNDS       8u  /* cells that a drop may go in a tick; even, see shaders/glass/rounds.glsl */
+#define ROUNDS       VIRGA_GLASS_ROUNDS
 #define RELAX_ROUNDS 8u  /* even: positions end where they began */
 #define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
 
@@ -351,9 +351,10 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
     for (uint32_t i = 0; i <= ROUNDS; i++) {
         const uint32_t round[2] = {i, ROUNDS};
         push(glass, cmd, round, 2);
-        over(glass, cmd, glass->choose, AWAKE);
+        const size_t groups_of_round = offsetof(virga_glass_state_gpu, round_groups) + i * 3 * sizeof(uint32_t);
+        over(glass, cmd, glass->choose, i < ROUNDS ? groups_of_round : AWAKE);
         if (i < ROUNDS)
-            over(glass, cmd, glass->enter, AWAKE);
+            over(glass, cmd, glass->enter, groups_of_round);
     }
     over(glass, cmd, glass->capture_find, AWAKE);
     over(glass, cmd, glass->capture, ALIVE);

@@ -21,6 +21,13 @@ vec2 out_of_blade(uint i, vec2 local)
     return to_vec2(tick.blades[i].middle) + local.x * vec2(-along.y, along.x) + local.y * along;
 }
 
+// Whether a circle lies under a blade.
+bool lies_under(uint i, vec2 place, float radius)
+{
+    const vec2 now = now_in_blade(i, place);
+    return abs(now.y) <= tick.blades[i].half_length_m + radius && abs(now.x) < tick.blades[i].half_width_m + radius;
+}
+
 // Whether a blade passed over a circle in this tick, or lies on it at its end. `was` is where the circle was at its start.
 bool touched(uint i, vec2 was, vec2 place, float radius)
 {

@@ -20,5 +20,6 @@ void main()
         return;
     state.alive = found.y;
     state.free = found.x;
+    state.most_rounds = 0u;
     state.alive_groups = groups_of(found.y);
 }

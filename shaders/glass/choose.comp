@@ -17,7 +17,7 @@ void leave_trail(uint place, uint entry, uint cell, inout virga_glass_drop_gpu d
     film[cell] += left;
     drop.water_nl -= left;
     drop.tail_m += tick.pane.cell_m;
-    const uint seed = tick.arrivals + tick.impacts + entry;
+    const uint seed = landing_count() + entry;
     const uint hash = virga_hash3(drop.random, tick.tick, 2u);
     if (tick.tail_radius_m <= 0.0 || drop.tail_m < tick.tail_m * (0.4 + 1.2 * virga_unit(hash)) || seeds[seed].water_nl != 0u)
         return;
@@ -103,7 +103,7 @@ void main()
     if (place == NOWHERE)
         return;
     if (round_index == 0u)
-        seeds[tick.arrivals + tick.impacts + gl_GlobalInvocationID.x].water_nl = 0u;
+        seeds[landing_count() + gl_GlobalInvocationID.x].water_nl = 0u;
     const uint kind = drops[place].kind & VIRGA_GLASS_KIND;
     const bool goes = round_index < rounds && kind == VIRGA_GLASS_DROP && drops[place].ahead_m >= tick.pane.cell_m;
     if (kind == VIRGA_GLASS_PARTICLE)

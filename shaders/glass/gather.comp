@@ -7,7 +7,7 @@
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 
-uint seed_of(uint entry) { return tick.arrivals + tick.impacts + entry; }
+uint seed_of(uint entry) { return landing_count() + entry; }
 
 void empty_bin(uint bin)
 {

@@ -44,9 +44,12 @@ void let_move(uint place, uint kind, uint water, float mass, float a)
     const float most = 0.9 * float(tick.cells_per_tick) * tick.pane.cell_m / tick.tick_s;
     velocity *= min(1.0, most / max(length(velocity), 1e-12));
     drops[place].velocity = to_array(velocity);
-    if (on_mesh)
-        drops[place].ahead_m += length(velocity) * tick.tick_s;
-    else
+    if (on_mesh) {
+        const float ahead_m = drops[place].ahead_m + length(velocity) * tick.tick_s;
+        drops[place].ahead_m = ahead_m;
+        if (ahead_m >= tick.pane.cell_m)
+            atomicMax(state.most_rounds, uint(ahead_m / tick.pane.cell_m + 0.01));
+    } else
         drops[place].position = to_array(at + velocity * tick.tick_s);
 }
 

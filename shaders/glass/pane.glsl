@@ -20,6 +20,9 @@ layout(scalar, set = 0, binding = 13) readonly buffer Nodes { virga_glass_node_g
 #define KG_OF_NL 0.9982e-9
 
 uint cell_count() { return tick.pane.columns * tick.pane.rows; }
+// Seeds of drops that land: of the rate, then of the host's list.
+uint landing_count() { return tick.arrivals + state.impacts; }
+
 vec2 to_vec2(float a[2]) { return vec2(a[0], a[1]); }
 float[2] to_array(vec2 v) { return float[2](v.x, v.y); }
 

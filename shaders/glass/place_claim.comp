@@ -42,7 +42,7 @@ virga_glass_seed_gpu arrival(uint i)
 virga_glass_seed_gpu impact(uint i)
 {
     virga_glass_seed_gpu seed = no_seed();
-    if (i >= min(head.count, tick.impacts) || impacts[i].tick != tick.tick)
+    if (i >= state.impacts || impacts[i].tick != tick.tick)
         return seed;
     seed.position = float[2](impacts[i].position[0], impacts[i].position[1]);
     seed.water_nl = impacts[i].water_nl;

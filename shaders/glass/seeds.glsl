@@ -2,7 +2,6 @@
 // awake place left behind, what blades' bins give away.
 #include "parts.glsl"
 
-uint landing_count() { return tick.arrivals + tick.impacts; }
 uint seed_count() { return landing_count() + state.awake + tick.blade_count * VIRGA_GLASS_BINS; }
 
 #define NO_RANK 0x7fffffffu

@@ -9,7 +9,7 @@
 #include "blades.glsl"
 #include "rounds.glsl"
 
-uint seed_of(uint entry) { return tick.arrivals + tick.impacts + entry; }
+uint seed_of(uint entry) { return landing_count() + entry; }
 
 void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
 {

@@ -23,6 +23,7 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #define VIRGA_GLASS_SIZES      64 /* bins of the sizes that land */
 #define VIRGA_GLASS_NODES      33 /* along each side of the grid that a pane's shape is given on */
 #define VIRGA_GLASS_BINS       64 /* along a blade, of the film that it gathers */
+#define VIRGA_GLASS_ROUNDS     8  /* cells that a drop may go in a tick; even */
 #define VIRGA_GLASS_MOST_PARTS 64 /* particles that one drop becomes */
 
 /* The pane. */
@@ -140,7 +141,9 @@ struct virga_glass_state_gpu {
     uint awake_groups[3]; /* of a dispatch over all of them, and over the particles */
     uint particle_groups[3];
     uint settle_groups[3]; /* over whichever are more, seeds or places in use */
-    uint pad;
+    uint round_groups[24]; /* over the awake ones, for each round that some drop has way left for; else none */
+    uint most_rounds;      /* of any drop in this tick */
+    uint impacts;          /* of the host's list in this step */
     virga_glass_count_gpu counts[VIRGA_GLASS_COUNTS];
     virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (blades' bins too) */
     uint bins_nl[512];     /* VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS: film gathered along each blade */
@@ -176,8 +179,8 @@ VIRGA_ASSERT_SIZE(virga_glass_blade_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 32);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 96);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 192);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 196);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 292);
 #undef uint
 #endif
 
