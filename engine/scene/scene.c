@@ -3,6 +3,8 @@
 
 #include <virga/scene.h>
 
+#include <string.h>
+
 #define SCENE_COOKIE VIRGA_COOKIE(6)
 
 struct virga_scene {
@@ -10,6 +12,9 @@ struct virga_scene {
     virga_rain *rain;
     virga_ground *ground; /* NULL: none */
     virga_splash *splash; /* NULL: none */
+    virga_glass *panes[VIRGA_SCENE_MAX_PANES];
+    uint32_t pane_count;
+    uint32_t catching; /* so many of them, from the first on, catch the rain's drops; the others get its rate */
 };
 
 virga_scene_def virga_default_scene_def(void)
@@ -48,6 +53,25 @@ static virga_result create_splash(virga_context *context, const virga_scene_def 
     return virga_splash_create(context, &taken, splash);
 }
 
+static virga_result create_panes(virga_context *context, const virga_scene_def *def, virga_scene *scene)
+{
+    if (def->pane_count > VIRGA_SCENE_MAX_PANES || (def->pane_count && !def->panes))
+        return virga_wrong_argument(&context->log,
+                                    "scene_def.pane_count: expected up to %d and as many panes, got %u%s",
+                                    VIRGA_SCENE_MAX_PANES, def->pane_count, def->panes ? "" : " and panes NULL");
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < def->pane_count && result >= 0; i++) {
+        virga_glass_def taken = def->panes[i];
+        taken.seed = def->rain.seed + i;
+        taken.tick_s = def->rain.tick_s;
+        taken.max_ticks_per_step = def->rain.max_ticks_per_step;
+        result = virga_glass_create(context, &taken, &scene->panes[i]);
+        scene->pane_count += result >= 0;
+    }
+    scene->catching = def->rain.max_panes;
+    return result;
+}
+
 virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene)
 {
     if (scene)
@@ -67,6 +91,8 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
         result = create_ground(context, def, &made->ground);
     if (result >= 0 && def->with_splash)
         result = create_splash(context, def, &made->splash);
+    if (result >= 0)
+        result = create_panes(context, def, made);
     if (result < 0)
         virga_scene_destroy(&made);
     *scene = made;
@@ -77,6 +103,8 @@ void virga_scene_destroy(virga_scene **scene)
 {
     if (!scene || !*scene)
         return;
+    for (uint32_t i = 0; i < (*scene)->pane_count; i++)
+        virga_glass_destroy(&(*scene)->panes[i]);
     virga_splash_destroy(&(*scene)->splash);
     virga_ground_destroy(&(*scene)->ground);
     virga_rain_destroy(&(*scene)->rain);
@@ -97,6 +125,11 @@ virga_ground *virga_scene_ground(virga_scene *scene)
 virga_splash *virga_scene_splash(virga_scene *scene)
 {
     return scene ? scene->splash : NULL;
+}
+
+virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
+{
+    return scene && index < scene->pane_count ? scene->panes[index] : NULL;
 }
 
 /* The first error, else the last remark. */
@@ -142,6 +175,84 @@ static virga_result step_splash(virga_scene *scene, VkCommandBuffer cmd, const v
     return virga_splash_step(scene->splash, cmd, &info);
 }
 
+/* From the pane's own frame to the world; a pose without axes has the world's. */
+static void turn_to_world(const virga_glass_pose *pose, const float local[3], float world[3])
+{
+    bool none = true;
+    for (int i = 0; i < 9; i++)
+        none = none && pose->world_from_pane[i] == 0;
+    for (int i = 0; i < 3; i++)
+        world[i] = none ? local[i]
+                        : pose->world_from_pane[i] * local[0] + pose->world_from_pane[3 + i] * local[1] +
+                              pose->world_from_pane[6 + i] * local[2];
+}
+
+/* The rain's own drops, as long as there is room for them to be caught and nothing keeps a share of them off. */
+static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
+                                virga_glass_step_info *info)
+{
+    virga_rain_pane caught;
+    virga_rain_buffer hits;
+    float corner[3], along_u[3], along_v[3], offset[3];
+    if (index >= scene->catching || pane->shelter > 0)
+        return VIRGA_OK;
+    virga_glass_rectangle(scene->panes[index], corner, along_u, along_v, &caught.width_m, &caught.height_m);
+    turn_to_world(&pane->pose, corner, offset);
+    turn_to_world(&pane->pose, along_u, caught.along_u);
+    turn_to_world(&pane->pose, along_v, caught.along_v);
+    for (int axis = 0; axis < 3; axis++)
+        caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
+    memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
+    const virga_result result = virga_rain_hits(scene->rain, cmd, &caught, &hits);
+    if (result != VIRGA_OK)
+        return result;
+    info->rate_mm_h = 0;
+    info->impacts = hits.buffer;
+    info->impacts_offset = hits.offset;
+    return VIRGA_OK;
+}
+
+/* Rain lands on a pane as it does on the ground under the same sky. */
+static virga_result step_pane(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane)
+{
+    virga_rain_settings rain;
+    virga_rain_get(scene->rain, &rain);
+    if (!(pane->shelter >= 0 && pane->shelter <= 1))
+        return virga_wrong_argument(&scene->context->log, "scene_pane.shelter: expected 0 to 1, got %g",
+                                    (double)pane->shelter);
+    virga_glass_step_info info = {
+        .rate_mm_h = rain.rate_mm_h * (1 - pane->shelter), .sizes = &rain.sizes, .air_density = rain.air_density};
+    memcpy(info.world_from_pane, pane->pose.world_from_pane, sizeof info.world_from_pane);
+    memcpy(info.velocity_m_s, pane->velocity_m_s, sizeof info.velocity_m_s);
+    memcpy(info.acceleration_m_s2, pane->acceleration_m_s2, sizeof info.acceleration_m_s2);
+    memcpy(info.turn_rad_s, pane->turn_rad_s, sizeof info.turn_rad_s);
+    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
+    virga_rain_wind(scene->rain, info.wind_m_s);
+    const virga_result result = catch_drops(scene, cmd, index, pane, &info);
+    return result < 0 ? result : virga_glass_step(scene->panes[index], cmd, &info);
+}
+
+static virga_result step_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_result result = VIRGA_OK;
+    if (scene->pane_count && !frame->panes)
+        return virga_wrong_argument(&scene->context->log, "scene_frame.panes: expected %u, got NULL",
+                                    scene->pane_count);
+    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
+        result = worst(result, step_pane(scene, cmd, i, &frame->panes[i]));
+    return result;
+}
+
+/* At the panes' own time: what rain has left over of a tick they do not know of. */
+static virga_result prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
+        result = worst(result, virga_glass_prepare(scene->panes[i], cmd, frame->view, &frame->panes[i].pose,
+                                                   virga_glass_time(scene->panes[i])));
+    return result;
+}
+
 /* What a view sees, at the time of the rain. */
 static virga_result prepare(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
 {
@@ -168,8 +279,12 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         result = worst(result, step_ground(scene, cmd, frame));
     if (result >= 0 && scene->splash)
         result = worst(result, step_splash(scene, cmd, frame));
+    if (result >= 0)
+        result = worst(result, step_panes(scene, cmd, frame));
     if (result >= 0 && frame->view)
         result = worst(result, prepare(scene, cmd, frame->view));
+    if (result >= 0 && frame->view && !frame->panes_later)
+        result = worst(result, prepare_panes(scene, cmd, frame));
     return result;
 }
 
@@ -177,14 +292,22 @@ virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    const virga_result result = scene->splash ? virga_splash_attach(scene->splash, target) : VIRGA_OK;
-    return result < 0 ? result : worst(result, virga_rain_attach(scene->rain, target));
+    virga_result result = scene->splash ? virga_splash_attach(scene->splash, target) : VIRGA_OK;
+    if (result >= 0)
+        result = worst(result, virga_rain_attach(scene->rain, target));
+    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
+        result = worst(result, virga_glass_attach(scene->panes[i], target));
+    return result;
 }
 
 virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    const virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
-    return result < 0 ? result : worst(result, virga_rain_draw(scene->rain, cmd, target));
+    virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
+    if (result >= 0)
+        result = worst(result, virga_rain_draw(scene->rain, cmd, target));
+    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
+        result = worst(result, virga_glass_draw(scene->panes[i], cmd, target));
+    return result;
 }

@@ -101,6 +101,19 @@ scene 'unknown mode of splash' '$a ground: {on: true}\nsplash: {mode: real}'
 scene 'too many droplets' '$a ground: {on: true}\nsplash: {max_droplets: 99999999}'
 scene 'splash that is no group' '$a splash: true'
 scene 'unknown material' '$a ground: {on: true, materials: [{match: default, material: asphlat}]}'
+scene 'pane without a place' '$a glass: [{}]'
+scene 'panes that are no list' '$a glass: {width_m: 1}'
+scene 'unknown key of a pane' '$a glass: [{position_m: [0, 0, 0], width: 1}]'
+scene 'unknown kind of pane' '$a glass: [{position_m: [0, 0, 0], kind: wet}]'
+scene 'two panes of one name' '$a glass: [{position_m: [0, 0, 0]}, {position_m: [0, 0, 0]}]'
+scene 'angles that do not go together' '$a glass: [{position_m: [0, 0, 0], kind: leaf, advancing_deg: 40}]'
+scene 'missing bumps' '$a glass: [{position_m: [0, 0, 0], bumps: {file: no.png, size_mm: [9, 9], depth_mm: 1}}]'
+scene 'missing mask' '$a glass: [{position_m: [0, 0, 0], mask: no.png}]'
+scene 'sky for a mask' '$a glass: [{position_m: [0, 0, 0], mask: sky.exr}]'
+scene 'mesh that is no pane' '$a glass: [{position_m: [0, 0, 0], shape: mesh, mesh: box}]'
+scene 'mesh that is not there' '$a glass: [{position_m: [0, 0, 0], shape: mesh, mesh: none}]'
+scene 'blade longer than its arm' '$a glass: [{position_m: [0, 0, 0], wipers: [{pivot_m: [0, 0], reach_m: 0.5, \
+blade_m: 1, low_deg: 0, high_deg: 90}]}]'
 scene 'looks at itself' 's/look_at_m: \[0, 1, 0\]/look_at_m: [0, 1, 3]/'
 : >"$work/empty.yaml"
 bad 'empty scene' render "$work/empty.yaml" -o "$work/out"
@@ -136,6 +149,12 @@ head -c 3000 /dev/urandom >"$work/noise.exr"
 sky 'noise for a picture' noise.exr
 echo 'hello' >"$work/text.exr"
 sky 'text for a picture' text.exr
+
+# Footage.
+for file in empty.exr cut.exr noise.exr text.exr none.exr 'none.%04d.exr' '%s.exr' '%d%d.exr' '%n' .; do
+    bad "plate $file" render "$work/good.yaml" -o "$work/out" --plate "$work/$file"
+done
+bad 'plate without a name' render "$work/good.yaml" -o "$work/out" --plate
 
 # A grey picture of 0 and 255, and one of 16 bits.
 base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+vGgAAAAASUVORK5CYII=
@@ -193,6 +212,8 @@ bad 'unknown layer' render "$good" -o "$work/out" --layers beuty
 bad 'splash layer without splashes' render "$good" -o "$work/out" --layers splash
 bad 'splash layer where they are off' render "$good" -o "$work/out" --set ground.on=true --set splash.on=false \
     --layers splash
+bad 'glass layer without panes' render "$good" -o "$work/out" --layers glass,refraction
+bad 'set of a pane that is not there' render "$good" -o "$work/out" --set glass.0.kind=clean
 bad 'set of splash' render "$good" -o "$work/out" --set ground.on=true --set splash.pile_s=0
 bad 'unknown device' render "$good" -o "$work/out" --device 99
 bad 'wrong set' render "$good" -o "$work/out" --set rain.rate=5
@@ -229,6 +250,19 @@ failures=$? count=$((count + 2))
     complain 'the good scene with splashes, checked'
 grep -q '^  splash *paper, film style, [0-9]* splashes, [0-9]* droplets$' "$work/stdout" ||
     complain 'splashes are not in what check says'
+cat - "$good" >"$work/glazed.yaml" <<'YAML'
+glass:
+  - name: window
+    position_m: [0, 0, 1]
+    wipers: [{pivot_m: [0.7, 0], reach_m: 0.7, blade_m: 0.5, low_deg: 10, high_deg: 170, sweep_s: 0.2}]
+    frame_m: 0.1
+  - {name: shield, shape: windshield, follow: camera, position_m: [0, -0.3, 0.8], style: paper}
+YAML
+"$virga" render "$work/glazed.yaml" -o "$work/glazed" --frames 1-4 --points --stats --plate "$work/sky.exr" \
+    >"$work/stdout" 2>"$work/err" || complain 'the good scene with panes before a plate'
+"$virga" render "$work/glazed.yaml" -o "$work/glazed" --frames 6 --samples 2 >"$work/stdout" 2>"$work/err" ||
+    complain 'the good scene with panes'
+[ -f "$work/glazed/glass.0004.ply" ] || complain 'the good scene with panes wrote no drops'
 "$virga" render "$work/mapped.yaml" -o "$work/map" --frames 1 >"$work/stdout" 2>"$work/err" ||
     complain 'the scene with a map'
 "$virga" check "$work/mapped.yaml" >"$work/stdout" 2>"$work/err" || complain 'the scene with a map, checked'

@@ -13,11 +13,11 @@
 
 #include <virga/virga.h>
 
-#define SAME(name)                                                                                       \
-    if ((float)from->name != (float)def.name)                                                            \
+#define SAME(name)                            \
+    if ((float)from->name != (float)def.name) \
     fail_msg(#name ": %.9g in scene files, %.9g in the library", (double)from->name, (double)def.name)
 
-static scene_file *load(void)
+static scene_file *load_with(const char *const *overrides, size_t count)
 {
     static const char text[] = "virga: 1\ncamera: {keys: [{position_m: [0, 2, 8], look_at_m: [0, 2, 0]}]}\n";
     char path[] = "/tmp/virga-defaults-XXXXXX", error[256];
@@ -26,10 +26,15 @@ static scene_file *load(void)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, sizeof text - 1), sizeof text - 1);
     close(file);
-    if (!scene_file_load(path, NULL, 0, &scene, error, sizeof error))
+    if (!scene_file_load(path, overrides, count, &scene, error, sizeof error))
         fail_msg("%s", error);
     unlink(path);
     return scene;
+}
+
+static scene_file *load(void)
+{
+    return load_with(NULL, 0);
 }
 
 static void splashes(void **state)
@@ -86,8 +91,112 @@ static void ground(void **state)
     scene_file_free(scene);
 }
 
+static scene_file *load_pane(void)
+{
+    const char *overrides[] = {
+        "glass=[{position_m: [0, 0, 0], wipers: [{pivot_m: [0, 0], reach_m: 0.6, blade_m: 0.5, "
+        "low_deg: 5, high_deg: 95}], bumps: {file: /proc/self/exe, size_mm: [1, 1], depth_mm: 1}}]"};
+    return load_with(overrides, 1);
+}
+
+static void panes(void **state)
+{
+    (void)state;
+    scene_file *scene = load_pane();
+    const scene_pane *from = &scene->panes[0];
+    {
+        const virga_glass_def def = virga_default_glass_def();
+        SAME(width_m);
+        SAME(height_m);
+        SAME(cell_m);
+        SAME(max_drops);
+        SAME(affinity_m);
+        SAME(max_texels);
+    }
+    const virga_glass_settings def = virga_default_glass_settings();
+    SAME(drag);
+    SAME(meander);
+    SAME(path_ease);
+    SAME(path_s);
+    SAME(tail_m);
+    SAME(tail_s);
+    SAME(film_break_s);
+    SAME(evaporation_mm_h);
+    SAME(mist_mm);
+    SAME(air_share);
+    SAME(particle_mm);
+    SAME(penalty);
+    SAME(band);
+    SAME(hold_back_mm);
+    SAME(hold_back_cells);
+    SAME(density);
+    SAME(blend);
+    SAME(compress);
+    SAME(compress_from);
+    SAME(compress_step);
+    SAME(compress_k);
+    SAME(compress_steps);
+    SAME(threshold);
+    SAME(impact_s);
+    SAME(style);
+    SAME(paper_shift);
+    SAME(thickness_mm);
+    SAME(tint[0]);
+    SAME(tint[2]);
+    SAME(gain);
+    scene_file_free(scene);
+}
+
+static void wipers(void **state)
+{
+    (void)state;
+    scene_file *scene = load_pane();
+    {
+        const scene_wiper *from = &scene->panes[0].wipers[0];
+        const virga_glass_wiper def = virga_default_glass_wiper();
+        SAME(width_m);
+        SAME(blade_deg);
+        SAME(blade_turn);
+        SAME(drive);
+        SAME(sweep_s);
+        SAME(pause_s);
+        SAME(phase_s);
+        SAME(film_mm);
+        SAME(wear);
+    }
+    assert_true((float)scene->panes[0].bumps.pull == virga_default_glass_shape().bump_pull);
+    scene_file_free(scene);
+}
+
+/* Words of panes, and that the default kind is that of the library's default settings. */
+static void words_of_panes(void **state)
+{
+    (void)state;
+    static const char *const kinds[VIRGA_GLASS_KINDS] = {
+        [VIRGA_GLASS_KIND_PAPER] = "paper",   [VIRGA_GLASS_KIND_CLEAN] = "clean", [VIRGA_GLASS_KIND_DIRTY] = "dirty",
+        [VIRGA_GLASS_KIND_COATED] = "coated", [VIRGA_GLASS_KIND_METAL] = "metal", [VIRGA_GLASS_KIND_LEAF] = "leaf"};
+    for (uint32_t i = 0; i < VIRGA_GLASS_KINDS; i++)
+        assert_string_equal(scene_pane_kind_name(i), kinds[i]);
+    assert_string_equal(scene_pane_style_name(VIRGA_GLASS_STYLE_PAPER), "paper");
+    assert_string_equal(scene_pane_style_name(VIRGA_GLASS_STYLE_PHYSICAL), "physical");
+    assert_int_equal(SCENE_WIPER_PARKED, VIRGA_GLASS_PARKED);
+    assert_int_equal(SCENE_WIPER_CONTINUOUS, VIRGA_GLASS_CONTINUOUS);
+    assert_int_equal(SCENE_WIPER_INTERMITTENT, VIRGA_GLASS_INTERMITTENT);
+    assert_int_equal(SCENE_WIPER_KEYS, VIRGA_GLASS_HOST);
+    assert_int_equal(SCENE_FILE_MAX_PANES, VIRGA_SCENE_MAX_PANES);
+    assert_int_equal(SCENE_FILE_MAX_WIPERS, VIRGA_GLASS_MAX_WIPERS);
+    scene_file *scene = load_pane();
+    const virga_glass_settings before = virga_default_glass_settings();
+    virga_glass_settings after = before;
+    virga_glass_settings_of((virga_glass_kind)scene->panes[0].kind, &after);
+    assert_memory_equal(&before, &after, sizeof before);
+    scene_file_free(scene);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(splashes), cmocka_unit_test(words), cmocka_unit_test(ground)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(splashes), cmocka_unit_test(words),
+                                       cmocka_unit_test(ground),   cmocka_unit_test(panes),
+                                       cmocka_unit_test(wipers),   cmocka_unit_test(words_of_panes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -173,6 +173,74 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
     return ok;
 }
 
+/* Appends a primitive's corners, each a vertex of its own. */
+static void copy_primitive(const host_mesh_build *build, const host_primitive *primitive, host_vertex *vertices,
+                           uint32_t *indices, uint32_t *count)
+{
+    for (uint32_t i = 0; i < primitive->index_count; i++, ++*count) {
+        vertices[*count] = build->vertices[build->indices[primitive->first_index + i]];
+        indices[*count] = *count;
+    }
+}
+
+static bool read_named(const host_mesh_build *build, const char *name, host_vertex **vertices, uint32_t **indices,
+                       uint32_t *count)
+{
+    *vertices = malloc((build->index_count + 1) * sizeof **vertices);
+    *indices = malloc((build->index_count + 1) * sizeof **indices);
+    if (!*vertices || !*indices)
+        return host_fail(build->error, build->error_size, "%s: out of memory", build->path);
+    for (uint32_t i = 0; i < build->mesh->primitive_count; i++) {
+        const host_primitive *primitive = &build->mesh->primitives[i];
+        if (host_name_contains(primitive->name, name) ||
+            host_name_contains(build->mesh->materials[primitive->material].name, name))
+            copy_primitive(build, primitive, *vertices, *indices, count);
+    }
+    return true;
+}
+
+bool host_mesh_read(host_device *device, const char *path, const float world_from_model[12], const char *name,
+                    host_vertex **vertices, uint32_t **indices, uint32_t *count, char *error, size_t error_size)
+{
+    host_mesh mesh = {0};
+    *vertices = NULL;
+    *indices = NULL;
+    *count = 0;
+    const struct aiScene *scene = import(path, error, error_size);
+    if (!scene)
+        return false;
+    host_mesh_build build = {
+        .device = device, .scene = scene, .path = path, .mesh = &mesh, .error = error, .error_size = error_size};
+    bool ok = host_mesh_build_materials(&build) && host_mesh_build_geometry(&build, world_from_model);
+    ok = ok && read_named(&build, name, vertices, indices, count);
+    end_build(&build);
+    aiReleaseImport(scene);
+    free(mesh.materials);
+    free(mesh.primitives);
+    if (!ok) {
+        free(*vertices);
+        free(*indices);
+    }
+    return ok;
+}
+
+#define MOST_UPDATE 65536u /* bytes in a vkCmdUpdateBuffer */
+
+void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices)
+{
+    const VkDeviceSize size = mesh->vertex_count * sizeof *vertices;
+    const VkPipelineStageFlags reading = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                               .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
+    vkCmdPipelineBarrier(cmd, reading, copying, 0, 1, &barrier, 0, NULL, 0, NULL);
+    for (VkDeviceSize from = 0; from < size; from += MOST_UPDATE)
+        vkCmdUpdateBuffer(cmd, mesh->vertices.buffer, from, size - from < MOST_UPDATE ? size - from : MOST_UPDATE,
+                          (const char *)vertices + from);
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT;
+    vkCmdPipelineBarrier(cmd, copying, reading, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
 bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count,
                       const uint32_t *indices, uint32_t index_count, const host_material *material, host_mesh *mesh,
                       char *error, size_t error_size)

@@ -51,6 +51,7 @@ typedef struct host_mesh {
     host_image *textures;
     uint32_t texture_count;
     float low[3], high[3];
+    bool apart; /* it moves with the camera: it takes no sky from what is around and is not mirrored. Default false */
 } host_mesh;
 
 /* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. What can be repaired is (normals, uvs,
@@ -62,6 +63,15 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
 bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count,
                       const uint32_t *indices, uint32_t index_count, const host_material *material, host_mesh *mesh,
                       char *error, size_t error_size);
+
+/* Records new vertices, as many as the mesh has, outside rendering. */
+void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices);
+
+/* Reads the triangles of a model whose primitive or its material has `name` in its name, in any case: `count`
+ * vertices and indices, to be freed by free(). UVs as for pictures whose first row is on top. None found is no
+ * error: *count is 0. */
+bool host_mesh_read(host_device *device, const char *path, const float world_from_model[12], const char *name,
+                    host_vertex **vertices, uint32_t **indices, uint32_t *count, char *error, size_t error_size);
 
 void host_mesh_destroy(host_device *device, host_mesh *mesh);
 

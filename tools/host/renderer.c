@@ -469,8 +469,10 @@ static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_e
 
 static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, pipelines from, host_pipeline kind)
 {
+    const bool mirrored = from == (pipelines)r->mirror_pipelines;
     for (uint32_t i = 0; i < r->entry_count; i++)
-        draw_entry(r, cmd, &r->entries[i], from, kind);
+        if (!mirrored || !r->entries[i].mesh->apart)
+            draw_entry(r, cmd, &r->entries[i], from, kind);
 }
 
 static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines from)
@@ -490,7 +492,7 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     for (int c = 0; c < 3; c++) {
         low[c] = r->entry_count ? r->entries[0].mesh->low[c] : -1.0f;
         high[c] = r->entry_count ? r->entries[0].mesh->high[c] : 1.0f;
-        for (uint32_t i = 1; i < r->entry_count; i++) {
+        for (uint32_t i = 1; i < r->entry_count && !r->entries[i].mesh->apart; i++) {
             low[c] = fminf(low[c], r->entries[i].mesh->low[c]);
             high[c] = fmaxf(high[c], r->entries[i].mesh->high[c]);
         }
@@ -507,6 +509,8 @@ static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direc
     for (uint32_t e = 0; e < r->entry_count; e++) {
         const host_entry *entry = &r->entries[e];
         const host_mesh *mesh = entry->mesh;
+        if (mesh->apart)
+            continue;
         vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
         vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
         for (uint32_t i = 0; i < mesh->primitive_count; i++) {

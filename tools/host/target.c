@@ -15,7 +15,9 @@ static const struct {
     [HOST_ID] = {VK_FORMAT_R32_UINT, 1, "plate id"},
     [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
     [HOST_LAYER] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "rain layer"},
-    [HOST_SPLASH] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "splash layer"}, /* as the rain's: one pass does for both */
+    [HOST_SPLASH] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "splash layer"}, /* as the rain's: one pass does for all */
+    [HOST_GLASS] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "glass layer"},
+    [HOST_REFRACTION] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "refraction layer"},
 };
 
 /* What is sampled while layers are drawn, and its layout then. The others are ready to be copied from the start. */
@@ -106,42 +108,54 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
 
 /* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
  * as well, its store at the end would be a write that hazards with those reads; only Vulkan 1.3 can store nothing. */
-static bool create_layer_pass(host_device *device, host_target *target, char *error, size_t error_size)
+static bool create_color_pass(host_device *device, const VkAttachmentDescription *attachment, VkRenderPass *pass,
+                              char *error, size_t error_size)
 {
-    const VkAttachmentDescription attachment = drawn(HOST_LAYER);
     const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass = {
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
         .colorAttachmentCount = 1,
         .pColorAttachments = &color,
     };
+    /* Passes are compatible only with the same dependencies: they are those that any of them needs. */
     const VkSubpassDependency dependencies[] = {
         {
             .srcSubpass = VK_SUBPASS_EXTERNAL,
             .srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
             .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
             .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
         },
         {
             .dstSubpass = VK_SUBPASS_EXTERNAL,
             .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT,
+            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | READERS,
             .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT,
+            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
         },
     };
     VkRenderPassCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
         .attachmentCount = 1,
-        .pAttachments = &attachment,
+        .pAttachments = attachment,
         .subpassCount = 1,
         .pSubpasses = &subpass,
         .dependencyCount = 2,
         .pDependencies = dependencies,
     };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->layer_pass));
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, pass));
     return true;
+}
+
+static bool create_layer_passes(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    const VkAttachmentDescription layer = drawn(HOST_LAYER);
+    VkAttachmentDescription behind = layer;
+    behind.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    behind.initialLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    behind.finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return create_color_pass(device, &layer, &target->layer_pass, error, error_size) &&
+           create_color_pass(device, &behind, &target->behind_pass, error, error_size);
 }
 
 static bool create_framebuffer(host_device *device, const host_target *target, VkRenderPass pass,
@@ -163,10 +177,10 @@ static bool create_framebuffer(host_device *device, const host_target *target, V
 
 /* ---- create and destroy ------------------------------------------------------------------------------------- */
 
-static bool create_output(host_device *device, host_target *target, host_output output, char *error,
-                          size_t error_size)
+static bool create_output(host_device *device, host_target *target, host_output output, char *error, size_t error_size)
 {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    usage |= output == HOST_COLOR ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0; /* host_target_fill_plate */
     usage |= output == HOST_DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     host_image_def def = {
         .format = outputs_table[output].format,
@@ -185,7 +199,8 @@ static bool create_parts(host_device *device, host_target *target, char *error, 
     for (int i = 0; i < HOST_SPLASH; i++)
         if (!create_output(device, target, (host_output)i, error, error_size))
             return false;
-    if (!create_plate_pass(device, target, error, error_size) || !create_layer_pass(device, target, error, error_size))
+    if (!create_plate_pass(device, target, error, error_size) ||
+        !create_layer_passes(device, target, error, error_size))
         return false;
     VkImageView plate[HOST_PLATE_COLORS + 1];
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
@@ -220,8 +235,36 @@ bool host_target_add_splash(host_device *device, host_target *target, char *erro
                               &target->splash_framebuffer, error, error_size);
 }
 
+static bool create_behind(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    const host_image_def def = {.format = outputs_table[HOST_LAYER].format,
+                                .extent = {target->width, target->height, 1},
+                                .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                .name = "behind panes"};
+    return host_image_create(device, &def, &target->behind, error, error_size) &&
+           create_framebuffer(device, target, target->behind_pass, &target->behind.view, 1, &target->behind_framebuffer,
+                              error, error_size);
+}
+
+bool host_target_add_glass(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    return create_behind(device, target, error, error_size) &&
+           create_output(device, target, HOST_GLASS, error, error_size) &&
+           create_output(device, target, HOST_REFRACTION, error, error_size) &&
+           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_GLASS].view, 1,
+                              &target->glass_framebuffer, error, error_size) &&
+           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_REFRACTION].view, 1,
+                              &target->refraction_framebuffer, error, error_size);
+}
+
 void host_target_destroy(host_device *device, host_target *target)
 {
+    vkDestroyFramebuffer(device->device, target->refraction_framebuffer, NULL);
+    vkDestroyFramebuffer(device->device, target->glass_framebuffer, NULL);
+    vkDestroyFramebuffer(device->device, target->behind_framebuffer, NULL);
+    vkDestroyRenderPass(device->device, target->behind_pass, NULL);
+    host_image_destroy(device, &target->behind);
     vkDestroyFramebuffer(device->device, target->splash_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->layer_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->plate_framebuffer, NULL);
@@ -267,21 +310,75 @@ void host_target_end_plate(const host_target *target, VkCommandBuffer cmd)
     vkCmdEndRenderPass(cmd);
 }
 
-static void begin_layer(const host_target *target, VkCommandBuffer cmd, VkFramebuffer framebuffer)
+/* Between the plate pass, or a reader, and a copy from or to the plate's color. */
+static void color_barrier(const host_target *target, VkCommandBuffer cmd, VkImageLayout from, VkImageLayout to,
+                          VkAccessFlags access)
+{
+    const bool to_copy = to != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | READERS;
+    if (to_copy)
+        host_image_barrier(cmd, &target->images[HOST_COLOR], from, to, drawing, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT, access);
+    else
+        host_image_barrier(cmd, &target->images[HOST_COLOR], from, to, VK_PIPELINE_STAGE_TRANSFER_BIT, access,
+                           READERS | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                           VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels)
+{
+    const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                      .imageExtent = target->images[HOST_COLOR].extent};
+    host_target_begin_plate(target, cmd);
+    host_target_end_plate(target, cmd);
+    color_barrier(target, cmd, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdCopyBufferToImage(cmd, pixels->buffer, target->images[HOST_COLOR].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           1, &region);
+    color_barrier(target, cmd, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                  VK_ACCESS_TRANSFER_WRITE_BIT);
+}
+
+/* A pass of its own clears; that of what is behind panes takes no notice of the clear value. */
+static void begin_layer(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer)
 {
     VkClearValue clear;
     memset(&clear, 0, sizeof clear);
-    begin_pass(target, cmd, target->layer_pass, framebuffer, &clear, 1);
+    begin_pass(target, cmd, pass, framebuffer, &clear, 1);
 }
 
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
 {
-    begin_layer(target, cmd, target->layer_framebuffer);
+    begin_layer(target, cmd, target->layer_pass, target->layer_framebuffer);
 }
 
 void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd)
 {
-    begin_layer(target, cmd, target->splash_framebuffer);
+    begin_layer(target, cmd, target->layer_pass, target->splash_framebuffer);
+}
+
+void host_target_begin_glass(const host_target *target, VkCommandBuffer cmd)
+{
+    begin_layer(target, cmd, target->layer_pass, target->glass_framebuffer);
+}
+
+void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd)
+{
+    begin_layer(target, cmd, target->layer_pass, target->refraction_framebuffer);
+}
+
+void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd)
+{
+    const VkImageSubresourceLayers all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    const VkImageCopy region = {.srcSubresource = all, .dstSubresource = all, .extent = target->behind.extent};
+    color_barrier(target, cmd, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                  VK_ACCESS_TRANSFER_READ_BIT);
+    host_image_barrier(cmd, &target->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, READERS,
+                       0, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdCopyImage(cmd, target->images[HOST_COLOR].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target->behind.image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    color_barrier(target, cmd, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0);
+    begin_layer(target, cmd, target->behind_pass, target->behind_framebuffer);
 }
 
 void host_target_end_layer(const host_target *target, VkCommandBuffer cmd)
@@ -316,6 +413,18 @@ virga_image host_target_color(const host_target *target)
     return sampled(target, HOST_COLOR);
 }
 
+virga_image host_target_behind(const host_target *target)
+{
+    const virga_image_state state = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, READERS, VK_ACCESS_SHADER_READ_BIT};
+    return (virga_image){.image = target->behind.image,
+                         .view = target->behind.view,
+                         .format = target->behind.format,
+                         .extent = target->behind.extent,
+                         .layers = 1,
+                         .before = state,
+                         .after = state};
+}
+
 void host_target_describe_layer(const host_target *target, virga_target_def *def)
 {
     def->kind = VIRGA_TARGET_RENDER_PASS;
@@ -324,7 +433,7 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
     def->color_format = outputs_table[HOST_LAYER].format;
     def->color_count = 1;
     def->samples = VK_SAMPLE_COUNT_1_BIT;
-    def->depth_attached = false; /* tested in the shader, see create_layer_pass */
+    def->depth_attached = false; /* tested in the shader, see create_color_pass */
     def->reversed_depth = false;
 }
 

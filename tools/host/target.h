@@ -15,6 +15,8 @@ typedef enum host_output {
     HOST_DEPTH,    /* one float: 0 near to 1 far */
     HOST_LAYER,    /* RGBA float: premultiplied layer over the plate and the splashes */
     HOST_SPLASH,   /* RGBA float: premultiplied layer over the plate; there after host_target_add_splash */
+    HOST_GLASS,    /* RGBA float: premultiplied layer over all that; there after host_target_add_glass */
+    HOST_REFRACTION, /* RGBA float: pixels to the right, pixels down, coverage twice; likewise */
     HOST_OUTPUT_COUNT,
 } host_output;
 
@@ -26,7 +28,11 @@ typedef struct host_target {
     host_buffer copies[HOST_OUTPUT_COUNT];
     VkRenderPass plate_pass; /* clears and draws color, normal, velocity, water, id and depth */
     VkRenderPass layer_pass; /* clears a layer; the plate's color and depth may be sampled */
+    VkRenderPass behind_pass; /* draws over what is there; compatible with layer_pass */
     VkFramebuffer plate_framebuffer, layer_framebuffer, splash_framebuffer;
+    VkFramebuffer behind_framebuffer, glass_framebuffer, refraction_framebuffer;
+    host_image behind; /* RGBA float: what panes show, rain over splashes over the plate; there after
+                        * host_target_add_glass */
 } host_target;
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
@@ -36,16 +42,27 @@ void host_target_destroy(host_device *device, host_target *target);
 /* Adds the layer of splashes. Drawing into it is as drawing into the other: one virga_target does for both. */
 bool host_target_add_splash(host_device *device, host_target *target, char *error, size_t error_size);
 
+/* Adds the layers of panes and the picture that they show. One virga_target does for all. */
+bool host_target_add_glass(host_device *device, host_target *target, char *error, size_t error_size);
+
+/* In place of a plate that is drawn: clears its outputs, depth to far, and takes its color from `pixels`, RGBA floats,
+ * rows from the top. */
+void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels);
+
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd);
-void host_target_end_layer(const host_target *target, VkCommandBuffer cmd); /* either of them */
+void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd); /* over a copy of the plate's color */
+void host_target_begin_glass(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd);
+void host_target_end_layer(const host_target *target, VkCommandBuffer cmd); /* any of them */
 
-/* The plate's depth and color as Virga sees them while layers are drawn. */
+/* The plate's depth and color as Virga sees them while layers are drawn, and the picture that panes show. */
 virga_image host_target_depth(const host_target *target);
 virga_image host_target_color(const host_target *target);
+virga_image host_target_behind(const host_target *target);
 
 /* What virga_target_create needs for the layer pass: fills render pass and formats into a default definition. */
 void host_target_describe_layer(const host_target *target, virga_target_def *def);

@@ -14,7 +14,7 @@
 #include "suggest.h"
 
 #define MAX_PATH   256
-#define MAX_FIELDS 64
+#define MAX_FIELDS 96
 
 /* Where the walk is. */
 typedef struct walk {
@@ -99,10 +99,31 @@ static bool expected_number(const walk *at, int node, const scene_rule *rule, bo
 static const struct {
     const char *ending, *words;
 } units[] = {
-    {"_mm_h", "mm/h"}, {"_mm_s", "mm/s"}, {"_km_h", "km/h"}, {"_m_s", "m/s"}, {"_w_sr", "W/sr"}, {"_deg", "degrees"},
-    {"_rad", "rad"},   {"_kmh", "km/h"},  {"_mph", "mph"},   {"_mm", "mm"},   {"_cm", "cm"},     {"_km", "km"},
-    {"_ms", "ms"},     {"_px", "pixels"}, {"_ev", "stops"},  {"_hz", "Hz"},   {"_m", "m"},       {"_s", "s"},
-    {"_w", "W"},       {"_h", "h"},       {"_cd", "cd"},     {"_lm", "lm"},
+    {"_m_s2", "m/s^2"},
+    {"_deg_s", "degrees/s"},
+    {"_um", "micrometres"},
+    {"_mm_h", "mm/h"},
+    {"_mm_s", "mm/s"},
+    {"_km_h", "km/h"},
+    {"_m_s", "m/s"},
+    {"_w_sr", "W/sr"},
+    {"_deg", "degrees"},
+    {"_rad", "rad"},
+    {"_kmh", "km/h"},
+    {"_mph", "mph"},
+    {"_mm", "mm"},
+    {"_cm", "cm"},
+    {"_km", "km"},
+    {"_ms", "ms"},
+    {"_px", "pixels"},
+    {"_ev", "stops"},
+    {"_hz", "Hz"},
+    {"_m", "m"},
+    {"_s", "s"},
+    {"_w", "W"},
+    {"_h", "h"},
+    {"_cd", "cd"},
+    {"_lm", "lm"},
 };
 
 /* Copies the name without its unit and returns the unit in words, NULL if it has none. */
@@ -150,7 +171,7 @@ static bool unknown_key(walk *at, int key_node, const cyaml_schema_field_t *fiel
 {
     const char *keys[MAX_FIELDS], *unit = NULL, *key = scene_document_text(at->document, key_node);
     size_t count = 0;
-    char known[512] = "", name[64];
+    char known[1024] = "", name[64];
     for (; fields[count].key && count < MAX_FIELDS; count++) {
         keys[count] = fields[count].key;
         size_t used = strlen(known);
@@ -224,7 +245,8 @@ static bool check_text(walk *at, int node, const cyaml_schema_value_t *schema)
               found->data.scalar.length >= schema->string.min && found->data.scalar.length <= schema->string.max &&
               strlen((const char *)found->data.scalar.value) == found->data.scalar.length;
     const char *dot = strrchr(at->rule, '.');
-    return ok || expected(at, node, dot && !strcmp(dot, ".file") ? "the name of a file" : "a name");
+    return ok || expected(at, node,
+                          dot && (!strcmp(dot, ".file") || !strcmp(dot, ".mask")) ? "the name of a file" : "a name");
 }
 
 static bool check_switch(walk *at, int node)
@@ -240,8 +262,8 @@ static bool check_value(walk *at, int node, const cyaml_schema_value_t *schema, 
 static bool check_vector(walk *at, int node, const cyaml_schema_value_t *schema, const scene_rule *rule)
 {
     const yaml_node_t *list = node_of(at, node);
-    const char *pair = schema->sequence.entry->type == CYAML_UINT ? "2 numbers, as in [1280, 720]"
-                                                                  : "2 numbers, as in [-4, 7.5]";
+    const char *pair =
+        schema->sequence.entry->type == CYAML_UINT ? "2 numbers, as in [1280, 720]" : "2 numbers, as in [-4, 7.5]";
     const char *what = schema->sequence.max == 2 ? pair : "3 numbers, as in [0, 1.5, 0]";
     if (list->type != YAML_SEQUENCE_NODE)
         return expected(at, node, what);

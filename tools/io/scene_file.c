@@ -101,6 +101,21 @@ static bool find_file(scene_document *document, const char *key, char **name)
     return true;
 }
 
+static bool find_pane_files(scene_document *document, scene_file *scene)
+{
+    char key[64];
+    for (uint32_t i = 0; i < scene->pane_count; i++) {
+        scene_pane *pane = &scene->panes[i];
+        snprintf(key, sizeof key, "glass.%u.bumps.file", i);
+        if (pane->bumps.file && !find_file(document, key, &pane->bumps.file))
+            return false;
+        snprintf(key, sizeof key, "glass.%u.mask", i);
+        if (pane->mask && !find_file(document, key, &pane->mask))
+            return false;
+    }
+    return true;
+}
+
 static bool find_files(scene_document *document, scene_file *scene)
 {
     char key[64];
@@ -111,7 +126,8 @@ static bool find_files(scene_document *document, scene_file *scene)
     }
     scene_material_map *map = &scene->ground.material_map;
     return (!scene->environment.file || find_file(document, "environment.file", &scene->environment.file)) &&
-           (!map->file || find_file(document, "ground.material_map.file", &map->file));
+           (!map->file || find_file(document, "ground.material_map.file", &map->file)) &&
+           find_pane_files(document, scene);
 }
 
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
@@ -232,6 +248,75 @@ static bool check_material_map(scene_document *document, const scene_material_ma
     return true;
 }
 
+static bool check_wiper(scene_document *document, const scene_wiper *wiper, const char *at)
+{
+    char key[160];
+    if (wiper->blade_m > wiper->reach_m) {
+        snprintf(key, sizeof key, "%s.blade_m", at);
+        return refuse(document, key, "expected at most reach_m (%g), got %g", wiper->reach_m, wiper->blade_m);
+    }
+    snprintf(key, sizeof key, "%s.keys", at);
+    if (wiper->drive == SCENE_WIPER_KEYS && !wiper->key_count)
+        return refuse(document, key, "expected at least 1 entry, as drive is keys");
+    if (wiper->drive != SCENE_WIPER_KEYS && wiper->key_count)
+        return refuse(document, key, "expected none, as drive is not keys");
+    for (uint32_t i = 1; i < wiper->key_count; i++) {
+        const scene_wiper_key *now = &wiper->keys[i];
+        snprintf(key, sizeof key, "%s.keys.%u.time_s", at, i);
+        if (now->time_s <= now[-1].time_s)
+            return refuse(document, key, "expected more than the key before has (%g), got %g", now[-1].time_s,
+                          now->time_s);
+    }
+    return true;
+}
+
+static bool is_zero(const double v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+/* What goes with a shape or with a motion, and only with that. */
+static bool check_pane(scene_document *document, const scene_pane *pane, uint32_t index)
+{
+    char key[96];
+    snprintf(key, sizeof key, "glass.%u.shape", index);
+    if (pane->shape == SCENE_PANE_MESH && !pane->mesh)
+        return refuse(document, key, "expected mesh beside it, the name of one");
+    snprintf(key, sizeof key, "glass.%u.mesh", index);
+    if (pane->shape != SCENE_PANE_MESH && pane->mesh)
+        return refuse(document, key, "expected shape: mesh beside it");
+    snprintf(key, sizeof key, "glass.%u.motion", index);
+    if (pane->motion == SCENE_PANE_MOTION_PATH &&
+        !(is_zero(pane->velocity_m_s) && is_zero(pane->acceleration_m_s2) && is_zero(pane->turn_deg_s)))
+        return refuse(document, key, "expected given, as velocity_m_s, acceleration_m_s2 or turn_deg_s is there");
+    snprintf(key, sizeof key, "glass.%u.receding_deg", index);
+    if (pane->advancing_deg && pane->receding_deg && *pane->receding_deg > *pane->advancing_deg)
+        return refuse(document, key, "expected at most advancing_deg (%g), got %g", *pane->advancing_deg,
+                      *pane->receding_deg);
+    for (uint32_t i = 0; i < pane->wiper_count; i++) {
+        snprintf(key, sizeof key, "glass.%u.wipers.%u", index, i);
+        if (!check_wiper(document, &pane->wipers[i], key))
+            return false;
+    }
+    return true;
+}
+
+static bool check_panes(scene_document *document, const scene_file *scene)
+{
+    char key[64];
+    for (uint32_t i = 0; i < scene->pane_count; i++) {
+        for (uint32_t other = 0; other < i; other++) {
+            snprintf(key, sizeof key, "glass.%u.name", i);
+            if (!strcmp(scene->panes[i].name, scene->panes[other].name))
+                return refuse(document, key, "expected another name than that of glass.%u, '%s'", other,
+                              scene->panes[i].name);
+        }
+        if (!check_pane(document, &scene->panes[i], i))
+            return false;
+    }
+    return true;
+}
+
 static bool check_together(scene_document *document, const scene_file *scene)
 {
     if (scene->frames.last < scene->frames.first)
@@ -240,7 +325,8 @@ static bool check_together(scene_document *document, const scene_file *scene)
     if (scene->splash.on && !scene->ground.on)
         return refuse(document, "splash.on", "expected ground.on: true too, as it is the ground that drops splash on");
     return check_camera(document, &scene->camera) && check_lights(document, scene) &&
-           check_rain(document, &scene->rain) && check_material_map(document, &scene->ground.material_map);
+           check_rain(document, &scene->rain) && check_material_map(document, &scene->ground.material_map) &&
+           check_panes(document, scene);
 }
 
 /* ---- loading -------------------------------------------------------------------------------------------------- */
@@ -274,14 +360,21 @@ static uint64_t hash_file(uint64_t hash, const char *path)
     return hash;
 }
 
-/* Another mesh, sky or map under the same name is another scene. */
+/* Another mesh, sky, map or picture of a pane under the same name is another scene. */
 static uint64_t hash_files(uint64_t hash, const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         hash = hash_file(hash, scene->meshes[i].file);
     if (scene->environment.file)
         hash = hash_file(hash, scene->environment.file);
-    return scene->ground.material_map.file ? hash_file(hash, scene->ground.material_map.file) : hash;
+    if (scene->ground.material_map.file)
+        hash = hash_file(hash, scene->ground.material_map.file);
+    for (uint32_t i = 0; i < scene->pane_count; i++) {
+        const scene_pane *pane = &scene->panes[i];
+        hash = pane->bumps.file ? hash_file(hash, pane->bumps.file) : hash;
+        hash = pane->mask ? hash_file(hash, pane->mask) : hash;
+    }
+    return hash;
 }
 
 /* On success the document is the scene's. */
@@ -350,4 +443,17 @@ void scene_file_weather(const scene_file *scene, double time_s, double *rate_mm_
     *rate_mm_h = before->rate_mm_h + share * (after->rate_mm_h - before->rate_mm_h);
     for (int i = 0; i < 3; i++)
         wind_m_s[i] = before->wind_m_s[i] + share * (after->wind_m_s[i] - before->wind_m_s[i]);
+}
+
+double scene_file_wiper_deg(const scene_wiper *wiper, double time_s)
+{
+    uint32_t next = 0;
+    if (!wiper->key_count)
+        return wiper->low_deg;
+    while (next < wiper->key_count && wiper->keys[next].time_s <= time_s)
+        next++;
+    const scene_wiper_key *before = &wiper->keys[next > 0 ? next - 1 : 0];
+    const scene_wiper_key *after = &wiper->keys[next < wiper->key_count ? next : next - 1];
+    const double span = after->time_s - before->time_s, share = span > 0 ? (time_s - before->time_s) / span : 0;
+    return before->angle_deg + share * (after->angle_deg - before->angle_deg);
 }

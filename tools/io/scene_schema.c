@@ -188,6 +188,133 @@ static const cyaml_schema_field_t splash_fields[] = {
     CYAML_FIELD_END,
 };
 
+/* A number that may be left to something else. */
+#define MAYBE(owner, name)  CYAML_FIELD_FLOAT_PTR(#name, CYAML_FLAG_OPTIONAL, owner, name)
+#define SWITCH(owner, name) CYAML_FIELD_BOOL(#name, D, owner, name)
+
+static const cyaml_schema_field_t wiper_key_fields[] = {
+    NUMBER(scene_wiper_key, time_s),
+    NUMBER(scene_wiper_key, angle_deg),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t wiper_key = {CYAML_VALUE_MAPPING(D, scene_wiper_key, wiper_key_fields)};
+
+static const cyaml_strval_t wiper_drives[] = {
+    {"parked", SCENE_WIPER_PARKED},
+    {"continuous", SCENE_WIPER_CONTINUOUS},
+    {"intermittent", SCENE_WIPER_INTERMITTENT},
+    {"keys", SCENE_WIPER_KEYS},
+};
+static const cyaml_schema_field_t wiper_fields[] = {
+    PAIR(scene_wiper, pivot_m),
+    NUMBER(scene_wiper, reach_m),
+    NUMBER(scene_wiper, blade_m),
+    NUMBER(scene_wiper, width_m),
+    NUMBER(scene_wiper, low_deg),
+    NUMBER(scene_wiper, high_deg),
+    NUMBER(scene_wiper, blade_deg),
+    NUMBER(scene_wiper, blade_turn),
+    CHOICE(scene_wiper, drive, wiper_drives),
+    NUMBER(scene_wiper, sweep_s),
+    NUMBER(scene_wiper, pause_s),
+    NUMBER(scene_wiper, phase_s),
+    NUMBER(scene_wiper, film_mm),
+    NUMBER(scene_wiper, wear),
+    LIST("keys", scene_wiper, keys, key_count, &wiper_key, 0, 100000),
+    SWITCH(scene_wiper, drawn),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t wiper = {CYAML_VALUE_MAPPING(D, scene_wiper, wiper_fields)};
+
+static const cyaml_schema_field_t bumps_fields[] = {
+    CYAML_FIELD_STRING_PTR("file", CYAML_FLAG_POINTER, scene_bumps, file, 1, 4000),
+    PAIR(scene_bumps, size_mm),
+    NUMBER(scene_bumps, depth_mm),
+    NUMBER(scene_bumps, pull),
+    CYAML_FIELD_END,
+};
+
+static const cyaml_strval_t pane_shapes[] = {
+    {"flat", SCENE_PANE_FLAT},
+    {"windshield", SCENE_PANE_WINDSHIELD},
+    {"mesh", SCENE_PANE_MESH},
+};
+static const cyaml_strval_t pane_follows[] = {{"world", SCENE_PANE_WORLD}, {"camera", SCENE_PANE_CAMERA}};
+static const cyaml_strval_t pane_motions[] = {{"path", SCENE_PANE_MOTION_PATH}, {"given", SCENE_PANE_MOTION_GIVEN}};
+static const cyaml_strval_t pane_kinds[] = {{"paper", 0},  {"clean", 1}, {"dirty", 2},
+                                            {"coated", 3}, {"metal", 4}, {"leaf", 5}};
+static const cyaml_strval_t pane_densities[] = {
+    {"goto", 0}, {"blinn", 1}, {"murakami", 2}, {"wyvill", 3}, {"nishimura", 4}};
+static const cyaml_strval_t pane_blends[] = {{"sum", 0}, {"weighted", 1}};
+static const cyaml_strval_t pane_styles[] = {{"paper", 0}, {"physical", 1}};
+
+static const cyaml_schema_field_t pane_fields[] = {
+    CYAML_FIELD_STRING_PTR("name", CYAML_FLAG_POINTER, scene_pane, name, 1, 40),
+    CHOICE(scene_pane, shape, pane_shapes),
+    NUMBER(scene_pane, width_m),
+    NUMBER(scene_pane, height_m),
+    NUMBER(scene_pane, rake_deg),
+    NUMBER(scene_pane, bend_m),
+    CYAML_FIELD_STRING_PTR("mesh", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, scene_pane, mesh, 1, 200),
+    CYAML_FIELD_STRING_PTR("mask", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, scene_pane, mask, 1, 4000),
+    CHOICE(scene_pane, follow, pane_follows),
+    VECTOR(scene_pane, position_m),
+    NUMBER(scene_pane, yaw_deg),
+    NUMBER(scene_pane, pitch_deg),
+    NUMBER(scene_pane, roll_deg),
+    CHOICE(scene_pane, motion, pane_motions),
+    VECTOR(scene_pane, velocity_m_s),
+    VECTOR(scene_pane, acceleration_m_s2),
+    VECTOR(scene_pane, turn_deg_s),
+    NUMBER(scene_pane, shelter),
+    NUMBER(scene_pane, frame_m),
+    CHOICE(scene_pane, kind, pane_kinds),
+    MAYBE(scene_pane, advancing_deg),
+    MAYBE(scene_pane, receding_deg),
+    MAYBE(scene_pane, run_hold),
+    MAYBE(scene_pane, affinity),
+    MAYBE(scene_pane, film_um),
+    MAYBE(scene_pane, tail_mm),
+    CYAML_FIELD_BOOL_PTR("opaque", CYAML_FLAG_OPTIONAL, scene_pane, opaque),
+    NUMBER(scene_pane, drag),
+    NUMBER(scene_pane, meander),
+    NUMBER(scene_pane, path_ease),
+    NUMBER(scene_pane, path_s),
+    NUMBER(scene_pane, tail_m),
+    NUMBER(scene_pane, tail_s),
+    NUMBER(scene_pane, film_break_s),
+    NUMBER(scene_pane, evaporation_mm_h),
+    NUMBER(scene_pane, mist_mm),
+    NUMBER(scene_pane, air_share),
+    LIST("wipers", scene_pane, wipers, wiper_count, &wiper, 0, SCENE_FILE_MAX_WIPERS),
+    NUMBER(scene_pane, particle_mm),
+    NUMBER(scene_pane, penalty),
+    NUMBER(scene_pane, band),
+    NUMBER(scene_pane, hold_back_mm),
+    WHOLE(scene_pane, hold_back_cells),
+    CHOICE(scene_pane, density, pane_densities),
+    CHOICE(scene_pane, blend, pane_blends),
+    SWITCH(scene_pane, compress),
+    NUMBER(scene_pane, compress_from),
+    NUMBER(scene_pane, compress_step),
+    NUMBER(scene_pane, compress_k),
+    WHOLE(scene_pane, compress_steps),
+    NUMBER(scene_pane, threshold),
+    NUMBER(scene_pane, impact_s),
+    CHOICE(scene_pane, style, pane_styles),
+    NUMBER(scene_pane, paper_shift),
+    NUMBER(scene_pane, thickness_mm),
+    VECTOR(scene_pane, tint),
+    NUMBER(scene_pane, gain),
+    NUMBER(scene_pane, cell_m),
+    NUMBER(scene_pane, affinity_m),
+    WHOLE(scene_pane, max_drops),
+    WHOLE(scene_pane, max_texels),
+    CYAML_FIELD_MAPPING("bumps", CYAML_FLAG_OPTIONAL, scene_pane, bumps, bumps_fields),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t pane = {CYAML_VALUE_MAPPING(D, scene_pane, pane_fields)};
+
 /* The ground stands before the splashes, which take a default from it. */
 static const cyaml_schema_field_t scene_fields[] = {
     CYAML_FIELD_UINT("virga", D, scene_file, version),
@@ -200,6 +327,7 @@ static const cyaml_schema_field_t scene_fields[] = {
     GROUP(scene_file, rain, rain_fields),
     GROUP(scene_file, ground, ground_fields),
     GROUP(scene_file, splash, splash_fields),
+    LIST("glass", scene_file, panes, pane_count, &pane, 0, SCENE_FILE_MAX_PANES),
     CYAML_FIELD_END,
 };
 const cyaml_schema_value_t scene_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, scene_file, scene_fields)};
@@ -321,6 +449,93 @@ static const scene_rule rules[] = {
     {"splash.min_width_px", 0.5, 4, "1"},
     {"splash.soft_m", 0, 1, "0.002"},
     {"splash.near_m", 0, 5, "0.05"},
+
+    /* Ranges and defaults of panes are the library's own: virga/glass.h. */
+    {"glass", 0, 0, "[]"},
+    {"glass[].name", 0, 0, "pane"},
+    {"glass[].shape", 0, 0, "flat"},
+    {"glass[].width_m", 0.01, 10, "1.4"},
+    {"glass[].height_m", 0.01, 10, "0.75"},
+    {"glass[].rake_deg", 0, 85, "60"},
+    {"glass[].bend_m", 0, 1000, "3"},
+    {"glass[].mesh", 0, 0, NULL},
+    {"glass[].mask", 0, 0, NULL},
+    {"glass[].follow", 0, 0, "world"},
+    {"glass[].position_m", -ANY_M, ANY_M, NULL},
+    {"glass[].yaw_deg", -36000, 36000, "0"},
+    {"glass[].pitch_deg", -36000, 36000, "0"},
+    {"glass[].roll_deg", -36000, 36000, "0"},
+    {"glass[].motion", 0, 0, "path"},
+    {"glass[].velocity_m_s", -200, 200, "[0, 0, 0]"},
+    {"glass[].acceleration_m_s2", -100, 100, "[0, 0, 0]"},
+    {"glass[].turn_deg_s", -3600, 3600, "[0, 0, 0]"},
+    {"glass[].shelter", 0, 1, "0"},
+    {"glass[].frame_m", 0, 2, "0"},
+    {"glass[].kind", 0, 0, "paper"},
+    {"glass[].advancing_deg", 5, 175, NULL},
+    {"glass[].receding_deg", 1, 175, NULL},
+    {"glass[].run_hold", 0, 1, NULL},
+    {"glass[].affinity", 0, 2, NULL},
+    {"glass[].film_um", 0, 100, NULL},
+    {"glass[].tail_mm", 0, 2, NULL},
+    {"glass[].opaque", 0, 0, NULL},
+    {"glass[].drag", 0.01, 100, "1"},
+    {"glass[].meander", 0, 1, "0.1"},
+    {"glass[].path_ease", 0, 1, "0.6"},
+    {"glass[].path_s", 0.1, 600, "8"},
+    {"glass[].tail_m", 0.001, 1, "0.012"},
+    {"glass[].tail_s", 0.1, 3600, "12"},
+    {"glass[].film_break_s", 0, 60, "0.8"},
+    {"glass[].evaporation_mm_h", 0, 100, "0.5"},
+    {"glass[].mist_mm", 0, 1, "0.6"},
+    {"glass[].air_share", 0, 2, "0.4"},
+    {"glass[].wipers", 0, 0, "[]"},
+    {"glass[].wipers[].pivot_m", -20, 20, NULL},
+    {"glass[].wipers[].reach_m", 0.01, 10, NULL},
+    {"glass[].wipers[].blade_m", 0.01, 10, NULL},
+    {"glass[].wipers[].width_m", 0.001, 0.1, "0.008"},
+    {"glass[].wipers[].low_deg", -720, 720, NULL},
+    {"glass[].wipers[].high_deg", -720, 720, NULL},
+    {"glass[].wipers[].blade_deg", -180, 180, "0"},
+    {"glass[].wipers[].blade_turn", 0, 1, "0"},
+    {"glass[].wipers[].drive", 0, 0, "continuous"},
+    {"glass[].wipers[].sweep_s", 0.1, 60, "0.6"},
+    {"glass[].wipers[].pause_s", 0, 3600, "3"},
+    {"glass[].wipers[].phase_s", 0, 3600, "0"},
+    {"glass[].wipers[].film_mm", 0, 0.5, "0.004"},
+    {"glass[].wipers[].wear", 0, 1, "0.3"},
+    {"glass[].wipers[].keys", 0, 0, "[]"},
+    {"glass[].wipers[].keys[].time_s", -ANY_M, ANY_M, NULL},
+    {"glass[].wipers[].keys[].angle_deg", -720, 720, NULL},
+    {"glass[].wipers[].drawn", 0, 0, "true"},
+    {"glass[].particle_mm", 0.2, 5, "1.5"},
+    {"glass[].penalty", 0, 1, "0.1"},
+    {"glass[].band", 1, 16, "4"},
+    {"glass[].hold_back_mm", 0, 20, "2.2"},
+    {"glass[].hold_back_cells", 0, 8, "3"},
+    {"glass[].density", 0, 0, "goto"},
+    {"glass[].blend", 0, 0, "sum"},
+    {"glass[].compress", 0, 0, "true"},
+    {"glass[].compress_from", 0, 2, "0.5"},
+    {"glass[].compress_step", 0, 1, "0.1"},
+    {"glass[].compress_k", 0, 1, "0.3"},
+    {"glass[].compress_steps", 0, 16, "5"},
+    {"glass[].threshold", 0.05, 0.95, "0.5"},
+    {"glass[].impact_s", 0, 2, "0.25"},
+    {"glass[].style", 0, 0, "physical"},
+    {"glass[].paper_shift", 0, 4, "0.35"},
+    {"glass[].thickness_mm", 0, 50, "5"},
+    {"glass[].tint", 0, 1, "[1, 1, 1]"},
+    {"glass[].gain", 0, 100, "1"},
+    {"glass[].cell_m", 0.0005, 0.01, "0.002"},
+    {"glass[].affinity_m", 0.0005, 0.1, "0.006"},
+    {"glass[].max_drops", 256, 262144, "32768"},
+    {"glass[].max_texels", 64, 4096, "1024"},
+    {"glass[].bumps", 0, 0, NULL},
+    {"glass[].bumps.file", 0, 0, NULL},
+    {"glass[].bumps.size_mm", 0.1, 100000, NULL},
+    {"glass[].bumps.depth_mm", 0, 100, NULL},
+    {"glass[].bumps.pull", 0, 10, "1"},
 };
 
 /* ---- words ----------------------------------------------------------------------------------------------------- */
@@ -341,6 +556,21 @@ const char *scene_splash_mode_name(uint32_t mode)
 const char *scene_splash_style_name(uint32_t style)
 {
     return word_of(splash_styles, CYAML_ARRAY_LEN(splash_styles), style);
+}
+
+const char *scene_pane_shape_name(uint32_t shape)
+{
+    return word_of(pane_shapes, CYAML_ARRAY_LEN(pane_shapes), shape);
+}
+
+const char *scene_pane_kind_name(uint32_t kind)
+{
+    return word_of(pane_kinds, CYAML_ARRAY_LEN(pane_kinds), kind);
+}
+
+const char *scene_pane_style_name(uint32_t style)
+{
+    return word_of(pane_styles, CYAML_ARRAY_LEN(pane_styles), style);
 }
 
 /* ---- finding --------------------------------------------------------------------------------------------------- */

@@ -71,12 +71,33 @@ static bool check_material_map(const scene_file *scene)
     return true;
 }
 
+static bool check_pane_files(const scene_file *scene)
+{
+    for (uint32_t i = 0; i < scene->pane_count; i++) {
+        uint32_t columns, rows;
+        float *bumps = NULL;
+        uint8_t *mask = NULL;
+        char error[1024];
+        if (!shot_read_bumps(scene, i, &columns, &rows, &bumps, error, sizeof error))
+            return options_complain("check", "%s", error);
+        if (bumps)
+            printf("  bumps        %s: %u x %u\n", scene->panes[i].bumps.file, columns, rows);
+        free(bumps);
+        if (!shot_read_mask(scene, i, &columns, &rows, &mask, error, sizeof error))
+            return options_complain("check", "%s", error);
+        if (mask)
+            printf("  mask         %s: %u x %u\n", scene->panes[i].mask, columns, rows);
+        free(mask);
+    }
+    return true;
+}
+
 static bool check_files(const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         if (!check_mesh(scene->meshes[i].file))
             return false;
-    return check_environment(scene->environment.file) && check_material_map(scene);
+    return check_environment(scene->environment.file) && check_material_map(scene) && check_pane_files(scene);
 }
 
 static void print_ground(const scene_file *scene)
@@ -94,6 +115,17 @@ static void print_ground(const scene_file *scene)
         printf("  splash       off\n");
 }
 
+static void print_panes(const scene_file *scene)
+{
+    for (uint32_t i = 0; i < scene->pane_count; i++) {
+        const scene_pane *pane = &scene->panes[i];
+        printf("  glass        %s: %s, %g x %g m, %s, %s style, %u wiper%s%s\n", pane->name,
+               scene_pane_shape_name(pane->shape), pane->width_m, pane->height_m, scene_pane_kind_name(pane->kind),
+               scene_pane_style_name(pane->style), pane->wiper_count, pane->wiper_count == 1 ? "" : "s",
+               pane->follow == SCENE_PANE_CAMERA ? ", with the camera" : "");
+    }
+}
+
 int check_run(int argc, char **argv)
 {
     options parsed;
@@ -109,7 +141,7 @@ int check_run(int argc, char **argv)
         fprintf(stderr, "%s\n", error);
         return EXIT_USAGE;
     }
-    if (!shot_check_materials(scene, error, sizeof error)) {
+    if (!shot_check_materials(scene, error, sizeof error) || !shot_check_panes(scene, error, sizeof error)) {
         options_complain("check", "%s", error);
         scene_file_free(scene);
         return EXIT_USAGE;
@@ -120,6 +152,7 @@ int check_run(int argc, char **argv)
     printf("  rain         %g mm/h, %u drops, seed %u\n", scene->rain.rate_mm_h, scene->rain.max_drops,
            scene->rain.seed);
     print_ground(scene);
+    print_panes(scene);
     printf("  lights       %u\n", scene->light_count);
     const bool good = check_files(scene);
     scene_file_free(scene);

@@ -28,13 +28,17 @@ static const option_row rows[] = {
     {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
     {"--points", 0, NULL,
      "also write point caches: rain.%04d.ply of the drops and, where the scene has splashes, "
-     "splash.%04d.ply of their droplets",
+     "splash.%04d.ply of their droplets, where it has panes glass.%04d.ply",
      false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, splashes, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
+    {"--plate", 0, "PATTERN",
+     "footage in place of the scene that is drawn: EXR pictures by frame, as plate.%04d.exr, a folder of them for "
+     "the scene's frames in the order of their names, or one picture; of any size",
+     false},
     {"--resume", 0, NULL,
      "render only what is not there yet; refuses a folder in which these frames are of another "
-     "scene, seed, size, samples or layers",
+     "scene, seed, size, samples, layers or plate",
      false},
     {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
@@ -54,7 +58,9 @@ void render_help(void)
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
-           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n\n"
+           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n"
+           "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr --layers "
+           "glass,refraction\n\n"
            "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk full,\n"
            "device lost; finished frames are kept), 2 wrong command line or scene, or a file that it names, 130\n"
            "interrupted.\n");
@@ -132,6 +138,8 @@ static bool read_ranges(render_job *job)
     job->how.draw = true;
     job->how.points = job->points;
     job->how.stats = job->stats;
+    job->how.plate = options_value(&job->parsed, "--plate");
+    memcpy(job->how.frames, job->frames, sizeof job->frames);
     job->how.device = options_value(&job->parsed, "--device");
     return true;
 }
@@ -187,6 +195,7 @@ static resume_wish wish_of(const render_job *job)
                          .height = job->how.height,
                          .samples = job->how.samples,
                          .layers = job->layers,
+                         .plate = job->how.plate,
                          .points = job->points,
                          .preview = job->preview,
                          .stats = job->stats};

@@ -21,6 +21,8 @@ enum {
     LAYER_DEPTH,
     LAYER_RAIN,
     LAYER_SPLASH,
+    LAYER_GLASS,
+    LAYER_REFRACTION,
     LAYER_VELOCITY,
     LAYER_NORMAL,
     LAYER_ID,
@@ -31,7 +33,13 @@ enum {
 
 #define ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 
-typedef enum layer_need { NEEDS_NOTHING, NEEDS_GROUND, NEEDS_SPLASH } layer_need; /* of the scene */
+typedef enum layer_need { NEEDS_NOTHING, NEEDS_GROUND, NEEDS_SPLASH, NEEDS_PANES, NEEDS } layer_need; /* of the scene */
+
+static bool has_what_is_needed(const scene_file *scene, layer_need need)
+{
+    const bool has[NEEDS] = {true, scene->ground.on, scene->splash.on, scene->pane_count > 0};
+    return has[need];
+}
 
 typedef struct layer_row {
     const char *name;
@@ -43,8 +51,11 @@ typedef struct layer_row {
 
 /* The one list of layers. */
 static const layer_row layer_rows[LAYER_COUNT] = {
-    [LAYER_BEAUTY] =
-        {"beauty", {"R", "G", "B", "A"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "the rain over the splashes over the plate"},
+    [LAYER_BEAUTY] = {"beauty",
+                      {"R", "G", "B", "A"},
+                      EXR_SAMPLE_HALF,
+                      NEEDS_NOTHING,
+                      "panes over the rain over the splashes over the plate"},
     [LAYER_DEPTH] = {"depth", {"Z"}, EXR_SAMPLE_FLOAT, NEEDS_NOTHING, "metres from the camera"},
     [LAYER_RAIN] = {"rain",
                     {"rain.R", "rain.G", "rain.B", "rain.A"},
@@ -56,6 +67,17 @@ static const layer_row layer_rows[LAYER_COUNT] = {
                       EXR_SAMPLE_HALF,
                       NEEDS_SPLASH,
                       "the splashes alone, premultiplied"},
+    [LAYER_GLASS] = {"glass",
+                     {"glass.R", "glass.G", "glass.B", "glass.A"},
+                     EXR_SAMPLE_HALF,
+                     NEEDS_PANES,
+                     "drops on panes and what they show, premultiplied"},
+    /* Whole floats: half of them would step by half a pixel from 512 on. */
+    [LAYER_REFRACTION] = {"refraction",
+                          {"refraction.X", "refraction.Y"},
+                          EXR_SAMPLE_FLOAT,
+                          NEEDS_PANES,
+                          "where drops show the plate from, pixels right and down"},
     [LAYER_VELOCITY] = {"velocity",
                         {"velocity.X", "velocity.Y"},
                         EXR_SAMPLE_HALF,
@@ -102,15 +124,14 @@ bool frame_layers_parse(const char *list, uint32_t *layers)
 
 bool frame_layers_narrow(const scene_file *scene, uint32_t *layers)
 {
+    static const char *const words[NEEDS] = {"", "ground; expected ground.on: true",
+                                             "splashes; expected splash.on: true",
+                                             "panes; expected a list of them, glass"};
     const char *lacking = "";
     for (uint32_t i = 0; i < LAYER_COUNT; i++) {
-        const bool there = layer_rows[i].needs == NEEDS_GROUND   ? scene->ground.on
-                           : layer_rows[i].needs == NEEDS_SPLASH ? scene->splash.on
-                                                                 : true;
-        if (there || !(*layers & 1u << i))
+        if (has_what_is_needed(scene, layer_rows[i].needs) || !(*layers & 1u << i))
             continue;
-        lacking = layer_rows[i].needs == NEEDS_GROUND ? "ground; expected ground.on: true"
-                                                      : "splashes; expected splash.on: true";
+        lacking = words[layer_rows[i].needs];
         *layers &= ~(1u << i);
     }
     return *layers || options_complain("render", "--layers: the scene has no %s", lacking);
@@ -148,7 +169,7 @@ void frame_layers_help(void)
             snprintf(channels + used, sizeof channels - used, "%s%s", c ? " " : "", dot ? dot + 1 : row->channels[c]);
         }
         printf("      %-12s %-16s %s%s\n", row->name, channels, row->help,
-               row->needs == NEEDS_SPLASH ? ", where the scene has some" : "");
+               row->needs >= NEEDS_SPLASH ? ", where the scene has some" : "");
     }
 }
 
@@ -172,6 +193,8 @@ static const void *layer_pixels(const shot *s, uint32_t layer, const float *beau
         [LAYER_DEPTH] = {distance, 1},
         [LAYER_RAIN] = {frame->layer, 4},
         [LAYER_SPLASH] = {frame->splash, 4},
+        [LAYER_GLASS] = {frame->glass, 4},
+        [LAYER_REFRACTION] = {frame->refraction, 4},
         [LAYER_VELOCITY] = {frame->velocity, 2},
         [LAYER_NORMAL] = {frame->normal, 4},
         [LAYER_ID] = {frame->id, 1},
@@ -201,13 +224,14 @@ static float over(const float *layer, size_t c, float below)
     return layer[c] + below * (1 - layer[3]);
 }
 
-/* The rain over the splashes over the plate. Without splashes their layer is zero. */
+/* Panes over the rain over the splashes over the plate. What the scene lacks is zero. */
 static void compose(const shot *s, float *beauty)
 {
     const size_t values = (size_t)s->frame.width * s->frame.height * 4;
     for (size_t i = 0; i < values; i += 4)
         for (size_t c = 0; c < 4; c++)
-            beauty[i + c] = over(&s->frame.layer[i], c, over(&s->frame.splash[i], c, s->frame.color[i + c]));
+            beauty[i + c] = over(&s->frame.glass[i], c,
+                                 over(&s->frame.layer[i], c, over(&s->frame.splash[i], c, s->frame.color[i + c])));
 }
 
 static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32_t frame, exr_attribute *out,
@@ -225,6 +249,8 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
     out[n++] = (exr_attribute){.name = "device", .kind = EXR_ATTRIBUTE_STRING, .string = s->info.name};
     out[n++] = (exr_attribute){
         .name = "framesPerSecond", .kind = EXR_ATTRIBUTE_RATIONAL, .rational = {(int32_t)lround(fps * 1000), 1000}};
+    if (s->options.plate)
+        out[n++] = (exr_attribute){.name = "plate", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.plate};
     out[n] = (exr_attribute){.name = "worldToCamera", .kind = EXR_ATTRIBUTE_M44F};
     memcpy(out[n++].m44f, camera->view_from_world, sizeof camera->view_from_world);
     return n;
@@ -244,7 +270,7 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
     exr_parts parts = {.count = 0};
-    exr_attribute attributes[9];
+    exr_attribute attributes[10];
     char path[4096], hash[32], digits[EXR_UINT_DIGITS];
     collect(s, layers, beauty, distance, &parts);
     const exr_frame file = {.width = s->frame.width,
@@ -284,13 +310,18 @@ bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *e
 
 /* ---- points */
 
-/* By system, in the order of frame_points_name. */
-static const char *const points_names[] = {"rain.%04u.ply", "splash.%04u.ply"};
+static const struct {
+    const char *name;
+    layer_need needs;
+} points_rows[] = {
+    {"rain.%04u.ply", NEEDS_NOTHING}, {"splash.%04u.ply", NEEDS_SPLASH}, {"glass.%04u.ply", NEEDS_PANES}};
 
 const char *frame_points_name(const scene_file *scene, uint32_t system)
 {
-    const uint32_t count = scene->splash.on ? 2 : 1;
-    return system < count ? points_names[system] : NULL;
+    for (size_t i = 0; i < sizeof points_rows / sizeof points_rows[0]; i++)
+        if (has_what_is_needed(scene, points_rows[i].needs) && !system--)
+            return points_rows[i].name;
+    return NULL;
 }
 
 static bool write_points(const char *directory, uint32_t system, uint32_t frame, const ply_property *properties,
@@ -299,7 +330,7 @@ static bool write_points(const char *directory, uint32_t system, uint32_t frame,
 {
     const char *const comments[] = {comment, NULL};
     char path[4096], name[64];
-    snprintf(name, sizeof name, points_names[system], frame);
+    snprintf(name, sizeof name, points_rows[system].name, frame);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     return ply_write(path, properties, property_count, rows, stride, count, comments, error, error_size);
 }
@@ -351,10 +382,35 @@ static bool write_droplets(shot *s, const char *directory, uint32_t frame, char 
     return written;
 }
 
+static bool write_glass_drops(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    static const ply_property properties[] = {
+        {"x", PLY_FLOAT, AT(shot_glass_drop, position, 0)},        {"y", PLY_FLOAT, AT(shot_glass_drop, position, 1)},
+        {"z", PLY_FLOAT, AT(shot_glass_drop, position, 2)},        {"vx", PLY_FLOAT, AT(shot_glass_drop, velocity, 0)},
+        {"vy", PLY_FLOAT, AT(shot_glass_drop, velocity, 1)},       {"vz", PLY_FLOAT, AT(shot_glass_drop, velocity, 2)},
+        {"radius", PLY_FLOAT, AT(shot_glass_drop, radius_m, 0)},   {"id", PLY_UINT, AT(shot_glass_drop, id, 0)},
+        {"age", PLY_FLOAT, AT(shot_glass_drop, age_s, 0)},         {"kind", PLY_UINT, AT(shot_glass_drop, kind, 0)},
+        {"flags", PLY_UINT, AT(shot_glass_drop, flags, 0)},        {"pane", PLY_UINT, AT(shot_glass_drop, pane, 0)},
+        {"water_ul", PLY_FLOAT, AT(shot_glass_drop, water_ul, 0)},
+    };
+    shot_glass_drop *drops;
+    uint32_t count;
+    const bool written =
+        shot_glass_drops(s, &drops, &count, error, error_size) &&
+        write_points(
+            directory, 2, frame, properties, sizeof properties / sizeof properties[0], drops, sizeof *drops, count,
+            "virga glass: metres, seconds, microlitres; radius is of the base; kind 1 drop, 2 particle; flags 4 "
+            "running, 8 left behind, 16 held, 32 pushed",
+            error, error_size);
+    free(drops);
+    return written;
+}
+
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     return write_drops(s, directory, frame, error, error_size) &&
-           (!s->splash || write_droplets(s, directory, frame, error, error_size));
+           (!s->splash || write_droplets(s, directory, frame, error, error_size)) &&
+           (!s->scene->pane_count || write_glass_drops(s, directory, frame, error, error_size));
 }
 
 /* ---- statistics */
@@ -428,6 +484,45 @@ static void write_splash(shot *s, jsonl *stats)
     jsonl_end(stats);
 }
 
+/* The budget of a pane: landed = drops + particles + film + wiped + run_off + evaporated, to the last nanolitre. */
+static void write_pane(const shot_pane *pane, jsonl *stats)
+{
+    virga_glass_stats g;
+    virga_glass_stats_get(pane->glass, &g);
+    jsonl_begin_object(stats, NULL);
+    jsonl_string(stats, "name", pane->from->name);
+    jsonl_uint64(stats, "drops", g.drops);
+    jsonl_uint64(stats, "particles", g.particles);
+    jsonl_uint64(stats, "held", g.held);
+    jsonl_uint64(stats, "arrived", g.arrived);
+    jsonl_uint64(stats, "merged", g.merged);
+    jsonl_uint64(stats, "to_particles", g.to_particles);
+    jsonl_uint64(stats, "to_drops", g.to_drops);
+    jsonl_uint64(stats, "crowded", g.crowded);
+    jsonl_uint64(stats, "balls", g.balls);
+    jsonl_uint64(stats, "balls_cut", g.balls_cut);
+    jsonl_begin_object(stats, "water_ul");
+    jsonl_number(stats, "landed", (double)g.landed_nl * 1e-3);
+    jsonl_number(stats, "drops", (double)g.drops_nl * 1e-3);
+    jsonl_number(stats, "particles", (double)g.particles_nl * 1e-3);
+    jsonl_number(stats, "film", (double)g.film_nl * 1e-3);
+    jsonl_number(stats, "wiped", (double)g.wiped_nl * 1e-3);
+    jsonl_number(stats, "run_off", (double)g.run_off_nl * 1e-3);
+    jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
+    jsonl_end(stats);
+    jsonl_end(stats);
+}
+
+static void write_panes(const shot *s, jsonl *stats)
+{
+    if (!s->scene->pane_count)
+        return;
+    jsonl_begin_array(stats, "glass");
+    for (uint32_t i = 0; i < s->scene->pane_count; i++)
+        write_pane(&s->panes[i], stats);
+    jsonl_end(stats);
+}
+
 static void write_rain(const shot *s, jsonl *stats, const virga_rain_stats *rain)
 {
     jsonl_begin_object(stats, "rain");
@@ -457,6 +552,7 @@ bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_
     jsonl_number(stats, "time_s", shot_time(s, frame));
     write_rain(s, stats, &rain);
     write_splash(s, stats);
+    write_panes(s, stats);
     write_water(s, stats, &rain);
     jsonl_begin_object(stats, "milliseconds");
     for (uint32_t i = 0; i < passes; i++)

@@ -26,7 +26,7 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
 /* Writes DIR/preview.%04u.png. */
 bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
-/* Point caches of a scene's frame: "rain.%04u.ply", "splash.%04u.ply"; NULL behind the last. */
+/* Point caches of a scene's frame: "rain.%04u.ply", "splash.%04u.ply", "glass.%04u.ply"; NULL behind the last. */
 const char *frame_points_name(const scene_file *scene, uint32_t system);
 
 /* Writes all of them to DIR. */

@@ -28,7 +28,7 @@ static bool differs(const char *path, const char *what, const char *has, const c
     if (!strcmp(has, expected))
         return false;
     snprintf(error, error_size, "--resume: %s has %s %s, expected %s; choose another folder or leave out --resume",
-             path, what, has[0] ? has : "(none)", expected);
+             path, what, has[0] ? has : "(none)", expected[0] ? expected : "(none)");
     return true;
 }
 
@@ -51,6 +51,8 @@ static bool is_of_wish(const resume_wish *wish, const char *path, const exr_head
     frame_layers_print(wish->layers, expected, sizeof expected);
     if (differs(path, "layers", has, expected, error, error_size))
         return false;
+    if (differs(path, "plate", texts[3].text, wish->plate ? wish->plate : "", error, error_size))
+        return false;
     snprintf(expected, sizeof expected, "%016llx", (unsigned long long)scene_file_hash(wish->scene));
     return !differs(path, "scene hash", texts[2].text, expected, error, error_size);
 }
@@ -60,13 +62,13 @@ static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, cha
 {
     char path[4096], damage[1024];
     exr_header header;
-    exr_text texts[] = {{.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}};
+    exr_text texts[] = {{.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}, {.name = "plate"}};
     *there = false;
     snprintf(path, sizeof path, "%s/frame.%04u.exr", wish->directory, frame);
     struct stat info;
     if (stat(path, &info))
         return true;
-    if (!exr_read_header(path, &header, texts, 3, damage, sizeof damage)) {
+    if (!exr_read_header(path, &header, texts, 4, damage, sizeof damage)) {
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }

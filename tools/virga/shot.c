@@ -1,6 +1,6 @@
 /* shot.c - a scene file brought to life: device, meshes, light, rain and what it does; and a frame of it as an average
  * of sub-frames. */
-#include "shot.h"
+#include "shot_internal.h"
 
 #include "exr.h"
 #include "png.h"
@@ -12,6 +12,8 @@
 #include <string.h>
 
 #include <virga/shared/random.h>
+
+#define MOST_CATCHING 8u /* panes that catch the rain's own drops, see virga_rain_def.max_panes */
 
 /* ---- loading */
 
@@ -26,8 +28,7 @@ static void take_log(void *user, virga_log_level level, virga_log_id id, const c
         fprintf(stderr, "virga: %s\n", text);
 }
 
-/* A result of the library as an error line; its log said what went wrong. */
-static bool check(const shot *s, virga_result result, const char *what, char *error, size_t error_size)
+bool shot_ok(const shot *s, virga_result result, const char *what, char *error, size_t error_size)
 {
     if (result >= 0)
         return true;
@@ -37,7 +38,7 @@ static bool check(const shot *s, virga_result result, const char *what, char *er
 
 /* Notes that what fails here is wrong input. A file that this machine has no room for counts as such too: it will not
  * have it the next time either. */
-static bool blame_input(shot *s, bool right)
+bool shot_blame_input(shot *s, bool right)
 {
     s->input_wrong = !right;
     return right;
@@ -70,11 +71,11 @@ static bool open_device(shot *s, char *error, size_t error_size)
     def.frames_in_flight = HOST_FRAMES + 1;
     def.log = take_log;
     def.log_user = s;
-    return check(s, virga_context_create(&def, &s->context), "taking the device into use", error, error_size);
+    return shot_ok(s, virga_context_create(&def, &s->context), "taking the device into use", error, error_size);
 }
 
-/* rotation about X, then Y, then Z of the world, scaled and moved; row-major 3 x 4. */
-static void place_mesh(const scene_mesh *mesh, float out[12])
+/* Rotation about X, then Y, then Z of the world, scaled and moved; row-major 3 x 4. */
+void shot_place_mesh(const scene_mesh *mesh, float out[12])
 {
     double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int axis = 0; axis < 3; axis++) {
@@ -156,9 +157,9 @@ static bool load_meshes(shot *s, char *error, size_t error_size)
         return host_fail(error, error_size, "no memory for meshes");
     for (uint32_t i = 0; i < s->scene->mesh_count; i++) {
         float transform[12];
-        place_mesh(&s->scene->meshes[i], transform);
+        shot_place_mesh(&s->scene->meshes[i], transform);
         const char *path = s->scene->meshes[i].file;
-        if (!blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
+        if (!shot_blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
             return false;
         s->meshes_loaded++;
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
@@ -202,7 +203,7 @@ static bool upload_materials(shot *s, uint32_t width, uint32_t height, const uin
                                 .extent = {width, height, 1},
                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                 .name = "material map"};
-    if (!blame_input(s, width <= limit && height <= limit))
+    if (!shot_blame_input(s, width <= limit && height <= limit))
         return scene_file_refuse(s->scene, "ground.material_map.file", error, error_size,
                                  "%u x %u pixels are more than this device's %u on a side", width, height, limit);
     return host_image_create(&s->device, &def, &s->material_image, error, error_size) &&
@@ -217,7 +218,7 @@ static bool load_material_map(shot *s, char *error, size_t error_size)
                                     VK_ACCESS_SHADER_READ_BIT};
     uint32_t width, height;
     uint8_t *texels;
-    if (!blame_input(s, shot_read_material_map(s->scene, &width, &height, &texels, error, error_size)))
+    if (!shot_blame_input(s, shot_read_material_map(s->scene, &width, &height, &texels, error, error_size)))
         return false;
     if (!texels)
         return true;
@@ -248,7 +249,8 @@ static bool load_environment(shot *s, char *error, size_t error_size)
     float *pixels = NULL;
     if (from->file) {
         uint64_t repaired = 0;
-        if (!blame_input(s, exr_read_rgb(from->file, &def.width, &def.height, &pixels, &repaired, error, error_size)))
+        if (!shot_blame_input(s,
+                              exr_read_rgb(from->file, &def.width, &def.height, &pixels, &repaired, error, error_size)))
             return false;
         if (repaired)
             host_warn(&s->device, "%s: %llu values were not finite or below zero and count as 0", from->file,
@@ -304,7 +306,7 @@ static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error,
     s->settings.sizes.kind = (virga_sizes_kind)from->sizes;
     if (from->sizes != SCENE_SIZES_TABLE)
         return true;
-    if (!blame_input(s, from->table_count <= 256))
+    if (!shot_blame_input(s, from->table_count <= 256))
         return host_fail(error, error_size, "rain.table: expected at most 256 entries, got %u", from->table_count);
     for (uint32_t i = 0; i < from->table_count; i++) {
         diameters[i] = from->table[i].diameter_mm * 1e-3;
@@ -341,7 +343,7 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     memcpy(s->settings.lighting.environment_sh, s->environment.sh, sizeof s->settings.lighting.environment_sh);
     if (!fill_sizes(s, diameters, numbers, error, error_size))
         return false;
-    return check(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
+    return shot_ok(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
 }
 
 static bool set_ground(shot *s, char *error, size_t error_size)
@@ -351,7 +353,7 @@ static bool set_ground(shot *s, char *error, size_t error_size)
     settings.start_wetness = (float)s->scene->ground.start_wetness;
     settings.start_water_mm = (float)s->scene->ground.start_water_mm;
     settings.measure = s->options.stats;
-    return !s->ground || check(s, virga_ground_set(s->ground, &settings), "setting the ground", error, error_size);
+    return !s->ground || shot_ok(s, virga_ground_set(s->ground, &settings), "setting the ground", error, error_size);
 }
 
 /* Lit and carried by the same air as the rain, whose settings are made before. */
@@ -373,13 +375,14 @@ static bool set_splash(shot *s, char *error, size_t error_size)
     settings.near_m = (float)from->near_m;
     settings.air_density = s->settings.air_density;
     settings.lighting = s->settings.lighting;
-    return !s->splash || check(s, virga_splash_set(s->splash, &settings), "setting the splashes", error, error_size);
+    return !s->splash || shot_ok(s, virga_splash_set(s->splash, &settings), "setting the splashes", error, error_size);
 }
 
 /* Settings of a time. */
 static bool set_weather(shot *s, double time_s, char *error, size_t error_size)
 {
-    return set_rain(s, time_s, error, error_size) && set_splash(s, error, error_size);
+    return set_rain(s, time_s, error, error_size) && set_splash(s, error, error_size) &&
+           shot_panes_set(s, time_s, error, error_size);
 }
 
 /* How far ahead the middle of the map of ripples lies: where the camera looks, up to a distance that the lower part of
@@ -405,6 +408,7 @@ static virga_scene_def define_scene(const shot *s)
     def.rain.occlusion_slants = from->occlusion_slants;
     def.rain.max_ticks_per_step = 64;
     def.rain.points = s->options.points;
+    def.rain.max_panes = s->scene->pane_count < MOST_CATCHING ? s->scene->pane_count : MOST_CATCHING;
     def.with_ground = s->scene->ground.on;
     def.ground.cells = s->scene->ground.cells;
     def.ground.cell_m = (float)s->scene->ground.cell_m;
@@ -440,10 +444,20 @@ static bool set_mirror(shot *s, char *error, size_t error_size)
     return !s->ground || host_renderer_set_mirror(s->renderer, &s->target, height_m, error, error_size);
 }
 
+static bool create_scene(shot *s, char *error, size_t error_size)
+{
+    virga_scene_def def = define_scene(s);
+    virga_glass_def *panes = shot_panes_define(s);
+    def.panes = panes;
+    def.pane_count = s->scene->pane_count;
+    const virga_result result = virga_scene_create(s->context, &def, &s->rain_scene);
+    free(panes);
+    return shot_ok(s, result, "making the rain", error, error_size);
+}
+
 static bool open_rain(shot *s, char *error, size_t error_size)
 {
-    const virga_scene_def def = define_scene(s);
-    if (!check(s, virga_scene_create(s->context, &def, &s->rain_scene), "making the rain", error, error_size))
+    if (!create_scene(s, error, error_size))
         return false;
     s->rain = virga_scene_rain(s->rain_scene);
     s->ground = virga_scene_ground(s->rain_scene);
@@ -452,15 +466,17 @@ static bool open_rain(shot *s, char *error, size_t error_size)
     if (!set_ground(s, error, error_size))
         return false;
     fill_lights(s);
+    if (!shot_panes_open(s, error, error_size))
+        return false;
     if (!s->options.draw)
         return true;
     virga_target_def target = virga_default_target_def();
     host_target_describe_layer(&s->target, &target);
     host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);
     return set_mirror(s, error, error_size) &&
-           check(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
-                 error_size) &&
-           check(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
+           shot_ok(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
+                   error_size) &&
+           shot_ok(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
 }
 
 static bool make_target(shot *s, char *error, size_t error_size)
@@ -469,7 +485,25 @@ static bool make_target(shot *s, char *error, size_t error_size)
     const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
     const bool made = host_target_create(&s->device, width, height, &s->target, error, error_size);
     s->input_wrong = !made && (width > limit || height > limit);
-    return made && (!s->scene->splash.on || host_target_add_splash(&s->device, &s->target, error, error_size));
+    return made && (!s->scene->splash.on || host_target_add_splash(&s->device, &s->target, error, error_size)) &&
+           (!s->scene->pane_count || host_target_add_glass(&s->device, &s->target, error, error_size));
+}
+
+/* The first picture is read at once: most of what can be wrong with one is wrong with all. */
+static bool open_plate(shot *s, char *error, size_t error_size)
+{
+    return plate_open(&s->plate, s->options.plate, s->scene->frames.first, s->options.frames, s->options.width,
+                      s->options.height, error, error_size) &&
+           (!s->plate.pattern || plate_load(&s->plate, s->options.frames[0], error, error_size));
+}
+
+/* Where the pictures of a plate go on their way to the device. */
+static bool open_plate_buffer(shot *s, char *error, size_t error_size)
+{
+    const VkDeviceSize size = (VkDeviceSize)s->options.width * s->options.height * 4 * sizeof(float);
+    return !s->plate.pattern || !s->options.draw ||
+           host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "plate pixels",
+                              &s->plate_buffer, error, error_size);
 }
 
 static bool open_all(shot *s, char *error, size_t error_size)
@@ -478,8 +512,9 @@ static bool open_all(shot *s, char *error, size_t error_size)
     if (!s->camera_keys)
         return host_fail(error, error_size, "no memory for the camera's path");
     load_camera(s);
-    if (!blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
-                            shot_check_materials(s->scene, error, error_size)) ||
+    if (!shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
+                                 shot_check_materials(s->scene, error, error_size) &&
+                                 shot_check_panes(s->scene, error, error_size) && open_plate(s, error, error_size)) ||
         !open_device(s, error, error_size))
         return false;
     if (s->options.draw &&
@@ -487,8 +522,8 @@ static bool open_all(shot *s, char *error, size_t error_size)
          !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) ||
          !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
         return false;
-    return load_meshes(s, error, error_size) && load_material_map(s, error, error_size) &&
-           load_environment(s, error, error_size) &&
+    return open_plate_buffer(s, error, error_size) && load_meshes(s, error, error_size) &&
+           load_material_map(s, error, error_size) && load_environment(s, error, error_size) &&
            open_rain(s, error, error_size) && set_weather(s, 0, error, error_size);
 }
 
@@ -524,12 +559,15 @@ void shot_close(shot *s)
         host_environment_destroy(&s->device, &s->environment);
         if (s->target.width)
             host_target_destroy(&s->device, &s->target);
+        shot_panes_close(s);
+        host_buffer_destroy(&s->device, &s->plate_buffer);
         host_buffer_destroy(&s->device, &s->drops_read.buffer);
         host_buffer_destroy(&s->device, &s->droplets_read.buffer);
         host_device_destroy(&s->device);
     }
     if (s->instance.instance)
         host_instance_destroy(&s->instance);
+    plate_close(&s->plate);
     free(s->meshes);
     free(s->occluders);
     free(s->camera_keys);
@@ -546,15 +584,15 @@ double shot_time(const shot *s, uint32_t frame)
 static bool begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size)
 {
     return host_begin_frame(&s->device, cmd, error, error_size) &&
-           check(s, virga_frame_begin(s->context, s->device.frame, s->device.completed), "beginning a frame", error,
-                 error_size);
+           shot_ok(s, virga_frame_begin(s->context, s->device.frame, s->device.completed), "beginning a frame", error,
+                   error_size);
 }
 
 /* ---- points */
 
 /* Copies points that the step just recorded has left ready for it to where the host reads them. */
-static bool record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
-                        shot_read *read, char *error, size_t error_size)
+bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
+                      shot_read *read, char *error, size_t error_size)
 {
     if (!read->buffer.buffer &&
         !host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "points read",
@@ -575,18 +613,33 @@ static bool record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSiz
     return true;
 }
 
+/* What is on the panes. */
+static bool record_panes(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+        virga_glass_buffer drops;
+        shot_read *read = &s->panes[i].read;
+        virga_glass_drops(s->panes[i].glass, &drops, &read->count);
+        if (!shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
+            return false;
+    }
+    return true;
+}
+
 static bool record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
 {
     virga_rain_buffer drops;
     virga_splash_buffer droplets;
     shot_read *read = &s->drops_read;
-    if (!check(s, virga_rain_points(s->rain, cmd, &drops, &read->count, read->origin_m), "reading drops", error,
-               error_size) ||
-        !record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
+    if (!shot_ok(s, virga_rain_points(s->rain, cmd, &drops, &read->count, read->origin_m), "reading drops", error,
+                 error_size) ||
+        !shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
         return false;
     read = &s->droplets_read;
     virga_splash_droplets(s->splash, &droplets, &read->count, read->origin_m);
-    return !s->splash || record_read(s, cmd, droplets.buffer, droplets.offset, droplets.size, read, error, error_size);
+    return (!s->splash ||
+            shot_record_read(s, cmd, droplets.buffer, droplets.offset, droplets.size, read, error, error_size)) &&
+           record_panes(s, cmd, error, error_size);
 }
 
 /* What was read back, and room for as many points of `size` bytes. */
@@ -687,8 +740,13 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
                               .materials = s->materials};
     memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
     place_focus(s, &camera, time_s, info.focus_m);
-    if (!set_weather(s, time_s, error, error_size) ||
-        !check(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size))
+    virga_scene_pane *panes = shot_panes_place(s, time_s);
+    info.panes = panes;
+    const bool stepped =
+        set_weather(s, time_s, error, error_size) &&
+        shot_ok(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size);
+    free(panes);
+    if (!stepped)
         return false;
     s->frame_index++;
     return !s->options.points || record_points(s, cmd, error, error_size);
@@ -730,10 +788,57 @@ static virga_result draw_layers(shot *s, VkCommandBuffer cmd)
     return result < 0 ? result : rain;
 }
 
-static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view, double rain_s, const host_camera *now,
-                           const host_camera *frame_ago, char *error, size_t error_size)
+/* Panes show what is behind them: the plate with splashes and rain in it, which are drawn a second time for that. */
+static virga_result draw_behind(shot *s, VkCommandBuffer cmd)
 {
-    if (!check(s, prepare(s, cmd, view, rain_s), "preparing the rain", error, error_size))
+    host_target_begin_behind(&s->target, cmd);
+    const virga_result splash = s->splash ? virga_splash_draw(s->splash, cmd, s->layer) : VIRGA_OK;
+    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return splash < 0 ? splash : rain;
+}
+
+/* All panes of a kind of draw, far ones first. */
+static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd,
+                                   virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++)
+        result = draw(s->panes[i].glass, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return result;
+}
+
+/* `camera_s` is where the camera is on its path, `late_s` how long before the newest tick the picture is taken. */
+static virga_result draw_panes(shot *s, VkCommandBuffer cmd, virga_view view, double camera_s, double late_s)
+{
+    virga_result result = draw_behind(s, cmd);
+    view.color = host_target_behind(&s->target);
+    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++) {
+        virga_glass_pose pose;
+        const shot_pane *pane = &s->panes[i];
+        shot_pane_pose(s, pane->from, camera_s, &pose);
+        result = virga_glass_prepare(pane->glass, cmd, &view, &pose, virga_glass_time(pane->glass) - late_s);
+    }
+    if (result < 0)
+        return result;
+    host_target_begin_glass(&s->target, cmd);
+    result = draw_each_pane(s, cmd, virga_glass_draw);
+    host_target_begin_refraction(&s->target, cmd);
+    const virga_result refraction = draw_each_pane(s, cmd, virga_glass_draw_refraction);
+    return result < 0 ? result : refraction;
+}
+
+/* The opaque scene, or footage in its place. */
+static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const host_camera *now,
+                         const host_camera *frame_ago, char *error, size_t error_size)
+{
+    if (s->plate.pattern) {
+        memcpy(s->plate_buffer.mapped, s->plate.rgba, s->plate_buffer.size);
+        host_target_fill_plate(&s->target, cmd, &s->plate_buffer);
+        return true;
+    }
+    if (!shot_panes_move_meshes(s, cmd, camera_s, error, error_size))
         return false;
     if (s->ground) {
         virga_ground_maps maps;
@@ -741,7 +846,25 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view,
         host_renderer_set_ground(s->renderer, &maps);
     }
     host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
-    if (!check(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
+    return true;
+}
+
+/* When a picture is taken. */
+typedef struct moment {
+    double camera_s; /* on the camera's path */
+    double late_s;   /* before the newest tick */
+} moment;
+
+static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view, moment at, const host_camera *now,
+                           const host_camera *frame_ago, char *error, size_t error_size)
+{
+    if (!shot_ok(s, prepare(s, cmd, view, virga_rain_time(s->rain) - at.late_s), "preparing the rain", error,
+                 error_size) ||
+        !record_plate(s, cmd, at.camera_s, now, frame_ago, error, error_size) ||
+        !shot_ok(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
+        return false;
+    if (s->scene->pane_count &&
+        !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
     host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
     return true;
@@ -767,9 +890,8 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&now, &open, part_s, &view);
-    const double rain_s = virga_rain_time(s->rain) - (time_s - close_s);
-    if (!begin(s, &cmd, error, error_size) ||
-        !record_picture(s, cmd, &view, rain_s, &now, &frame_ago, error, error_size) ||
+    const moment at = {fmax(close_s, shot_start), time_s - close_s};
+    if (!begin(s, &cmd, error, error_size) || !record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size) ||
         !host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
         return false;
     host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
@@ -778,7 +900,8 @@ static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, si
 
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)
 {
-    if (!shot_step(s, frame, error, error_size))
+    if (!shot_step(s, frame, error, error_size) ||
+        (s->plate.pattern && !plate_load(&s->plate, frame, error, error_size)))
         return false;
     const double time_s = shot_time(s, frame);
     host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, camera);

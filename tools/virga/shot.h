@@ -3,6 +3,7 @@
 #define VIRGA_TOOL_SHOT_H
 
 #include "host.h"
+#include "plate.h"
 #include "scene_file.h"
 
 #include <virga/shared/drop.h>
@@ -19,6 +20,8 @@ typedef struct shot_options {
     bool draw;        /* false: simulation only */
     bool stats;       /* sums of water are wanted */
     bool points;      /* drops and droplets of each stepped frame are read back */
+    const char *plate; /* pictures in place of the opaque scene, see plate.h; NULL: the scene is drawn */
+    uint32_t frames[2]; /* (plate) first and last to be drawn */
 } shot_options;
 
 /* Points of the newest step, on their way to the host. */
@@ -27,6 +30,18 @@ typedef struct shot_read {
     uint32_t count;
     double origin_m[3]; /* that positions count from */
 } shot_read;
+
+/* A pane of the scene. */
+typedef struct shot_pane {
+    const scene_pane *from;
+    virga_glass *glass;
+    virga_glass_settings settings;
+    float *positions; /* columns x rows points in its own frame, see virga_glass_shape */
+    uint32_t columns, rows;
+    virga_scene_pane now; /* at the frame that the simulation stands at */
+    host_mesh mesh;       /* its frame and its wipers; no vertices: neither */
+    shot_read read;
+} shot_pane;
 
 typedef struct shot {
     const scene_file *scene;
@@ -52,9 +67,12 @@ typedef struct shot {
     virga_rain *rain;
     virga_ground *ground; /* NULL: none */
     virga_splash *splash; /* NULL: none */
-    virga_target *layer;  /* what rain and splash draw into, each into a layer of its own */
+    virga_target *layer;  /* what rain, splashes and panes draw into, each into a layer of its own */
     virga_rain_settings settings;
     shot_read drops_read, droplets_read;
+    shot_pane *panes; /* as many as the scene has; NULL before they are made */
+    plate plate;
+    host_buffer plate_buffer; /* its pixels on their way to the device */
     uint32_t frame_index; /* scene frame that the simulation stands at; first - 1 before any */
     double camera_time_s; /* of the frame that the simulation stands at */
     char warning[512];    /* newest line that the library logged as warning or error */
@@ -78,8 +96,20 @@ typedef struct shot_droplet {
     float water_ul;
 } shot_droplet;
 
+/* One drop on a pane. */
+typedef struct shot_glass_drop {
+    float position[3], velocity[3], radius_m; /* of its base; of a particle */
+    uint32_t id;
+    float age_s;
+    uint32_t kind, flags, pane; /* VIRGA_GLASS_DROP or _PARTICLE; the other bits of virga_glass_drop_gpu.kind */
+    float water_ul;
+} shot_glass_drop;
+
 /* Whether the names of materials that the scene gives are known; else one line about the first that is not. */
 bool shot_check_materials(const scene_file *scene, char *error, size_t error_size);
+
+/* Likewise whether the contact angles of panes go together. */
+bool shot_check_panes(const scene_file *scene, char *error, size_t error_size);
 
 /* The picture of ground.material_map as materials, one byte a texel, SHOT_MATERIAL_OF_MESH where meshes decide: an
  * array to free(), NULL where the scene has no map. Its names must be known. */
@@ -105,5 +135,16 @@ bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, siz
 
 /* The same with the droplets, those on the tip of a pile among them. Needs splashes too. */
 bool shot_droplets(shot *s, shot_droplet **droplets, uint32_t *count, char *error, size_t error_size);
+
+/* The same with what is on the panes, pane by pane. */
+bool shot_glass_drops(shot *s, shot_glass_drop **drops, uint32_t *count, char *error, size_t error_size);
+
+/* A pane's height map of bumps in metres, rows from below, an array to free(); NULL where it has none. */
+bool shot_read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, float **bumps_m,
+                     char *error, size_t error_size);
+
+/* Where it has no glass is 0, rows from below, an array to free(); NULL where it has no such picture. */
+bool shot_read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, uint8_t **mask,
+                    char *error, size_t error_size);
 
 #endif

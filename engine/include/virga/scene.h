@@ -1,11 +1,13 @@
 /* virga/scene.h - the effects of one place, wired along their events, in the order that a frame needs.
  *
- * A host that wants all of it calls scene functions; one that wants a single effect uses that effect's header alone.
- * A scene holds rain and, where asked for, the ground that it wets and the splashes that it makes there.
+ * A host that wants all of it calls scene functions; one that wants a single effect uses that effect's header
+ * alone. A scene holds rain and, where asked for, the ground that it wets, the splashes that it makes there, and
+ * panes with drops.
  */
 #ifndef VIRGA_SCENE_H
 #define VIRGA_SCENE_H
 
+#include <virga/glass.h>
 #include <virga/ground.h>
 #include <virga/rain.h>
 #include <virga/splash.h>
@@ -16,6 +18,8 @@ extern "C" {
 
 typedef struct virga_scene virga_scene; /* opaque */
 
+#define VIRGA_SCENE_MAX_PANES 16
+
 typedef struct virga_scene_def {
     uint32_t size, cookie;
     virga_rain_def rain;
@@ -23,6 +27,12 @@ typedef struct virga_scene_def {
     virga_ground_def ground; /* seed, ticks, impacts and strides are taken from `rain` */
     bool with_splash;        /* needs the ground. Default false */
     virga_splash_def splash; /* ticks are taken from `rain`, spawns and returns from `ground` */
+    const virga_glass_def *panes; /* (optional) pane_count definitions, far ones first. Ticks are taken from `rain`, and
+                              * seeds: its own for the first pane, one more for each that follows. The first
+                              * rain.max_panes of them catch the drops that are seen to fall (virga_rain_hits), with
+                              * their ids, none under cover; the others get drops of their own at the rain's rate.
+                              * Copied. Default NULL */
+    uint32_t pane_count;     /* [0; VIRGA_SCENE_MAX_PANES]. Default 0 */
 } virga_scene_def;
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
@@ -42,6 +52,22 @@ VIRGA_API virga_ground *virga_scene_ground(virga_scene *scene);
 /* The splashes of the scene; NULL without any. Owned by the scene. */
 VIRGA_API virga_splash *virga_scene_splash(virga_scene *scene);
 
+/* A pane of the scene, for its shape, settings, buffers and statistics. NULL where there is none of that number.
+ * Owned by the scene. */
+VIRGA_API virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index);
+
+/* Where a pane is at the frame's end and how it moves; all zero: it rests at the world's origin with the world's
+ * axes, in the open. A host that draws more than one view, or wants panes to show the picture of this very frame,
+ * prepares them itself (virga_glass_prepare). */
+typedef struct virga_scene_pane {
+    virga_glass_pose pose;
+    float velocity_m_s[3];      /* of the pane in the world */
+    float acceleration_m_s2[3]; /* of its origin, without gravity */
+    float turn_rad_s[3];        /* about the world's axes */
+    float shelter;              /* [0; 1] share of the rain that does not reach it, beside what covers keep off. Above
+                                 * 0: the pane gets drops of its own */
+} virga_scene_pane;
+
 /* What a frame needs outside rendering. */
 typedef struct virga_scene_frame {
     double dt_s; /* [0; 10] host time since the last frame */
@@ -51,16 +77,23 @@ typedef struct virga_scene_frame {
     uint32_t occluder_count;
     virga_ground_material_map materials; /* (optional) of the ground, over its meshes' */
     const virga_view *view; /* (optional) the view to prepare; NULL: the scene is stepped only */
+    const virga_scene_pane *panes; /* as many as the scene has; may be NULL where it has none */
+    bool panes_later;       /* panes are stepped but not prepared. Else view.color, where given, is read here already,
+                             * so it must hold a picture by now: that of the frame before is fine for a game.
+                             * Default false */
 } virga_scene_frame;
 
-/* Occlusion, rain, ground, splash and prepare, in that order. The worst of their results is returned. */
+/* Occlusion, rain, ground, splash, panes and prepare, in that order. Panes get the rate, sizes, air and wind of the
+ * rain's settings. The worst of their results is returned; VIRGA_ERROR_INVALID for a scene with panes and none in
+ * `frame`. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Builds the pipelines of all effects for a target, see virga_rain_attach. */
 VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target *target);
 
-/* All draws, inside rendering of `target`: splashes, then rain. A host that wants them apart (layers) draws each by its own
- * function. */
+/* All draws, inside rendering of `target`: splashes, then rain, then panes in the order of their definitions. A
+ * host that wants them apart (layers) draws each by its own function. VIRGA_NOT_READY where something was not
+ * prepared; the rest is drawn. */
 VIRGA_API virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target);
 
 #ifdef __cplusplus

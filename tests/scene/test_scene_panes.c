@@ -1,0 +1,299 @@
+/* test_scene_panes.c - panes of a scene: made, stepped with its rain, prepared, drawn, refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "../host/plate_fixture.h"
+
+#include "glass/glass_internal.h"
+
+#include <virga/virga.h>
+
+#define REQUIRE(condition)                      \
+    do {                                        \
+        if (!(condition))                       \
+            fail_msg("not so: %s", #condition); \
+    } while (0)
+
+#define SIDE 32 /* pixels of the picture */
+
+typedef struct scene_fixture {
+    fixture gpu;
+    virga_context *context;
+    char said[256]; /* newest line of the log */
+} scene_fixture;
+
+static void keep_line(void *user, virga_log_level level, virga_log_id id, const char *text)
+{
+    scene_fixture *f = user;
+    (void)level;
+    (void)id;
+    snprintf(f->said, sizeof f->said, "%s", text);
+}
+
+static int set_up(void **state)
+{
+    static scene_fixture f;
+    if (!fixture_begin(&f.gpu)) {
+        printf("skipped: %s\n", f.gpu.error);
+        exit(77);
+    }
+    virga_context_def def = virga_default_context_def();
+    def.instance = f.gpu.instance.instance;
+    def.physical_device = f.gpu.device.physical;
+    def.device = f.gpu.device.device;
+    def.queue_family = f.gpu.device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.log = keep_line;
+    def.log_user = &f;
+    f.said[0] = 0;
+    *state = &f;
+    return virga_context_create(&def, &f.context) == VIRGA_OK ? 0 : -1;
+}
+
+/* Nothing is left, and the layer has nothing to say. */
+static int tear_down(void **state)
+{
+    scene_fixture *f = *state;
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    virga_context_destroy(&f->context);
+    if (f->gpu.instance.messages)
+        printf("%s\n", f->gpu.instance.first_message);
+    return fixture_end(&f->gpu) ? -1 : 0;
+}
+
+static virga_scene_def small_scene(virga_glass_def panes[2])
+{
+    virga_scene_def def = virga_default_scene_def();
+    def.rain.seed = 70;
+    def.rain.max_drops = 1024;
+    def.rain.occlusion_size = 0;
+    def.rain.max_ticks_per_step = 32;
+    def.panes = panes;
+    def.pane_count = 2;
+    for (int i = 0; i < 2; i++) {
+        panes[i] = virga_default_glass_def();
+        panes[i].width_m = 0.2f;
+        panes[i].height_m = 0.2f;
+        panes[i].max_drops = 2048;
+        panes[i].max_texels = 128;
+    }
+    return def;
+}
+
+static virga_scene *make_catching_scene(scene_fixture *f, uint32_t catching)
+{
+    virga_glass_def panes[2];
+    virga_scene_def def = small_scene(panes);
+    def.rain.max_panes = catching;
+    virga_scene *scene = NULL;
+    REQUIRE(virga_scene_create(f->context, &def, &scene) == VIRGA_OK);
+    memset(panes, 0xff, sizeof panes); /* copied */
+    virga_rain_settings rain;
+    virga_rain_get(virga_scene_rain(scene), &rain);
+    rain.rate_mm_h = 100;
+    rain.transition_s = 0;
+    REQUIRE(virga_rain_set(virga_scene_rain(scene), &rain) == VIRGA_OK);
+    return scene;
+}
+
+static virga_scene *make_scene(scene_fixture *f)
+{
+    return make_catching_scene(f, 0);
+}
+
+static VkCommandBuffer begin(scene_fixture *f)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    return cmd;
+}
+
+static void finish(scene_fixture *f)
+{
+    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
+}
+
+/* Level, facing up, at half a metre before the camera. */
+static void lay_panes(virga_scene_pane panes[2])
+{
+    static const float up[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+    memset(panes, 0, 2 * sizeof *panes);
+    for (int i = 0; i < 2; i++) {
+        memcpy(panes[i].pose.world_from_pane, up, sizeof up);
+        panes[i].pose.position_m[0] = -0.1;
+        panes[i].pose.position_m[1] = -0.5;
+    }
+}
+
+static void definitions_are_checked(void **state)
+{
+    scene_fixture *f = *state;
+    virga_glass_def panes[2];
+    virga_scene_def def = small_scene(panes);
+    virga_scene *scene = (virga_scene *)f;
+    def.pane_count = VIRGA_SCENE_MAX_PANES + 1;
+    assert_int_equal(virga_scene_create(f->context, &def, &scene), VIRGA_ERROR_INVALID);
+    assert_null(scene);
+    REQUIRE(strstr(f->said, "scene_def.pane_count: expected up to 16"));
+    def.pane_count = 1;
+    def.panes = NULL;
+    assert_int_equal(virga_scene_create(f->context, &def, &scene), VIRGA_ERROR_INVALID);
+    REQUIRE(strstr(f->said, "panes NULL"));
+    def.panes = panes;
+    def.pane_count = 2;
+    panes[1].cookie ^= 1; /* the first is made, and goes again */
+    assert_int_equal(virga_scene_create(f->context, &def, &scene), VIRGA_ERROR_INVALID);
+    assert_null(scene);
+}
+
+static void panes_take_seeds_and_ticks_from_the_rain(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_scene(f);
+    for (uint32_t i = 0; i < 2; i++) {
+        const virga_glass *glass = virga_scene_glass(scene, i);
+        assert_non_null(glass);
+        assert_int_equal(glass->def.seed, 70 + i);
+        assert_int_equal(glass->def.max_ticks_per_step, 32);
+        REQUIRE(glass->def.tick_s == virga_default_rain_def().tick_s);
+    }
+    assert_null(virga_scene_glass(scene, 2));
+    assert_null(virga_scene_glass(NULL, 0));
+    virga_scene_destroy(&scene);
+}
+
+/* Half a second of 100 mm/h on 0.04 m^2 is 556 microlitres, to what a few hundred drops leave to chance. */
+static void rain_lands_on_what_is_not_under_cover(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_scene(f);
+    virga_scene_pane panes[2];
+    lay_panes(panes);
+    panes[1].shelter = 1;
+    const virga_scene_frame frame = {.dt_s = 0.5, .panes = panes};
+    REQUIRE(virga_scene_record(scene, begin(f), &frame) == VIRGA_OK);
+    finish(f);
+    virga_glass_stats open, covered;
+    virga_glass_stats_get(virga_scene_glass(scene, 0), &open);
+    virga_glass_stats_get(virga_scene_glass(scene, 1), &covered);
+    assert_int_equal(covered.landed_nl, 0);
+    if (open.landed_nl < 350000 || open.landed_nl > 800000)
+        fail_msg("%llu nl landed, expected about 556000", (unsigned long long)open.landed_nl);
+    assert_int_equal(open.landed_nl, open.drops_nl + open.particles_nl + open.film_nl + open.run_off_nl +
+                                         open.wiped_nl + open.evaporated_nl);
+    REQUIRE(virga_glass_time(virga_scene_glass(scene, 0)) == virga_rain_time(virga_scene_rain(scene)));
+    virga_scene_destroy(&scene);
+}
+
+/* The first catches what falls, the second gets as much at the rate; both from the same sky. */
+static void panes_catch_the_drops_that_fall(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_catching_scene(f, 1);
+    virga_scene_pane panes[2];
+    lay_panes(panes);
+    const virga_scene_frame frame = {.dt_s = 0.5, .panes = panes};
+    for (int i = 0; i < 8; i++) {
+        REQUIRE(virga_scene_record(scene, begin(f), &frame) == VIRGA_OK);
+        finish(f);
+    }
+    virga_glass_stats caught, told;
+    virga_glass_stats_get(virga_scene_glass(scene, 0), &caught);
+    virga_glass_stats_get(virga_scene_glass(scene, 1), &told);
+    const double share = (double)caught.landed_nl / (double)told.landed_nl;
+    if (!(share > 0.75 && share < 1.33))
+        fail_msg("%llu nl of drops that fall, %llu nl of the rate", (unsigned long long)caught.landed_nl,
+                 (unsigned long long)told.landed_nl);
+    assert_int_not_equal(caught.landed_nl, told.landed_nl);
+    virga_scene_destroy(&scene);
+}
+
+static void frames_are_checked(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_scene(f);
+    virga_scene_pane panes[2];
+    lay_panes(panes);
+    virga_scene_frame frame = {.dt_s = 0.1};
+    assert_int_equal(virga_scene_record(scene, begin(f), &frame), VIRGA_ERROR_INVALID);
+    REQUIRE(strstr(f->said, "scene_frame.panes: expected 2, got NULL"));
+    finish(f);
+    panes[1].shelter = 1.5f;
+    frame.panes = panes;
+    assert_int_equal(virga_scene_record(scene, begin(f), &frame), VIRGA_ERROR_INVALID);
+    REQUIRE(strstr(f->said, "scene_pane.shelter: expected 0 to 1, got 1.5"));
+    finish(f);
+    virga_scene_destroy(&scene);
+}
+
+/* Looking straight down. */
+static virga_view look_down(void)
+{
+    virga_view view = virga_default_view();
+    static const float down[16] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+    static const float lens[16] = {2, 0, 0, 0, 0, -2, 0, 0, 0, 0, -1.001f, -1, 0, 0, -0.1001f, 0};
+    memcpy(view.view_from_world, down, sizeof down);
+    memcpy(view.open_view_from_world, down, sizeof down);
+    memcpy(view.clip_from_view, lens, sizeof lens);
+    memcpy(view.open_clip_from_view, lens, sizeof lens);
+    view.viewport[2] = view.viewport[3] = SIDE;
+    return view;
+}
+
+static void panes_are_drawn_once_they_are_prepared(void **state)
+{
+    scene_fixture *f = *state;
+    host_target target;
+    virga_target_def def = virga_default_target_def();
+    virga_target *layer = NULL;
+    virga_scene *scene = make_scene(f);
+    virga_scene_pane panes[2];
+    const virga_view view = look_down();
+    lay_panes(panes);
+    REQUIRE(host_target_create(&f->gpu.device, SIDE, SIDE, &target, f->gpu.error, sizeof f->gpu.error));
+    host_target_describe_layer(&target, &def);
+    REQUIRE(virga_target_create(f->context, &def, &layer) == VIRGA_OK);
+    REQUIRE(virga_scene_attach(scene, layer) == VIRGA_OK);
+    for (int later = 0; later < 2; later++) {
+        const virga_scene_frame frame = {.dt_s = 0.25, .view = &view, .panes = panes, .panes_later = later};
+        VkCommandBuffer cmd = begin(f);
+        REQUIRE(virga_scene_record(scene, cmd, &frame) == VIRGA_OK);
+        for (uint32_t i = 0; later && i < 2; i++)
+            REQUIRE(virga_glass_draw(virga_scene_glass(scene, i), cmd, layer) == VIRGA_NOT_READY);
+        for (uint32_t i = 0; later && i < 2; i++)
+            REQUIRE(virga_glass_prepare(virga_scene_glass(scene, i), cmd, &view, &panes[i].pose,
+                                        virga_glass_time(virga_scene_glass(scene, i))) == VIRGA_OK);
+        host_target_begin_layer(&target, cmd);
+        assert_int_equal(virga_scene_draw(scene, cmd, layer), VIRGA_OK);
+        host_target_end_layer(&target, cmd);
+        host_target_copy_out(&target, cmd, 1u << HOST_LAYER);
+        finish(f);
+        const float *pixels = host_target_floats(&f->gpu.device, &target, HOST_LAYER);
+        float most = 0;
+        for (uint32_t i = 3; i < SIDE * SIDE * 4; i += 4)
+            most = pixels[i] > most ? pixels[i] : most;
+        REQUIRE(most > 0.2f && most <= 1);
+    }
+    virga_target_destroy(&layer);
+    virga_scene_destroy(&scene);
+    host_target_destroy(&f->gpu.device, &target);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(definitions_are_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(panes_take_seeds_and_ticks_from_the_rain, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(rain_lands_on_what_is_not_under_cover, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(panes_catch_the_drops_that_fall, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(frames_are_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(panes_are_drawn_once_they_are_prepared, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

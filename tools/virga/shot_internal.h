@@ -1,0 +1,51 @@
+/* shot_internal.h - what shot.c, shot_glass.c and shot_wipers.c share. */
+#ifndef VIRGA_TOOL_SHOT_INTERNAL_H
+#define VIRGA_TOOL_SHOT_INTERNAL_H
+
+#include "shot.h"
+
+/* ---- shot.c */
+
+/* A result of the library as an error line; its log said what went wrong. */
+bool shot_ok(const shot *s, virga_result result, const char *what, char *error, size_t error_size);
+
+/* Notes that what fails here is wrong input. */
+bool shot_blame_input(shot *s, bool right);
+
+/* Where a mesh of the scene lies in the world; row-major 3 x 4. */
+void shot_place_mesh(const scene_mesh *mesh, float out[12]);
+
+/* Copies points that the step just recorded has left ready for it to where the host reads them. */
+bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
+                      shot_read *read, char *error, size_t error_size);
+
+/* ---- shot_glass.c: the panes of the scene */
+
+/* Definitions of all panes, for virga_scene_create: an array to free(); NULL without memory or panes. */
+virga_glass_def *shot_panes_define(const shot *s);
+
+/* Gives the panes of s->rain_scene shapes and meshes. Their settings come from shot_panes_set. */
+bool shot_panes_open(shot *s, char *error, size_t error_size);
+void shot_panes_close(shot *s);
+
+/* Settings of a time: lit as the rain, whose settings are made before. */
+bool shot_panes_set(shot *s, double time_s, char *error, size_t error_size);
+
+/* Where the panes are at a frame's time and how they move: an array that virga_scene_record reads, to free(). */
+virga_scene_pane *shot_panes_place(shot *s, double time_s);
+
+/* Where one is when it is seen by a camera that is at its path's `time_s`. */
+void shot_pane_pose(const shot *s, const scene_pane *pane, double time_s, virga_glass_pose *pose);
+
+/* ---- shot_wipers.c: what is seen of a pane beside its drops */
+
+/* The place (u, v) of a pane's shape in its own frame, also beyond its edges, and the outward normal. */
+void shot_pane_point(const shot_pane *pane, double u, double v, double point[3], double normal[3]);
+
+/* Makes pane->mesh and adds it to the renderer, where the pane has something to show. */
+bool shot_pane_make_mesh(shot *s, shot_pane *pane, char *error, size_t error_size);
+
+/* Records where frames and wipers are at a time. Outside rendering. */
+bool shot_panes_move_meshes(shot *s, VkCommandBuffer cmd, double time_s, char *error, size_t error_size);
+
+#endif
