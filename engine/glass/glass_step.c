@@ -14,6 +14,7 @@
 #define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
 
 #define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
+#define HOLD_BACK  1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
 
 uint32_t glass_tick_bytes(void)
@@ -222,13 +223,31 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->cells_per_tick = ROUNDS;
 }
 
+/* The radius from which drops run on this pane as it stands: what holds them (by the radius) against their weight along it (by its
+ * cube). The threshold of section 4.6 must not be less, or a drop that holds particles back may stay for ever. */
+static double running_radius(const virga_glass *glass, const virga_glass_tick_gpu *tick)
+{
+    const float *n = glass->normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES / 2];
+    double across = 0, along = 0;
+    for (int axis = 0; axis < 3; axis++)
+        across += (double)tick->force[axis] * (double)n[axis];
+    for (int axis = 0; axis < 3; axis++) {
+        const double part = (double)tick->force[axis] - across * (double)n[axis];
+        along += part * part;
+    }
+    const double weight = VIRGA_WATER_DENSITY * sqrt(along) * glass_cap_volume(glass_rest_deg(&glass->settings));
+    return weight > 0 ? sqrt((double)tick->hold / weight) : INFINITY;
+}
+
 static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
 {
     const virga_glass_settings *s = &glass->settings;
     const double cap = glass_cap_volume(glass_rest_deg(s));
-    const double particle = (double)s->particle_mm * 1e-3, hold_back = (double)s->hold_back_mm * 1e-3;
+    const double particle = (double)s->particle_mm * 1e-3;
+    const double hold_back = fmax((double)s->hold_back_mm * 1e-3, HOLD_BACK * running_radius(glass, out));
     out->particle_m = (float)particle;
-    out->particle_nl = (uint32_t)fmax(cap * particle * particle * particle * 1e12, 1);
+    /* A hemisphere's, whatever the glass: before a blade water stands as high as that, not as flat as drops at rest. */
+    out->particle_nl = (uint32_t)fmax(2 * PI / 3 * particle * particle * particle * 1e12, 1);
     out->penalty = s->penalty;
     out->band_m = (float)((double)s->band * 2 * particle);
     out->hold_back_nl = (uint32_t)fmin(cap * hold_back * hold_back * hold_back * 1e12, 4e9);

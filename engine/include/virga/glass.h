@@ -190,10 +190,11 @@ typedef struct virga_glass_settings {
 
     virga_glass_wiper wipers[VIRGA_GLASS_MAX_WIPERS];
     uint32_t wiper_count;  /* [0; VIRGA_GLASS_MAX_WIPERS]. Default 0 */
-    float particle_mm;     /* [0.2; 5] radius of the particles beside blades. Default 1.5 */
+    float particle_mm;     /* [0.2; 5] radius of the particles beside blades, each with the water of a hemisphere. Default 1.5 */
     float penalty;         /* [0; 1] how much farther than apart particles push each other, times their overlap. Default 0.1 */
     float band;            /* [1; 16] width of their band on each side of a blade, in particles' diameters. Default 4 */
-    float hold_back_mm;    /* [0; 20] a drop of that radius within hold_back_cells keeps particles from becoming drops. Default 2.2 */
+    float hold_back_mm;    /* [0; 20] a drop of that radius within hold_back_cells keeps particles from becoming drops; where
+                            * drops of that size do not yet run, those do that just run. Default 2.2 */
     uint32_t hold_back_cells; /* [0; 8] on each side: 3 is the paper's 7 x 7. Default 3 */
 
     /* Shape. */
