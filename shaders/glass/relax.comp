@@ -36,41 +36,6 @@ ivec3 push_apart(uint own, uint head, vec2 at)
     return sum;
 }
 
-// Where a blade pushes a particle that it touches: to the side where it was when the tick began, which for what the blade caught up
-// with is its front; past its end where it is nearer to that; `flip` takes the other side.
-vec2 pushed_by(uint i, vec2 at, vec2 was, bool flip, inout bool pushed)
-{
-    const vec2 now = now_in_blade(i, at);
-    const float reach = tick.blades[i].half_width_m + tick.particle_m, start = before_in_blade(i, was).x;
-    const float end = abs(now.y) - tick.blades[i].half_length_m;
-    if (end > 0.0 && abs(now.x) < tick.blades[i].half_width_m)
-        return out_of_blade(i, vec2(now.x, sign(now.y) * (tick.blades[i].half_length_m + tick.particle_m)));
-    if (end > 0.0 && abs(now.x) < reach && length(vec2(abs(now.x) - tick.blades[i].half_width_m, end)) >= tick.particle_m)
-        return at; // beside its corner
-    const float side = abs(start) > 1e-7 ? sign(start) : tick.blades[i].side == 0.0 ? 1.0 : tick.blades[i].side;
-    pushed = pushed || tick.blades[i].side != 0.0;
-    return out_of_blade(i, vec2((flip ? -side : side) * reach, now.y));
-}
-
-// Out of all blades. One may push it into another: then it is tried again, at last on the other sides.
-vec2 push_by_blades(vec2 at, vec2 was, inout bool pushed)
-{
-    for (uint attempt = 0u; attempt < 4u; attempt++) {
-        bool free = true;
-        for (uint i = 0u; i < tick.blade_count; i++) {
-            const bool flip = attempt >= 2u;
-            const float radius = tick.particle_m * 0.999;
-            if (flip ? !lies_under(i, at, radius) : !touched(i, was, at, radius))
-                continue;
-            at = pushed_by(i, at, was, flip, pushed);
-            free = false;
-        }
-        if (free)
-            break;
-    }
-    return at;
-}
-
 void main()
 {
     const uint own = gl_GlobalInvocationID.x;

@@ -39,14 +39,6 @@ void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
     drops[place] = drop;
 }
 
-// Beside the blade, on the side that it was on when the tick began: for what a blade caught up with that is its front.
-vec2 in_front(uint i, vec2 was, vec2 at)
-{
-    const float start = before_in_blade(i, was).x, side = abs(start) > 1e-7 ? sign(start) : tick.blades[i].side;
-    const float reach = tick.blades[i].half_width_m + tick.particle_m;
-    return out_of_blade(i, vec2((side == 0.0 ? 1.0 : side) * reach, now_in_blade(i, at).y));
-}
-
 void main()
 {
     const uint entry = gl_GlobalInvocationID.x;
@@ -63,7 +55,8 @@ void main()
     const float radius = min(base_radius(drop.water_nl + drop.merged_nl), 0.004);
     for (uint i = 0u; i < tick.blade_count; i++)
         if (touched(i, to_vec2(drop.before), cell_middle(drop.cell), 0.7 * radius)) {
-            drop.position = to_array(in_front(i, to_vec2(drop.before), cell_middle(drop.cell)));
+            bool pushed = false;
+            drop.position = to_array(push_by_blades(cell_middle(drop.cell), to_vec2(drop.before), pushed));
             split(place, entry, i, drop);
             return;
         }
