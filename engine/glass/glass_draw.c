@@ -173,7 +173,8 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
-    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, 1);
+    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_BLOCKS);
+    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, VK_WHOLE_SIZE, 0); /* from then on, what is read is cleared */
     picture->cleared = true;
 }
 
@@ -191,17 +192,32 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     struct glass_picture *picture = glass->picture;
     const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
-    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, texels * 4, 0);
     context->vk.CmdFillBuffer(cmd, picture->counts->buffer, 0, VK_WHOLE_SIZE, 0);
     if (!picture->cleared)
         record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                   READ_WRITE);
+}
+
+static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    glass->context->vk.CmdDispatchIndirect(cmd, glass->picture->work->buffer, groups);
+}
+
+/* After the pass that says how much there is to do. */
+static void work_barrier(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_barrier(glass->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | READ_WRITE);
 }
 
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
@@ -215,8 +231,8 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
                    (glass->columns * glass->rows + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->scan_pass, 1);
-    virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->fill_pass, places);
+    work_barrier(glass, cmd);
+    over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -262,19 +278,23 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
     const virga_glass_settings *settings = &glass->settings;
-    const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend);
+    const virga_pipeline *gather = picture->gather_passes[GLASS_GATHER_MODE(settings->density, settings->blend)];
     record_clear(glass, cmd);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
-    over_tiles(glass, cmd, picture->gather_passes[mode], picture->columns / TILE, picture->rows / TILE);
+    over_work(glass, cmd, gather, offsetof(virga_glass_work_gpu, tile_groups));
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, picture->parts_pass, 1);
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+                      VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                      VK_ACCESS_TRANSFER_READ_BIT);
     record_counts(glass, cmd);
 }
 
@@ -425,13 +445,14 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
     const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
                               {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    const uint32_t quarters = glass->picture->columns / TILE * (glass->picture->rows / TILE) * 4;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    context->vk.CmdDraw(cmd, quarters * 6, 1, 0, 0);
+    context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
+    context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, offsetof(virga_glass_work_gpu, index_count), 1,
+                                       sizeof(virga_glass_work_gpu));
     virga_pass_end(context, cmd, scope);
 }
 

@@ -7,6 +7,7 @@
 #include "shaders/glass_picture_film_comp.spv.h"
 #include "shaders/glass_picture_gather_comp.spv.h"
 #include "shaders/glass_picture_gather_shuffle_comp.spv.h"
+#include "shaders/glass_picture_parts_comp.spv.h"
 #include "shaders/glass_picture_scan_comp.spv.h"
 #include "shaders/glass_picture_shrink_comp.spv.h"
 
@@ -42,7 +43,7 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     picture->max_entries = picture->max_columns * picture->max_rows / 8 + 16 * def->max_drops;
 }
 
-enum { BUFFERS = 7, PASSES = 6 };
+enum { BUFFERS = 9, PASSES = 7 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -58,6 +59,10 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->mist, tiles * TILE * TILE * 4, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
         {&picture->counts, 8, storage, VIRGA_HEAP_DEVICE, "glass.ball_counts"},
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
+        {&picture->work, sizeof(virga_glass_work_gpu) + tiles * 4, storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+         VIRGA_HEAP_DEVICE, "glass.work"},
+        {&picture->corners, tiles * 4 * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
+         "glass.corners"},
         {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.views"},
     };
@@ -104,7 +109,9 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 14 the same, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 15 scene depth */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},           /* 16 scene colour */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 18 work */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 corners to be drawn */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -152,6 +159,8 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         image_or_blank(&view->depth, picture->blank_depth, context->nearest),
         image_or_blank(&view->color, picture->blank_color, color),
         whole(picture->written),
+        whole(picture->work),
+        whole(picture->corners),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
@@ -176,6 +185,7 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->scan_pass, VIRGA_SPIRV(glass_picture_scan_comp), "glass.scan"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
+        {&picture->parts_pass, VIRGA_SPIRV(glass_picture_parts_comp), "glass.parts"},
         {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
         {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
     };

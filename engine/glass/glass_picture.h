@@ -32,11 +32,11 @@ struct glass_picture {
     uint32_t max_columns, max_rows;           /* texels of the map */
     uint32_t max_tile_columns, max_tile_rows; /* and tiles */
     uint32_t max_entries;
-    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *view_ring;
+    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *work, *corners, *view_ring;
     virga_image_2d *map, *copies;
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *parts_pass, *copy_pass, *shrink_pass;
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density and blend */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */

@@ -20,7 +20,7 @@ float density_reach()
     return DENSITY == DENSITY_MURAKAMI    ? 2.3660254
            : DENSITY == DENSITY_WYVILL    ? 1.8477591
            : DENSITY == DENSITY_NISHIMURA ? 2.0
-                                               : 3.0;
+                                       : 2.0;
 }
 
 // 1 up to two thirds of the reach, then smoothly to 0: a function that were cut off would show as an edge on its

@@ -33,18 +33,19 @@
 
 layout(local_size_x = LANES) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
-layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; };
+layout(scalar, set = 0, binding = 9) buffer Mist { uint mist[]; };
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
-layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // see virga_glass_picture_gpu
+layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_BLOCKS, _QUARTER
+layout(scalar, set = 0, binding = 18) readonly buffer Work { virga_glass_work_gpu work; uint wet[]; };
 
 struct Ball {
     vec2 middle, sag;
     float inv_radius, height, peak, radius;
 };
 
-shared uint highest, widest, any_mist, parts_shown;
+shared uint highest, widest, held, bead_count;
 shared float film_m[MOST_CELLS * MOST_CELLS];
-shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS];
+shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS]; // in any order, as sums have none
 #ifndef SHUFFLE
 shared Ball batch[LANES];
 #endif
@@ -72,33 +73,40 @@ void add_at(int own, vec2 place, Ball ball, float reach)
     sums[own] += x2 < reach * reach ? ivec4(each * ONE + 0.5) : ivec4(0);
 }
 
+// Subgroups beyond a ball's reach leave it out.
 void add(vec2 place, Ball ball, float reach)
 {
-    for (int i = 0; i < OWN; i++)
-        add_at(i, place + vec2(0.0, look.texel_m[1] * float(i)), ball, reach);
+    const vec2 x = (place - ball.middle) * ball.inv_radius;
+    const float end = x.y + look.texel_m[1] * float(OWN - 1) * ball.inv_radius;
+    WHERE(max(max(abs(x.x), x.y), -end) < reach)
+        for (int i = 0; i < OWN; i++)
+            add_at(i, place + vec2(0.0, look.texel_m[1] * float(i)), ball, reach);
 }
 
 // ---- what a tile holds
 
+bool has_film(virga_glass_tile_gpu tile) { return (tile.film & VIRGA_GLASS_HAS_FILM) != 0u; }
+
 void find_largest(virga_glass_tile_gpu tile)
 {
     if (gl_LocalInvocationIndex == 0u)
-        highest = widest = any_mist = parts_shown = 0u;
+        highest = widest = held = bead_count = 0u;
     barrier();
-    float height = 0.0, radius = 0.0;
-    for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
-        const uint ball = entries[tile.first + i];
-        height = max(height, balls[ball].height_m);
-        radius = max(radius, balls[ball].radius_m);
+    WHERE(gl_LocalInvocationIndex < tile.count) {
+        float height = 0.0, radius = 0.0;
+        for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
+            const uint ball = entries[tile.first + i];
+            height = max(height, balls[ball].height_m);
+            radius = max(radius, balls[ball].radius_m);
+        }
+        atomicMax(highest, floatBitsToUint(height));
+        atomicMax(widest, floatBitsToUint(radius));
     }
-    if (tile.film != 0u)
-        radius = max(radius, BEAD_CELLS * look.pane.cell_m);
-    height = max(height, tile.film != 0u ? radius * look.cap_height : 0.0);
-    atomicMax(highest, floatBitsToUint(height));
-    atomicMax(widest, floatBitsToUint(radius));
     barrier();
-    tile_height = max(uintBitsToFloat(highest) * 1.6, 1e-9); // the fatter side of one that sags
-    tile_radius = max(uintBitsToFloat(widest), 1e-9);
+    const float radius = max(uintBitsToFloat(widest), has_film(tile) ? BEAD_CELLS * look.pane.cell_m : 0.0);
+    const float height = max(uintBitsToFloat(highest), has_film(tile) ? radius * look.cap_height : 0.0);
+    tile_height = max(height * 1.6, 1e-9); // the fatter side of one that sags
+    tile_radius = max(radius, 1e-9);
 }
 
 void add_balls(virga_glass_tile_gpu tile, vec2 place)
@@ -144,17 +152,25 @@ bool is_cell(ivec2 cell)
     return all(greaterThanEqual(cell, ivec2(0))) && cell.x < int(look.pane.columns) && cell.y < int(look.pane.rows);
 }
 
-// The tile's cells, and those beside it.
-void load_cells(ivec2 tile, uint count)
+// The tile's cells, and those beside it, with those of their beads that have a shape.
+void load_cells(ivec2 tile)
 {
-    for (uint i = gl_LocalInvocationIndex; i < count; i += LANES) {
-        const ivec2 cell = first_cell(tile) + ivec2(i % MOST_CELLS, i / MOST_CELLS);
+    const ivec2 corner = first_cell(tile);
+    const ivec2 span = min(ivec2(floor(vec2(tile + 1) * tile_m() / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
+    for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
+        const ivec2 at = ivec2(int(i) % span.x, int(i) / span.x), cell = corner + at;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
-        const bool wet = is_cell(cell) && film[number] != 0u;
-        film_m[i] = wet ? sheet_m(number) : 0.0;
-        const float broken_nl = wet ? float(film[number]) * (1.0 - film_fresh(number)) : 0.0;
-        for (uint k = 0u; k < BEADS; k++)
-            beads[i * BEADS + k] = wet ? bead_of(cell, number, k, broken_nl) : vec3(0.0);
+        const bool wet_cell = is_cell(cell) && film[number] != 0u;
+        film_m[at.x + at.y * MOST_CELLS] = 0.0;
+        WHERE(wet_cell) {
+            film_m[at.x + at.y * MOST_CELLS] = sheet_m(number);
+            const float broken_nl = float(film[number]) * (1.0 - film_fresh(number));
+            for (uint k = 0u; k < BEADS; k++) {
+                const vec3 bead = bead_of(cell, number, k, broken_nl);
+                WHERE(shape_share(bead.z) > 0.0)
+                    beads[atomicAdd(bead_count, 1u)] = bead;
+            }
+        }
     }
 }
 
@@ -164,16 +180,13 @@ uint shared_cell(ivec2 cell)
     return uint(at.x) + uint(at.y) * MOST_CELLS;
 }
 
-void add_beads(ivec2 tile, vec2 place, int own, int most)
+void add_beads(vec2 place)
 {
-    const ivec2 cell = ivec2(floor(place / look.pane.cell_m)) - first_cell(tile);
     const float reach = density_reach();
-    for (int i = 0; i < most; i++) {
-        const uint number = shared_cell(cell + ivec2(i / BEADS % 3 - 1, i / BEADS / 3 - 1)) * BEADS + uint(i % BEADS);
-        const vec3 bead = beads[number];
-        if (shape_share(bead.z) > 0.0)
-            add_at(own, place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
-                                    shape_share(bead.z), bead.z / tile_radius), reach);
+    for (uint i = 0u; i < bead_count; i++) {
+        const vec3 bead = beads[i];
+        add(place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
+                        shape_share(bead.z), bead.z / tile_radius), reach);
     }
 }
 
@@ -214,47 +227,56 @@ vec4 texel_of(ivec4 sum, float sheet, float mist_share)
     return vec4(compressed(water.x), mix(water.y, max(water.y, 0.0), film_there) + sheet, mist_share, sheet);
 }
 
-float mist_at(ivec2 texel)
+// Taken away as it is read, so that the next view finds none.
+float take_mist(ivec2 texel)
 {
-    return min(float(mist[uint(texel.x) + uint(texel.y) * look.map_columns]) / float(VIRGA_GLASS_MIST_ONE), 1.0);
+    const uint at = uint(texel.x) + uint(texel.y) * look.map_columns, found = mist[at];
+    WHERE(found != 0u)
+        mist[at] = 0u;
+    return min(float(found) / float(VIRGA_GLASS_MIST_ONE), 1.0);
 }
 
 void gather()
 {
-    const ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    const uint number = tile_number(tile), lane = gl_LocalInvocationIndex;
+    const uint number = wet[gl_WorkGroupID.x], lane = gl_LocalInvocationIndex;
+    const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
     const virga_glass_tile_gpu at = tiles[number];
     const ivec2 first = tile * VIRGA_GLASS_TILE + ivec2(lane % 16u, lane / 16u * OWN);
     const vec2 place = (vec2(first) + 0.5) * texel_m();
-    find_largest(at);
-    vec4 shares;
-    for (int i = 0; i < OWN; i++) {
-        sums[i] = ivec4(0);
-        shares[i] = mist_at(first + ivec2(0, i));
-    }
-    if (dot(shares, vec4(1.0)) > 0.0)
-        atomicOr(any_mist, 1u);
-    add_balls(at, place);
-    const bool beads_shown = at.film != 0u && cells_are_wide();
-    load_cells(tile, beads_shown ? MOST_CELLS * MOST_CELLS : 0u);
-    barrier();
-    // A tile without water that had none before is as it was.
     const uint place_in_list = uint(tile.x) + uint(tile.y) * look.written_columns;
-    const bool empty = at.count == 0u && at.film == 0u && any_mist == 0u;
-    if (empty && written[place_in_list] == 0u)
-        return;
-    for (int i = 0; i < OWN; i++) {
-        const vec2 here = place + vec2(0.0, look.texel_m[1] * float(i));
-        // A loop without turns, not a branch: software Vulkan runs all sides of a branch, and unrolls what has a
-        // fixed length.
-        add_beads(tile, here, i, beads_shown ? 9 * BEADS : 0);
-        const vec4 texel = texel_of(sums[i], at.film != 0u ? sheet_at(tile, here) : 0.0, shares[i]);
-        imageStore(map_out, first + ivec2(0, i), texel);
-        // Well below the threshold, as a neighbour's rim may reach over.
-        if (texel.x > 0.2 * look.threshold || texel.z > 0.0 || texel.w > 1e-7)
-            atomicOr(parts_shown, 2u << (lane % 16u / 8u + 2u * (lane / 32u)));
+    const uint block = 1u << (lane / 8u), quarter = VIRGA_GLASS_QUARTER << (lane % 16u / 8u + 2u * (lane / 32u));
+    const uint before = written[place_in_list];
+    find_largest(at);
+    vec4 shares = vec4(0.0), sheets = vec4(0.0);
+    for (int i = 0; i < OWN; i++)
+        sums[i] = ivec4(0);
+    WHERE((at.film & VIRGA_GLASS_HAS_MIST) != 0u)
+        for (int i = 0; i < OWN; i++)
+            shares[i] = take_mist(first + ivec2(0, i));
+    add_balls(at, place);
+    WHERE(has_film(at) && cells_are_wide())
+        load_cells(tile);
+    barrier();
+    WHERE(has_film(at)) {
+        add_beads(place);
+        for (int i = 0; i < OWN; i++)
+            sheets[i] = sheet_at(tile, place + vec2(0.0, look.texel_m[1] * float(i)));
+    }
+    const int most = max(max(sums[0].x, sums[1].x), max(sums[2].x, sums[3].x));
+    const bool any = most > 0 || dot(shares + sheets, vec4(1.0)) > 0.0;
+    // What was all 0 and stays so is not written.
+    WHERE(any || (before & block) != 0u) {
+        bool shown = false;
+        for (int i = 0; i < OWN; i++) {
+            const vec4 texel = texel_of(sums[i], sheets[i], shares[i]);
+            imageStore(map_out, first + ivec2(0, i), texel);
+            // Well below the threshold, as a neighbour's rim may reach over.
+            shown = shown || texel.x > 0.2 * look.threshold || texel.z > 0.0 || texel.w > 1e-7;
+        }
+        WHERE(any)
+            atomicOr(held, block | (shown ? quarter : 0u));
     }
     barrier();
     if (lane == 0u)
-        written[place_in_list] = empty ? 0u : 1u | parts_shown;
+        written[place_in_list] = held;
 }

@@ -9,10 +9,12 @@
 #define uint virga_uint
 typedef struct virga_glass_picture_gpu virga_glass_picture_gpu;
 typedef struct virga_glass_tile_gpu virga_glass_tile_gpu;
+typedef struct virga_glass_work_gpu virga_glass_work_gpu;
 #endif
 
 #define VIRGA_GLASS_TILE        16 /* texels a side; a workgroup of the gathering pass makes one */
 #define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
+#define VIRGA_GLASS_FILL_GROUP  64 /* balls of a workgroup that fills lists */
 #define VIRGA_GLASS_COPY        512 /* texels a side of the plate's largest copy; the others lie to its right */
 #define VIRGA_GLASS_COPY_WIDTH  776 /* 512 and 256 and 8 */
 #define VIRGA_GLASS_COPY_LEVELS 7   /* down to 8 x 8 */
@@ -52,8 +54,29 @@ struct virga_glass_picture_gpu {
     uint opaque;
     float gain;
     uint max_entries;       /* of the tiles' lists, all together */
-    uint written_columns;   /* tiles in a row of the list that says what they hold: bit 0: water anywhere in their part of the
-                             * map; bits 1 to 4: each quarter of one has something to show */
+    uint written_columns;   /* tiles in a row of the list that says what the map holds of them, see below */
+    uint masked;            /* the pane has a mask */
+};
+
+/* What the map holds of a tile. The lowest eight bits: each block of 8 x 4 texels that is not all 0, as a subgroup of eight
+ * lanes makes one; the next four: each quarter that has something to show. */
+#define VIRGA_GLASS_BLOCKS  0xffu
+#define VIRGA_GLASS_QUARTER 0x100u
+
+/* A tile's `film`. */
+#define VIRGA_GLASS_HAS_FILM 1u
+#define VIRGA_GLASS_HAS_MIST 2u
+
+/* How much there is to do: what indirect dispatches and draws read. Followed by the numbers of tiles to be worked on. */
+struct virga_glass_work_gpu {
+    uint tile_groups[3];    /* of the gathering pass */
+    uint ball_groups[3];    /* of the pass that fills the lists */
+    uint index_count;       /* of the quarters to be drawn */
+    uint instance_count;
+    uint first_index;
+    int vertex_offset;
+    uint first_instance;
+    uint pad;
 };
 
 /* What lies over a tile of the map. */
@@ -61,11 +84,13 @@ struct virga_glass_tile_gpu {
     uint count;             /* balls that reach it */
     uint first;             /* entry of its list */
     uint filled;            /* entries so far */
-    uint film;              /* not 0: film to be seen */
+    uint film;              /* VIRGA_GLASS_HAS_... */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 48);
+VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, index_count, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_picture_gpu, map_columns, 80);
 #undef uint
 #endif
