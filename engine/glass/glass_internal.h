@@ -54,6 +54,7 @@ struct virga_glass {
         *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim, *place_scan, *place,
         *settle, *dry, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
+    bool masked;            /* there may be cells without glass */
     float outline[9][3];    /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
     const virga_glass_tick_gpu *blades; /* of the tick that is recorded */
     bool particles_ever;    /* there may be particles */

@@ -17,10 +17,6 @@ layout(scalar, set = 0, binding = 0) uniform Picture
 #define DENSITY_WYVILL 3u
 #define DENSITY_NISHIMURA 4u
 
-// A branch that costs nothing where no lane takes it: software Vulkan runs all sides of an `if`, but leaves a loop that no lane
-// is in. To the compiler it is a loop of unknown length.
-#define WHERE(condition) for (int turns_ = (condition) ? 1 : 0; turns_ > 0; turns_--)
-
 vec2 texel_m() { return vec2(look.texel_m[0], look.texel_m[1]); }
 
 // Below half a texel's radius a drop has no shape, only a share of a texel that it covers; from one texel on it is

@@ -55,9 +55,9 @@ void count_tiles(vec2 middle, float reach_m)
 void emit_ball(Drop drop, vec2 middle, float radius, float peak)
 {
     const float shape = peak * shape_share(radius);
-    WHERE(shape < 1.0 && peak == 1.0)
+    if (shape < 1.0 && peak == 1.0)
         add_mist(middle, radius, 1.0 - shape);
-    WHERE(shape > 0.0 && radius > 0.0) {
+    if (shape > 0.0 && radius > 0.0) {
         balls[atomicAdd(ball_count, 1u)] =
             virga_glass_ball_gpu(float[2](middle.x, middle.y), radius, radius * look.cap_height,
                                  float[2](drop.sag.x, drop.sag.y), drop.id, shape);
@@ -105,17 +105,17 @@ void make(uint place)
     const float age = max(at.age_s + look.late_s, 0.0);
     const bool lands = !particle && age < look.impact_s && (at.kind & VIRGA_GLASS_TAIL) == 0u;
     const bool runs = !particle && !lands && (at.kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8;
-    WHERE(lands)
+    if (lands)
         emit_landing(drop, age / look.impact_s, at.random);
-    WHERE(runs)
+    if (runs)
         emit_tear(drop, velocity);
-    WHERE(!lands && !runs)
+    if (!lands && !runs)
         emit_ball(drop, drop.middle, drop.radius, 1.0);
 }
 
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
-    WHERE((drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
+    if ((drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
         make(place);
 }

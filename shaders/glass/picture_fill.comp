@@ -16,7 +16,7 @@ layout(scalar, set = 0, binding = 10) readonly buffer Counts { uint ball_count, 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    WHERE(i < ball_count) {
+    if (i < ball_count) {
         ivec2 first, last;
         tiles_around(vec2(balls[i].middle[0], balls[i].middle[1]), balls[i].radius_m * density_reach(), first, last);
         for (int y = first.y; y <= last.y; y++)

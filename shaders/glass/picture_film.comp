@@ -18,11 +18,11 @@ void show(uint number)
     for (uint i = 0u; i < BEADS; i++) {
         const vec3 bead = bead_of(cell, number, i, broken_nl);
         const float shape = shape_share(bead.z);
-        WHERE(shape < 1.0 && bead.z > 0.0)
+        if (shape < 1.0 && bead.z > 0.0)
             add_mist(bead.xy, bead.z, 1.0 - shape);
         shown = shown || shape > 0.0;
     }
-    WHERE(shown) {
+    if (shown) {
         ivec2 first, last;
         tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
         for (int y = first.y; y <= last.y; y++)
@@ -34,7 +34,9 @@ void show(uint number)
 void main()
 {
     const uint number = gl_GlobalInvocationID.x;
-    const bool wet = number < look.pane.columns * look.pane.rows && film[number] != 0u;
-    WHERE(wet)
+    const uint cells = look.pane.columns * look.pane.rows;
+    // Not by `&&`, that is a branch to software Vulkan, in which a read is one for each lane.
+    const bool wet = number < cells, holds = film[min(number, cells - 1u)] != 0u;
+    if (wet && holds)
         show(number);
 }

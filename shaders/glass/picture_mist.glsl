@@ -17,15 +17,15 @@ void mark_tile(ivec2 tile, uint flag)
 {
     const bool on_map = all(greaterThanEqual(tile, ivec2(0))) &&
                         all(lessThan(tile, ivec2(look.tile_columns, look.tile_rows)));
-    WHERE(on_map && (tiles[tile_number(tile)].film & flag) == 0u)
+    if (on_map && (tiles[tile_number(tile)].film & flag) == 0u)
         atomicOr(tiles[tile_number(tile)].film, flag);
 }
 
 void mark_mist(ivec2 low)
 {
-    const ivec2 first = low >> 4, last = (low + 1) >> 4; // VIRGA_GLASS_TILE texels each
+    const ivec2 first = max(low, ivec2(0)) / VIRGA_GLASS_TILE, last = (low + 1) / VIRGA_GLASS_TILE;
     mark_tile(first, VIRGA_GLASS_HAS_MIST);
-    WHERE(first != last) {
+    if (first != last) {
         mark_tile(last, VIRGA_GLASS_HAS_MIST);
         mark_tile(ivec2(first.x, last.y), VIRGA_GLASS_HAS_MIST);
         mark_tile(ivec2(last.x, first.y), VIRGA_GLASS_HAS_MIST);

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
+#include "gpu/light.glsl"
 
 layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
 
@@ -10,6 +11,10 @@ layout(location = 0) out vec2 place;    // (u, v) on the pane (m)
 layout(location = 1) out vec3 position; // relative to the camera
 layout(location = 2) out vec3 along_u;
 layout(location = 3) out vec3 along_v;
+
+layout(location = 4) out vec3 mist_light;
+
+#include "picture_copies.glsl"
 
 struct Corner {
     vec3 position, along_u, along_v;
@@ -36,6 +41,14 @@ Corner corner_at(vec2 share)
                        mix_corners(node_at(low + uvec2(0, 1)), node_at(low + uvec2(1, 1)), t.x), t.y);
 }
 
+// Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
+vec3 shown_by_mist()
+{
+    const vec2 uv = clamp(0.5 * gl_Position.xy / max(gl_Position.w, 1e-5) + 0.5, vec2(0.0), vec2(1.0));
+    const vec3 around = environment(normalize(position), vec2(1.0));
+    return 0.85 * to_vec(look.tint) * (view.color_given != 0u ? copy_at(uv, VIRGA_GLASS_COPY_LEVELS - 2) : around);
+}
+
 void main()
 {
     const uint columns = 2u * look.tile_columns + 1u, number = uint(gl_VertexIndex);
@@ -48,4 +61,5 @@ void main()
     along_u = world_from_pane * pane.along_u;
     along_v = world_from_pane * pane.along_v;
     gl_Position = to_mat(view.clip_from_rel) * vec4(position, 1.0);
+    mist_light = shown_by_mist();
 }

@@ -29,18 +29,18 @@ void put(uint number, uint tile, uint quarter)
 
 void main()
 {
-    const uint count = work.tile_groups[0], run = (count + SCAN_LANES - 1u) / SCAN_LANES;
+    const uint count = look.tile_columns * look.tile_rows, run = (count + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(gl_LocalInvocationIndex * run, count), end = min(begin + run, count);
     uint sum = 0u;
     for (uint i = begin; i < end; i++)
-        sum += bitCount(quarters_of(wet[i]));
+        sum += bitCount(quarters_of(i));
     uvec2 all;
     uint number = scan_group(uvec2(sum, 0u), all).x;
     for (uint i = begin; i < end; i++) {
-        const uint tile = wet[i], quarters = quarters_of(tile);
+        const uint quarters = quarters_of(i);
         for (uint quarter = 0u; quarter < 4u; quarter++)
-            WHERE((quarters >> quarter & 1u) != 0u)
-                put(number++, tile, quarter);
+            if ((quarters >> quarter & 1u) != 0u)
+                put(number++, i, quarter);
     }
     if (gl_LocalInvocationIndex == 0u) {
         work.index_count = 6u * all.x;

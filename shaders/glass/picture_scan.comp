@@ -24,16 +24,21 @@ void main()
 {
     const uint count = look.tile_columns * look.tile_rows, run = (count + SCAN_LANES - 1u) / SCAN_LANES;
     const uint begin = min(gl_LocalInvocationIndex * run, count), end = min(begin + run, count);
+    // Two numbers in one: there are never 65,536 tiles.
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
-        sum += uvec2(tiles[i].count, is_wet(i) ? 1u : 0u);
+        sum += uvec2(tiles[i].count, is_wet(i) ? tiles[i].film != 0u ? 0x10000u : 1u : 0u);
     uvec2 all;
     const uvec2 before = scan_group(sum, all);
-    uint first = before.x, number = before.y;
+    uint first = before.x, number = before.y & 0xffffu, film_number = look.max_tiles + (before.y >> 16u);
     for (uint i = begin; i < end; i++) {
         const uint own = tiles[i].count;
-        if (is_wet(i))
-            wet[number++] = i;
+        if (is_wet(i)) {
+            if (tiles[i].film != 0u)
+                wet[film_number++] = i;
+            else
+                wet[number++] = i;
+        }
         tiles[i].first = first;
         if (first + own > look.max_entries) {
             atomicAdd(cut_count, own);
@@ -42,7 +47,8 @@ void main()
         first += own;
     }
     if (gl_LocalInvocationIndex == 0u) {
-        work.tile_groups = uint[3](all.y, 1u, 1u);
+        work.tile_groups = uint[3](all.y & 0xffffu, 1u, 1u);
+        work.film_groups = uint[3](all.y >> 16u, 1u, 1u);
         work.ball_groups = uint[3]((ball_count + VIRGA_GLASS_FILL_GROUP - 1u) / VIRGA_GLASS_FILL_GROUP, 1u, 1u);
     }
 }
