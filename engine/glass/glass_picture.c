@@ -237,7 +237,8 @@ static virga_result create_images(virga_context *context, bool height_map, struc
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
     const VkExtent2D one = {1, 1}, map = {picture->max_columns, picture->max_rows},
                      copies = {VIRGA_GLASS_COPY_WIDTH, VIRGA_GLASS_COPY};
-    TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1, sampled | VK_IMAGE_USAGE_STORAGE_BIT,
+    TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
+                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.relief", &picture->relief));
     if (height_map)
         TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,

@@ -76,12 +76,14 @@ float density_inverse(float v)
     return reach2 * y2;
 }
 
-// Goto et al. 2009, equation 2, so many times with a rising V0.
+// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: compilers leave one alone that has
+// another of unknown length in it, and what it indexes goes to memory.
+#define MOST_STEPS 16u
 float compressed(float v)
 {
     float from = look.compress_from;
-    for (uint i = 0u; i < look.compress_steps; i++) {
-        v = v > from ? look.compress_k * (v - from) + from : v;
+    for (uint i = 0u; i < MOST_STEPS; i++) {
+        v -= (i < look.compress_steps ? 1.0 - look.compress_k : 0.0) * max(v - from, 0.0);
         from += look.compress_step;
     }
     return v;

@@ -265,11 +265,13 @@ vec4 relief_of(vec4 texel, vec2 slope, float bend)
     return vec4(density, slope, density > 0.7 * look.threshold ? -inner : texel.z);
 }
 
+// Looked up without a branch: in one, software Vulkan reads lane by lane.
 bool is_glass(ivec2 texel)
 {
     const vec2 at = (vec2(texel) + 0.5) * texel_m() / look.pane.cell_m;
     const uvec2 cell = uvec2(clamp(at, vec2(0.0), vec2(look.pane.columns, look.pane.rows) - 1.0));
-    return (surface[cell.x + cell.y * look.pane.columns] & 0x1000000u) != 0u;
+    const uint known = surface[look.masked != 0u ? cell.x + cell.y * look.pane.columns : 0u];
+    return look.masked == 0u || (known & 0x1000000u) != 0u;
 }
 
 void gather()
@@ -313,10 +315,8 @@ void gather()
         const vec2 before = vec2(heights[row][left], column[i]), after = vec2(heights[row][right], column[i + 2]);
         const vec2 slope = 0.5 * (after - before) / texel_m();
         const vec2 bend = abs(after + before - 2.0 * column[i + 1]) / (texel_m() * texel_m());
+        const vec4 relief = is_glass(first + ivec2(0, i)) ? relief_of(texels[i], slope, max(bend.x, bend.y)) : vec4(0.0);
         if (on_tile(ivec2(own.x, row))) {
-            vec4 relief = relief_of(texels[i], slope, max(bend.x, bend.y));
-            if (look.masked != 0u)
-                relief *= is_glass(first + ivec2(0, i)) ? 1.0 : 0.0;
             imageStore(relief_out, first + ivec2(0, i), relief);
             if (WITH_MAP)
                 imageStore(map_out, first + ivec2(0, i), texels[i]);

@@ -46,7 +46,7 @@ void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
     const float cos_in = max(dot(in_water, n), 0.0), k = 1.0 - WATER * WATER * (1.0 - cos_in * cos_in);
     const float cos_out = sqrt(max(k, 0.0));
     path.total = k < 0.0;
-    path.lost = clamp(-2.0 * k, 0.0, 1.0);
+    path.lost = clamp(-6.0 * k, 0.0, 1.0);
     path.out_of = normalize(WATER * in_water + (cos_out - WATER * cos_in) * n);
     path.reflects = path.total ? 0.0 : fresnel(cos_in, cos_out, WATER, 1.0);
     path.mirrored = reflect(d, n); // the glass between bends it little, and what it shows is faint

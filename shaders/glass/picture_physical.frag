@@ -11,7 +11,7 @@
 
 layout(location = 0) out vec4 radiance;
 
-#define THROWN 0.35 // share of the light beside it that a ray shows which is thrown back at all
+#define THROWN 0.3 // share of the light beside it that a ray shows which is thrown back at all
 #define BEHIND 0.25 // share of the environment that rays meet which are thrown back into the room that the pane closes
 
 // Lamps that lie in a direction: a small disc each, as wide as a pixel of a drop shows of the world.
@@ -64,7 +64,8 @@ vec3 shown(Path path, vec3 d)
         through *= caustic(path.normal, flat_normal);
     else if (HAS_LAMPS)
         through += lamps_along(path.out_of, width) * (1.0 - path.lost);
-    vec3 mirrored = environment(path.mirrored, vec2(1.0)) * (outside ? 1.0 : BEHIND);
+    // The room is dim and its reflection faint: without the finer part of its light.
+    vec3 mirrored = environment(path.mirrored, outside ? vec2(1.0) : vec2(1.0, 0.0)) * (outside ? 1.0 : BEHIND);
     if (HAS_LAMPS && outside)
         mirrored += lamps_along(path.mirrored, width);
     return mix(through * to_vec(look.tint), mirrored * look.gain, path.reflects);
