@@ -231,7 +231,7 @@ static void weights_sum_to_one(void **state)
 
 /* The largest second difference of the height along the line through two drops that overlap, against that of the
  * higher of the
- * two, which has a crease: less than a third, for each density and blend. */
+ * two, which has a crease: less than an eighth for sums, and half for weights. */
 static void merged_drops_have_no_crease(void **state)
 {
     (void)state;
@@ -245,19 +245,20 @@ static void merged_drops_have_no_crease(void **state)
         const ball b = ball_of(&s, shot_drop(&s, 0.055, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
         shot_draw(&s, false);
         double worst = 0, crease = 0, last[3] = {0}, plain[3] = {0};
-        for (uint32_t column = 84; column < 112; column++) {
+        for (uint32_t column = 67; column < 130; column++) {
             const double u = texel_u(&s, column), xa = (u - a.middle[0]) / a.radius, xb = (u - b.middle[0]) / b.radius;
             memmove(last, last + 1, sizeof last - sizeof last[0]);
             memmove(plain, plain + 1, sizeof plain - sizeof plain[0]);
             last[2] = (double)texel(&s, column, 70)[1];
             plain[2] = a.height * fmax(1 - xa * xa, 1 - xb * xb);
-            if (column < 86)
+            if (column < 69)
                 continue;
             worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
             crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
         }
         print_message("CREASE %d %d: %g of %g = %g\n", i / 2, i % 2, worst, crease, worst / crease);
-        if (worst > crease / 3)
+        const double limit = i % 2 ? 0.45 : 0.12; /* weights end with a kink; a profile cut off at the rims' is above 1 */
+        if (worst > limit * crease)
             fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
     }
     shot_close(&s);
