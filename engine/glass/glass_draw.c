@@ -178,7 +178,8 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
     context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_WRITTEN);
-    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, VK_WHOLE_SIZE, 0); /* from then on, what is read is cleared */
+    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, VK_WHOLE_SIZE,
+                              0); /* from then on, what is read is cleared */
     picture->cleared = true;
 }
 
@@ -288,7 +289,8 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
-    over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM], offsetof(virga_glass_work_gpu, film_groups));
+    over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM],
+              offsetof(virga_glass_work_gpu, film_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->parts_pass, 1);
     virga_pass_end(context, cmd, scope);
@@ -441,7 +443,9 @@ static void describe_draw(uint32_t i, virga_graphics_def *def)
     def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_SPIRV(glass_picture_physical_frag)
                     : i < GLASS_DRAW_REFRACTION ? VIRGA_SPIRV(glass_picture_paper_frag)
                                                 : VIRGA_SPIRV(glass_picture_refraction_frag);
-    def->name = i < GLASS_DRAW_PAPER ? "glass.physical" : i < GLASS_DRAW_REFRACTION ? "glass.paper" : "glass.refraction";
+    def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
+                : i < GLASS_DRAW_REFRACTION ? "glass.paper"
+                                            : "glass.refraction";
 }
 
 virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
@@ -488,8 +492,8 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
-    context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, offsetof(virga_glass_work_gpu, index_count), 1,
-                                       sizeof(virga_glass_work_gpu));
+    context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, offsetof(virga_glass_work_gpu, index_count),
+                                       1, sizeof(virga_glass_work_gpu));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -509,9 +513,10 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     if (!found || !picture->prepared || picture->view_frame != context->frame_index)
         return VIRGA_NOT_READY;
     const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
-    const uint32_t which = refraction                                               ? GLASS_DRAW_REFRACTION + depth
-                           : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER ? GLASS_DRAW_PAPER + depth
-                                                                                : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
+    const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth
+                           : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
+                               ? GLASS_DRAW_PAPER + depth
+                               : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
     record_draw(glass, cmd, found->draws[which], refraction ? "glass.refraction" : "glass.draw");
     return VIRGA_OK;
 }

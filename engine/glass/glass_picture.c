@@ -112,12 +112,12 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 relief, read */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 copies of the plate, written */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT | VK_SHADER_STAGE_VERTEX_BIT}, /* 14 the same, read */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 15 scene depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},           /* 16 scene colour */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 what tiles hold */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 18 work */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 corners to be drawn */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 20 relief, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 15 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},                    /* 16 scene colour */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 18 work */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 19 corners to be drawn */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 20 relief, written */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };

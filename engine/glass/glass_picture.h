@@ -17,12 +17,12 @@
 enum { GLASS_DRAW_PHYSICAL = 0, GLASS_DRAW_PAPER = 16, GLASS_DRAW_REFRACTION = 18, GLASS_DRAWS = 20 };
 
 #define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
-#define GLASS_GATHER_FILM                 16u /* tiles with film or mist */
+#define GLASS_GATHER_FILM                 16u /* tiles with film */
 #define GLASS_GATHER_MAP                  32u /* the host wants the map */
-#define GLASS_GATHERS                     32 /* of which those of five densities are made */
+#define GLASS_GATHERS                     32  /* of which those of five densities are made */
 
 typedef struct glass_target {
-    uint64_t serial;                       /* of the virga_target; 0: free */
+    uint64_t serial; /* of the virga_target; 0: free */
     virga_pipeline *draws[GLASS_DRAWS];
 } glass_target;
 
@@ -39,7 +39,7 @@ struct glass_picture {
     virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *work, *corners, *view_ring;
     virga_image_2d *map; /* NULL: the host does not want it */
     virga_image_2d *relief, *copies;
-    bool filtered; /* the device filters the relief */
+    bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
     virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *parts_pass, *copy_pass, *shrink_pass;

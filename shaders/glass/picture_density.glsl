@@ -9,7 +9,7 @@
 layout(constant_id = 0) const uint MODE = 0u;
 #define DENSITY (MODE & 7u)
 #define WEIGHTED ((MODE & 8u) != 0u)
-#define FILM ((MODE & 16u) != 0u)      // tiles with film or mist
+#define FILM ((MODE & 16u) != 0u)      // tiles with film
 #define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
 #else
 #define DENSITY look.density

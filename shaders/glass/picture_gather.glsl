@@ -238,10 +238,11 @@ vec4 texel_of(ivec4 sum, float sheet, float mist_share)
 
 bool on_tile(ivec2 at) { return all(greaterThan(at, ivec2(0))) && all(lessThanEqual(at, ivec2(VIRGA_GLASS_TILE))); }
 
-// Taken away as it is read, so that the next view finds none. Of the texels around the tile none is needed.
-float take_mist(ivec2 texel)
+// Taken away as it is read, so that the next view finds none. Looked up without a branch, as is_glass.
+float take_mist(ivec2 texel, bool there)
 {
-    const uint at = uint(texel.x) + uint(texel.y) * look.map_columns, found = mist[at];
+    const uint at = there ? uint(texel.x) + uint(texel.y) * look.map_columns : 0u;
+    const uint held_there = mist[at], found = there ? held_there : 0u;
     if (found != 0u)
         mist[at] = 0u;
     return min(float(found) / float(VIRGA_GLASS_MIST_ONE), 1.0);
@@ -286,19 +287,18 @@ void gather()
         sums[i] = ivec4(0);
     add_balls(at, place);
     if (FILM) {
-        if (has_film(at) && cells_are_wide())
+        if (cells_are_wide())
             load_cells(tile);
         barrier();
         add_beads(place);
     }
     vec4 texels[OWN];
     for (int i = 0; i < OWN; i++) {
-        float sheet = 0.0, share = 0.0;
-        if (FILM) {
-            sheet = has_film(at) ? sheet_at(tile, place + vec2(0.0, look.texel_m[1] * float(i))) : 0.0;
-            if (on_tile(own + ivec2(0, i)))
-                share = take_mist(first + ivec2(0, i));
-        }
+        float sheet = 0.0;
+        if (FILM)
+            sheet = sheet_at(tile, place + vec2(0.0, look.texel_m[1] * float(i)));
+        const bool misty = (at.film & VIRGA_GLASS_HAS_MIST) != 0u && on_tile(own + ivec2(0, i));
+        const float share = take_mist(first + ivec2(0, i), misty);
         texels[i] = texel_of(sums[i], sheet, share);
         heights[own.y + i][own.x] = look.style == 0u ? texels[i].x : texels[i].y;
     }

@@ -27,14 +27,14 @@ void main()
     // Two numbers in one: there are never 65,536 tiles.
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
-        sum += uvec2(tiles[i].count, is_wet(i) ? tiles[i].film != 0u ? 0x10000u : 1u : 0u);
+        sum += uvec2(tiles[i].count, is_wet(i) ? (tiles[i].film & VIRGA_GLASS_HAS_FILM) != 0u ? 0x10000u : 1u : 0u);
     uvec2 all;
     const uvec2 before = scan_group(sum, all);
     uint first = before.x, number = before.y & 0xffffu, film_number = look.max_tiles + (before.y >> 16u);
     for (uint i = begin; i < end; i++) {
         const uint own = tiles[i].count;
         if (is_wet(i)) {
-            if (tiles[i].film != 0u)
+            if ((tiles[i].film & VIRGA_GLASS_HAS_FILM) != 0u)
                 wet[film_number++] = i;
             else
                 wet[number++] = i;

@@ -81,7 +81,7 @@ struct virga_glass_picture_gpu {
 
 /* How much there is to do: what indirect dispatches and draws read. Followed by the numbers of tiles to be worked on. */
 struct virga_glass_work_gpu {
-    uint tile_groups[3];    /* of the gathering pass, over tiles without film and mist */
+    uint tile_groups[3];    /* of the gathering pass, over tiles without film */
     uint film_groups[3];    /* and over those with; their numbers begin in the middle of the list */
     uint ball_groups[3];    /* of the pass that fills the lists */
     uint index_count;       /* of the quarters to be drawn */

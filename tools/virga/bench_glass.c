@@ -129,11 +129,13 @@ static bool get_wet(bench *b, pane *p, uint32_t balls, virga_glass_stats *stats)
 static bool measure_limits(bench *b, const struct row *row, const pane *p, double *fill)
 {
     limits *machine = NULL;
-    const bool good = limits_create(&b->device, &p->picture, row->side * row->side, &machine, b->error, sizeof b->error) ||
-                      bench_fail(b, "limits");
+    const bool good =
+        limits_create(&b->device, &p->picture, row->side * row->side, &machine, b->error, sizeof b->error) ||
+        bench_fail(b, "limits");
     if (good) {
         *fill = limits_fill_ms(&b->device, machine, &p->picture);
-        printf("  machine: copy of 16 bytes a texel %.2f ms, bare kernel over them %.2f ms, dispatch %.3f ms, fill %.2f ms\n",
+        printf("  machine: copy of 16 bytes a texel %.2f ms, bare kernel over them %.2f ms, dispatch %.3f ms, fill "
+               "%.2f ms\n",
                limits_copy_ms(&b->device, machine), limits_bare_ms(&b->device, machine),
                limits_dispatch_ms(&b->device, machine), *fill);
     }
@@ -172,8 +174,11 @@ static bool measure(bench *b, const struct row *row)
     double fill = 1;
     bool good = open_pane(b, row, &p) && set_wipers(&p, VIRGA_GLASS_STYLE_PAPER, row->width_m) &&
                 get_wet(b, &p, row->balls, &stats);
+    if (good && interrupt_asked())
+        good = false;
     if (good)
-        printf("%u metaballs asked for: %u, of %u drops and %u particles; %u x %u picture, %.1f m pane, %.0f MiB at most\n",
+        printf("%u metaballs asked for: %u, of %u drops and %u particles; %u x %u picture, %.1f m pane, %.0f MiB at "
+               "most\n",
                row->balls, stats.balls, stats.drops, stats.particles, row->side, row->side, (double)row->width_m,
                (double)p.bytes / 1048576);
     good = good && measure_limits(b, row, &p, &fill) && measure_style(b, row, &p, VIRGA_GLASS_STYLE_PAPER, fill) &&

@@ -45,10 +45,11 @@ typedef struct virga_glass_def {
     float cell_m;                 /* [0.0005; 0.01] side of a cell, of which one drop has one. 16 bytes of device memory a cell,
                                    * 4,194,304 cells at most (else raised). Default 0.002, the paper's */
     uint32_t max_drops;           /* [256; 262144] drops and particles together, raised to whole workgroups of 256; 180 bytes
-                                   * each. Where there is no place, water joins the film. Default 32768 */
+                                   * each, and 192 for its picture. Where there is no place, water joins the film. Default 32768 */
     float affinity_m;             /* [0.0005; 0.1] width of the spots that the glass is uneven in. Default 0.006 */
     uint32_t max_texels;          /* [64; 4096] of the height map along the pane's longer side; it is made as large as the pane shows
-                                   * on the picture, up to this. 24 bytes each. Default 1024 */
+                                   * on the picture, up to this, in tiles of 14 of which there are
+                                   * 65,535 at most. 22 bytes each. Default 1024 */
     bool height_map;              /* make what virga_glass_map_get tells of: 16 bytes more a texel, and time. Default false */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     double tick_s;                /* [1/1000; 1/20] the same as rain's. Default 1/60 */
