@@ -140,7 +140,9 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     memcpy(look->tint, s->tint, sizeof look->tint);
     look->opaque = s->opaque;
     look->gain = s->gain;
+    look->max_tiles = glass->picture->max_tile_columns * glass->picture->max_tile_rows;
     look->max_entries = glass->picture->max_entries;
+    look->masked = glass->masked;
 }
 
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
@@ -169,11 +171,15 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                                        VK_ACCESS_SHADER_READ_BIT};
-    virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->relief->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    if (picture->map)
+        virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
-    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, 1);
+    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_WRITTEN);
+    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, VK_WHOLE_SIZE,
+                              0); /* from then on, what is read is cleared */
     picture->cleared = true;
 }
 
@@ -191,17 +197,32 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     struct glass_picture *picture = glass->picture;
     const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
-    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, texels * 4, 0);
     context->vk.CmdFillBuffer(cmd, picture->counts->buffer, 0, VK_WHOLE_SIZE, 0);
     if (!picture->cleared)
         record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                   READ_WRITE);
+}
+
+static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    glass->context->vk.CmdDispatchIndirect(cmd, glass->picture->work->buffer, groups);
+}
+
+/* After the pass that says how much there is to do. */
+static void work_barrier(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_barrier(glass->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | READ_WRITE);
 }
 
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
@@ -215,8 +236,8 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
                    (glass->columns * glass->rows + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->scan_pass, 1);
-    virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->fill_pass, places);
+    work_barrier(glass, cmd);
+    over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -267,14 +288,20 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
-    over_tiles(glass, cmd, picture->gather_passes[mode], picture->columns / TILE, picture->rows / TILE);
+    over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
+    over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM],
+              offsetof(virga_glass_work_gpu, film_groups));
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, picture->parts_pass, 1);
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+                      VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                      VK_ACCESS_TRANSFER_READ_BIT);
     record_counts(glass, cmd);
 }
 
@@ -296,6 +323,37 @@ static virga_result take_place(virga_glass *glass, uint32_t *place)
                                     VIRGA_GLASS_MAX_VIEWS);
     *place = picture->ring_views++;
     return VIRGA_OK;
+}
+
+/* Which side of the pane all of it is seen from; 0 where that is not sure. */
+static uint32_t side_of(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose)
+{
+    float m[9];
+    int behind = 0, before = 0;
+    take_rotation(pose, m);
+    for (int i = 0; i < 9; i++) {
+        const float *normal = glass->normals[(VIRGA_GLASS_NODES - 1) / 2 * (i % 3 + i / 3 * VIRGA_GLASS_NODES)];
+        double along = 0, length = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            double way = pose->position_m[axis] - view->position_m[axis], facing = 0;
+            for (int k = 0; k < 3; k++) {
+                way += (double)m[3 * k + axis] * (double)glass->outline[i][k];
+                facing += (double)m[3 * k + axis] * (double)normal[k];
+            }
+            along += way * facing;
+            length += way * way;
+        }
+        behind += along > 0.2 * sqrt(length);
+        before += along < -0.2 * sqrt(length);
+    }
+    return behind == 9 ? VIRGA_GLASS_DRAW_BEHIND : before == 9 ? VIRGA_GLASS_DRAW_BEFORE : 0;
+}
+
+static uint32_t draw_of(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose)
+{
+    return (view->depth.view ? VIRGA_GLASS_DRAW_DEPTH : 0) |
+           (glass->settings.lighting.light_count ? VIRGA_GLASS_DRAW_LAMPS : 0) |
+           (glass->settings.opaque ? VIRGA_GLASS_DRAW_OPAQUE : side_of(glass, view, pose));
 }
 
 virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
@@ -329,7 +387,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     picture->prepared_set = glass_picture_write_set(glass, place, view);
     record_prepare(glass, cmd, view);
     memcpy(picture->prepared_viewport, view->viewport, sizeof picture->prepared_viewport);
-    picture->prepared_depth = view->depth.view != VK_NULL_HANDLE;
+    picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_style = glass->settings.style;
     picture->prepared = true;
     return VIRGA_OK;
@@ -340,7 +398,7 @@ void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
     if (!map)
         return;
     *map = (virga_glass_map){0};
-    if (glass && glass->picture->columns)
+    if (glass && glass->picture->map && glass->picture->columns)
         *map = (virga_glass_map){glass->picture->map->layer_views[0], glass->picture->map->image,
                                  glass->picture->columns, glass->picture->rows};
 }
@@ -372,9 +430,22 @@ static glass_target *find_target(virga_glass *glass, uint64_t serial)
 
 static void target_clear(virga_glass *glass, glass_target *target)
 {
-    for (int i = 0; i < GLASS_DRAWS * 2; i++)
-        VIRGA_RETIRE(glass->context, target->draws[i / 2][i % 2]);
+    for (int i = 0; i < GLASS_DRAWS; i++)
+        VIRGA_RETIRE(glass->context, target->draws[i]);
     target->serial = 0;
+}
+
+/* What one of a target's pipelines differs in. */
+static void describe_draw(uint32_t i, virga_graphics_def *def)
+{
+    def->blend_premultiplied = i < GLASS_DRAW_REFRACTION;
+    def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
+    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_SPIRV(glass_picture_physical_frag)
+                    : i < GLASS_DRAW_REFRACTION ? VIRGA_SPIRV(glass_picture_paper_frag)
+                                                : VIRGA_SPIRV(glass_picture_refraction_frag);
+    def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
+                : i < GLASS_DRAW_REFRACTION ? "glass.paper"
+                                            : "glass.refraction";
 }
 
 virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
@@ -391,23 +462,13 @@ virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
     glass_target *slot = find_target(glass, 0);
     if (!slot)
         return virga_wrong_argument(log, "virga_glass_attach: more than %d targets", GLASS_MAX_TARGETS);
-    const struct {
-        virga_spirv fragment;
-        const char *name;
-    } rows[GLASS_DRAWS] = {
-        [GLASS_DRAW_PAPER] = {VIRGA_SPIRV(glass_picture_paper_frag), "glass.paper"},
-        [GLASS_DRAW_PHYSICAL] = {VIRGA_SPIRV(glass_picture_physical_frag), "glass.physical"},
-        [GLASS_DRAW_REFRACTION] = {VIRGA_SPIRV(glass_picture_refraction_frag), "glass.refraction"},
-    };
     virga_result result = VIRGA_OK;
     virga_graphics_def def = {
         .vertex = VIRGA_SPIRV(glass_picture_pane_vert), .layout = glass->picture->bindings->layout, .depth_test = true};
-    for (uint32_t i = 0; i < GLASS_DRAWS * 2; i++) {
-        def.constant = i % 2;
-        def.fragment = rows[i / 2].fragment;
-        def.name = rows[i / 2].name;
-        def.blend_premultiplied = i / 2 != GLASS_DRAW_REFRACTION;
-        TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
+    for (uint32_t i = 0; i < GLASS_DRAWS; i++) {
+        describe_draw(i, &def);
+        def.constant |= glass->picture->filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;
+        TRY(virga_target_pipeline(target, def, &slot->draws[i]));
     }
     slot->serial = target->serial;
     return VIRGA_OK;
@@ -425,13 +486,14 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
     const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
                               {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    const uint32_t quarters = glass->picture->columns / TILE * (glass->picture->rows / TILE) * 4;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    context->vk.CmdDraw(cmd, quarters * 6, 1, 0, 0);
+    context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
+    context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, offsetof(virga_glass_work_gpu, index_count),
+                                       1, sizeof(virga_glass_work_gpu));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -450,9 +512,12 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     /* What was prepared for an earlier frame or step is not what the map holds now. */
     if (!found || !picture->prepared || picture->view_frame != context->frame_index)
         return VIRGA_NOT_READY;
-    const int style = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER ? GLASS_DRAW_PAPER : GLASS_DRAW_PHYSICAL;
-    record_draw(glass, cmd, found->draws[refraction ? GLASS_DRAW_REFRACTION : style][picture->prepared_depth],
-                refraction ? "glass.refraction" : "glass.draw");
+    const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
+    const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth
+                           : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
+                               ? GLASS_DRAW_PAPER + depth
+                               : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
+    record_draw(glass, cmd, found->draws[which], refraction ? "glass.refraction" : "glass.draw");
     return VIRGA_OK;
 }
 

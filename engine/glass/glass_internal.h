@@ -55,6 +55,7 @@ struct virga_glass {
         *settle, *dry, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
     float farthest_m;       /* of the nodes from the pane's origin */
+    bool masked;            /* there may be cells without glass */
     float outline[9][3];    /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
     const virga_glass_tick_gpu *blades; /* of the tick that is recorded */
     bool particles_ever;    /* there may be particles */

@@ -7,6 +7,7 @@
 #include "shaders/glass_picture_film_comp.spv.h"
 #include "shaders/glass_picture_gather_comp.spv.h"
 #include "shaders/glass_picture_gather_shuffle_comp.spv.h"
+#include "shaders/glass_picture_parts_comp.spv.h"
 #include "shaders/glass_picture_scan_comp.spv.h"
 #include "shaders/glass_picture_shrink_comp.spv.h"
 
@@ -37,12 +38,17 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     const float longer = def->width_m > def->height_m ? def->width_m : def->height_m;
     picture->max_tile_columns = tiles_of(def->width_m, longer, def->max_texels);
     picture->max_tile_rows = tiles_of(def->height_m, longer, def->max_texels);
+    /* As many as a dispatch may have workgroups; only the largest map of a square pane has more. */
+    while (picture->max_tile_columns * picture->max_tile_rows > 65535) {
+        picture->max_tile_columns--;
+        picture->max_tile_rows--;
+    }
     picture->max_columns = picture->max_tile_columns * TILE;
     picture->max_rows = picture->max_tile_rows * TILE;
     picture->max_entries = picture->max_columns * picture->max_rows / 8 + 16 * def->max_drops;
 }
 
-enum { BUFFERS = 7, PASSES = 6 };
+enum { BUFFERS = 9, PASSES = 7 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -58,6 +64,10 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->mist, tiles * TILE * TILE * 4, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
         {&picture->counts, 8, storage, VIRGA_HEAP_DEVICE, "glass.ball_counts"},
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
+        {&picture->work, sizeof(virga_glass_work_gpu) + 2 * tiles * 4, storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+         VIRGA_HEAP_DEVICE, "glass.work"},
+        {&picture->corners, tiles * 4 * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
+         "glass.corners"},
         {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.views"},
     };
@@ -73,7 +83,7 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
     virga_buffer_row rows[BUFFERS];
     fill_sizes(def, &sizes);
     list_buffers(def, VIRGA_MAX_FRAMES_IN_FLIGHT, &sizes, rows);
-    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL +
+    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL * (def->height_map ? 2 : 1) +
                        (VkDeviceSize)VIRGA_GLASS_COPY_WIDTH * VIRGA_GLASS_COPY * COPY_TEXEL;
     for (int i = 0; i < BUFFERS; i++)
         sum += rows[i].size;
@@ -91,20 +101,23 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 1 drops */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 2 film */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 passed */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, FRAGMENT},                             /* 4 surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 4 surface */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 nodes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 balls */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 tiles */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 entries */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 mist */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 counts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 11 map, written */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 map, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 11 map */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 relief, read */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 copies of the plate, written */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 14 the same, read */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 15 scene depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},           /* 16 scene colour */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT | VK_SHADER_STAGE_VERTEX_BIT}, /* 14 the same, read */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 15 scene depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},                    /* 16 scene colour */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 17 what tiles hold */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 18 work */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 19 corners to be drawn */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 20 relief, written */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -145,13 +158,16 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(picture->entries),
         whole(picture->mist),
         whole(picture->counts),
-        own_image(picture->map, VK_NULL_HANDLE),
-        own_image(picture->map, context->nearest),
+        own_image(picture->map ? picture->map : picture->relief, VK_NULL_HANDLE),
+        own_image(picture->relief, picture->filtered ? context->linear : context->nearest),
         own_image(picture->copies, VK_NULL_HANDLE),
         own_image(picture->copies, context->linear),
         image_or_blank(&view->depth, picture->blank_depth, context->nearest),
         image_or_blank(&view->color, picture->blank_color, color),
         whole(picture->written),
+        whole(picture->work),
+        whole(picture->corners),
+        own_image(picture->relief, VK_NULL_HANDLE),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
@@ -165,8 +181,18 @@ static bool can_shuffle(const virga_context *context)
     VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                               .pNext = &subgroup};
     context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
+    const VkSubgroupFeatureFlags needed =
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+           (subgroup.supportedOperations & needed) == needed;
+}
+
+/* Whether samplers filter four whole floats. */
+static bool can_filter(const virga_context *context)
+{
+    VkFormatProperties found;
+    context->vk.GetPhysicalDeviceFormatProperties(context->physical_device, VK_FORMAT_R32G32B32A32_SFLOAT, &found);
+    return (found.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
 }
 
 static void list_passes(struct glass_picture *picture, virga_compute_row rows[PASSES])
@@ -176,21 +202,23 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->scan_pass, VIRGA_SPIRV(glass_picture_scan_comp), "glass.scan"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
+        {&picture->parts_pass, VIRGA_SPIRV(glass_picture_parts_comp), "glass.parts"},
         {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
         {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
 
-/* One for each density and blend. */
+/* One for each density and blend, without and with film. */
 static virga_result create_gathers(virga_context *context, bool shuffle, struct glass_picture *picture)
 {
     const virga_spirv shader =
         shuffle ? VIRGA_SPIRV(glass_picture_gather_shuffle_comp) : VIRGA_SPIRV(glass_picture_gather_comp);
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < 2 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
-        const uint32_t mode = GLASS_GATHER_MODE(i / 2, i % 2);
-        TRY(virga_compute_pipeline_special(context, shader, picture->bindings->layout, mode, "glass.gather",
+    for (uint32_t i = 0; i < 4 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
+        const uint32_t mode = GLASS_GATHER_MODE(i / 4, i / 2 % 2) | (i % 2 ? GLASS_GATHER_FILM : 0);
+        TRY(virga_compute_pipeline_special(context, shader, picture->bindings->layout,
+                                           mode | (picture->map ? GLASS_GATHER_MAP : 0), "glass.gather",
                                            &picture->gather_passes[mode]));
     }
 error:
@@ -203,7 +231,7 @@ static void retire_gathers(virga_context *context, struct glass_picture *picture
         VIRGA_RETIRE(context, picture->gather_passes[i]);
 }
 
-static virga_result create_images(virga_context *context, struct glass_picture *picture)
+static virga_result create_images(virga_context *context, bool height_map, struct glass_picture *picture)
 {
     virga_result result = VIRGA_OK;
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -211,7 +239,11 @@ static virga_result create_images(virga_context *context, struct glass_picture *
                      copies = {VIRGA_GLASS_COPY_WIDTH, VIRGA_GLASS_COPY};
     TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.relief", &picture->relief));
+    if (height_map)
+        TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
+                               sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                               VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, copies, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.copies", &picture->copies));
@@ -237,7 +269,8 @@ virga_result glass_picture_create(virga_glass *glass)
     list_buffers(&glass->def, context->frames_in_flight, picture, buffers);
     list_passes(picture, passes);
     TRY(virga_buffers_create(context, buffers, BUFFERS));
-    TRY(create_images(context, picture));
+    TRY(create_images(context, glass->def.height_map, picture));
+    picture->filtered = can_filter(context);
     TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
     TRY(virga_compute_pipelines_create(context, picture->bindings->layout, passes, PASSES));
     TRY(create_gathers(context, can_shuffle(context), picture));
@@ -264,8 +297,9 @@ void glass_picture_destroy(virga_glass *glass)
     virga_compute_pipelines_retire(context, passes, PASSES);
     retire_gathers(context, picture);
     virga_buffers_retire(context, buffers, BUFFERS);
-    for (uint32_t i = 0; i < GLASS_MAX_TARGETS * GLASS_DRAWS * 2; i++)
-        VIRGA_RETIRE(context, picture->targets[i / (GLASS_DRAWS * 2)].draws[i / 2 % GLASS_DRAWS][i % 2]);
+    for (uint32_t i = 0; i < GLASS_MAX_TARGETS * GLASS_DRAWS; i++)
+        VIRGA_RETIRE(context, picture->targets[i / GLASS_DRAWS].draws[i % GLASS_DRAWS]);
+    VIRGA_RETIRE(context, picture->relief);
     VIRGA_RETIRE(context, picture->map);
     VIRGA_RETIRE(context, picture->copies);
     VIRGA_RETIRE(context, picture->blank_depth);

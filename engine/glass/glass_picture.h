@@ -12,14 +12,18 @@
 
 #define GLASS_MAX_TARGETS 8
 
-enum { GLASS_DRAW_PAPER, GLASS_DRAW_PHYSICAL, GLASS_DRAW_REFRACTION, GLASS_DRAWS };
+/* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., then the paper's and refraction vectors, each without and
+ * with the scene's depth. */
+enum { GLASS_DRAW_PHYSICAL = 0, GLASS_DRAW_PAPER = 16, GLASS_DRAW_REFRACTION = 18, GLASS_DRAWS = 20 };
 
 #define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
-#define GLASS_GATHERS                     16 /* of which those of five densities are made */
+#define GLASS_GATHER_FILM                 16u /* tiles with film */
+#define GLASS_GATHER_MAP                  32u /* the host wants the map */
+#define GLASS_GATHERS                     32  /* of which those of five densities are made */
 
 typedef struct glass_target {
-    uint64_t serial;                       /* of the virga_target; 0: free */
-    virga_pipeline *draws[GLASS_DRAWS][2]; /* without and with the scene's depth to read */
+    uint64_t serial; /* of the virga_target; 0: free */
+    virga_pipeline *draws[GLASS_DRAWS];
 } glass_target;
 
 /* What a view's uniform block holds. */
@@ -32,18 +36,21 @@ struct glass_picture {
     uint32_t max_columns, max_rows;           /* texels of the map */
     uint32_t max_tile_columns, max_tile_rows; /* and tiles */
     uint32_t max_entries;
-    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *view_ring;
-    virga_image_2d *map, *copies;
+    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *work, *corners, *view_ring;
+    virga_image_2d *map; /* NULL: the host does not want it */
+    virga_image_2d *relief, *copies;
+    bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *copy_pass, *shrink_pass;
-    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density and blend */
+    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *parts_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */
 
     uint64_t view_frame; /* that the cursors below belong to */
     uint32_t ring_views, view_offset;
-    bool prepared, prepared_depth;
+    bool prepared;
+    uint32_t prepared_draw; /* VIRGA_GLASS_DRAW_... */
     virga_glass_style prepared_style;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];

@@ -388,6 +388,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     VIRGA_RETIRE(context, glass->nodes_upload);
     glass->surface_upload = cells;
     glass->nodes_upload = nodes;
+    glass->masked = shape->mask != NULL;
     return VIRGA_OK;
 error:
     VIRGA_RETIRE(context, cells);

@@ -17,10 +17,8 @@ layout(scalar, set = 0, binding = 10) buffer Counts { uint ball_count, cut_count
 #define SUB_WATER 0.09              // share of a drop's water in each of its three sub-balls as it lands
 #define TEAR_SPEED 0.03             // m/s at which half of a tear has formed
 
-shared uint group_balls;
-
 struct Drop {
-    uint place, id, made;
+    uint id;
     float radius; // of the base, all water in one cap
     vec2 middle, sag;
 };
@@ -54,23 +52,23 @@ void count_tiles(vec2 middle, float reach_m)
             atomicAdd(tiles[tile_number(ivec2(x, y))].count, 1u);
 }
 
-void emit_ball(inout Drop drop, vec2 middle, float radius, float peak)
+void emit_ball(Drop drop, vec2 middle, float radius, float peak)
 {
     const float shape = peak * shape_share(radius);
     if (shape < 1.0 && peak == 1.0)
         add_mist(middle, radius, 1.0 - shape);
-    if (shape <= 0.0 || radius <= 0.0)
-        return;
-    balls[drop.place * VIRGA_GLASS_DROP_BALLS + drop.made++] =
-        virga_glass_ball_gpu(float[2](middle.x, middle.y), radius, radius * look.cap_height,
-                             float[2](drop.sag.x, drop.sag.y), drop.id, shape);
-    count_tiles(middle, radius * density_reach());
+    if (shape > 0.0 && radius > 0.0) {
+        balls[atomicAdd(ball_count, 1u)] =
+            virga_glass_ball_gpu(float[2](middle.x, middle.y), radius, radius * look.cap_height,
+                                 float[2](drop.sag.x, drop.sag.y), drop.id, shape);
+        count_tiles(middle, radius * density_reach());
+    }
 }
 
 // Three sub-balls around one that has just landed, which flow in (section 4.7). All have the shape of caps, so that
 // radii are
 // cube roots of the shares of water.
-void emit_landing(inout Drop drop, float t, uint random)
+void emit_landing(Drop drop, float t, uint random)
 {
     const float left = (1.0 - t) * (1.0 - t), water = SUB_WATER * left;
     emit_ball(drop, drop.middle, drop.radius * pow(1.0 - 3.0 * water, 1.0 / 3.0), 1.0);
@@ -83,7 +81,7 @@ void emit_landing(inout Drop drop, float t, uint random)
 }
 
 // A tear: smaller balls behind, the farther the faster it runs. All together hold its water.
-void emit_tear(inout Drop drop, vec2 velocity)
+void emit_tear(Drop drop, vec2 velocity)
 {
     const float speed = length(velocity), run = speed / (speed + TEAR_SPEED);
     const vec3 sizes = run * vec3(0.80, 0.60, 0.42);
@@ -95,44 +93,29 @@ void emit_tear(inout Drop drop, vec2 velocity)
         emit_ball(drop, drop.middle + back * (head * ways[i]), head * sizes[i], 1.0);
 }
 
-uint make(uint place)
+void make(uint place)
 {
-    const uint kind = drops[place].kind;
-    if ((kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_FREE)
-        return 0u;
     const virga_glass_drop_gpu at = drops[place];
-    Drop drop = Drop(place, at.id, 0u, 0.0, vec2(0.0), vec2(0.0));
+    Drop drop = Drop(at.id, 0.0, vec2(0.0), vec2(0.0));
     drop.middle = mix(vec2(at.before[0], at.before[1]), vec2(at.position[0], at.position[1]), look.share);
-    if ((kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE) {
-        drop.radius = look.particle_m;
-        emit_ball(drop, drop.middle, drop.radius, 1.0);
-        return drop.made;
-    }
-    drop.radius = cap_radius(float(at.water_nl));
-    drop.sag = sag_of(drop.middle, drop.radius);
+    const bool particle = (at.kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE;
+    drop.radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
+    drop.sag = particle ? vec2(0.0) : sag_of(drop.middle, drop.radius);
     const vec2 velocity = vec2(at.velocity[0], at.velocity[1]);
     const float age = max(at.age_s + look.late_s, 0.0);
-    if (age < look.impact_s && (kind & VIRGA_GLASS_TAIL) == 0u)
+    const bool lands = !particle && age < look.impact_s && (at.kind & VIRGA_GLASS_TAIL) == 0u;
+    const bool runs = !particle && !lands && (at.kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8;
+    if (lands)
         emit_landing(drop, age / look.impact_s, at.random);
-    else if ((kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8)
+    if (runs)
         emit_tear(drop, velocity);
-    else
+    if (!lands && !runs)
         emit_ball(drop, drop.middle, drop.radius, 1.0);
-    return drop.made;
 }
 
 void main()
 {
-    if (gl_LocalInvocationIndex == 0u)
-        group_balls = 0u;
-    barrier();
     const uint place = gl_GlobalInvocationID.x;
-    const uint made = make(place);
-    if (made < VIRGA_GLASS_DROP_BALLS)
-        balls[place * VIRGA_GLASS_DROP_BALLS + made].radius_m = 0.0;
-    if (made != 0u)
-        atomicAdd(group_balls, made);
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && group_balls != 0u)
-        atomicAdd(ball_count, group_balls);
+    if ((drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
+        make(place);
 }

@@ -1,4 +1,4 @@
-// picture_copy.comp - the plate as 512 x 512 texels, each the mean of its part: by as many whole pixels as it has.
+// picture_copy.comp - the plate as 256 x 256 texels, each the mean of its part: by as many whole pixels as it has.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -9,6 +9,8 @@
 layout(constant_id = 0) const uint MODE = 0u;
 #define DENSITY (MODE & 7u)
 #define WEIGHTED ((MODE & 8u) != 0u)
+#define FILM ((MODE & 16u) != 0u)      // tiles with film
+#define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
 #else
 #define DENSITY look.density
 #endif
@@ -20,7 +22,7 @@ float density_reach()
     return DENSITY == DENSITY_MURAKAMI    ? 2.3660254
            : DENSITY == DENSITY_WYVILL    ? 1.8477591
            : DENSITY == DENSITY_NISHIMURA ? 2.0
-                                               : 3.0;
+                                       : 2.0;
 }
 
 // 1 up to two thirds of the reach, then smoothly to 0: a function that were cut off would show as an edge on its
@@ -74,12 +76,14 @@ float density_inverse(float v)
     return reach2 * y2;
 }
 
-// Goto et al. 2009, equation 2, so many times with a rising V0.
+// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: compilers leave one alone that has
+// another of unknown length in it, and what it indexes goes to memory.
+#define MOST_STEPS 16u
 float compressed(float v)
 {
     float from = look.compress_from;
-    for (uint i = 0u; i < look.compress_steps; i++) {
-        v = v > from ? look.compress_k * (v - from) + from : v;
+    for (uint i = 0u; i < MOST_STEPS; i++) {
+        v -= (i < look.compress_steps ? 1.0 - look.compress_k : 0.0) * max(v - from, 0.0);
         from += look.compress_step;
     }
     return v;

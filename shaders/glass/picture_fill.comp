@@ -8,13 +8,15 @@
 #include "picture_density.glsl"
 #include "picture_tiles.glsl"
 
-layout(local_size_x = VIRGA_GLASS_GROUP) in;
+layout(local_size_x = VIRGA_GLASS_FILL_GROUP) in;
 layout(scalar, set = 0, binding = 8) writeonly buffer Entries { uint entries[]; };
+
+layout(scalar, set = 0, binding = 10) readonly buffer Counts { uint ball_count, cut_count; };
 
 void main()
 {
-    const uint start = gl_GlobalInvocationID.x * VIRGA_GLASS_DROP_BALLS;
-    for (uint i = start; i < start + VIRGA_GLASS_DROP_BALLS && balls[i].radius_m > 0.0; i++) {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i < ball_count) {
         ivec2 first, last;
         tiles_around(vec2(balls[i].middle[0], balls[i].middle[1]), balls[i].radius_m * density_reach(), first, last);
         for (int y = first.y; y <= last.y; y++)

@@ -10,26 +10,33 @@
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 
-void main()
+void show(uint number)
 {
-    const uint number = gl_GlobalInvocationID.x;
-    if (number >= look.pane.columns * look.pane.rows || film[number] == 0u)
-        return;
     const ivec2 cell = ivec2(number % look.pane.columns, number / look.pane.columns);
     const float fresh = film_fresh(number), broken_nl = float(film[number]) * (1.0 - fresh);
     bool shown = fresh > 0.0;
     for (uint i = 0u; i < BEADS; i++) {
         const vec3 bead = bead_of(cell, number, i, broken_nl);
         const float shape = shape_share(bead.z);
-        if (shape < 1.0)
+        if (shape < 1.0 && bead.z > 0.0)
             add_mist(bead.xy, bead.z, 1.0 - shape);
         shown = shown || shape > 0.0;
     }
-    if (!shown)
-        return;
-    ivec2 first, last;
-    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++)
-            atomicOr(tiles[tile_number(ivec2(x, y))].film, 1u);
+    if (shown) {
+        ivec2 first, last;
+        tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
+        for (int y = first.y; y <= last.y; y++)
+            for (int x = first.x; x <= last.x; x++)
+                mark_tile(ivec2(x, y), VIRGA_GLASS_HAS_FILM);
+    }
+}
+
+void main()
+{
+    const uint number = gl_GlobalInvocationID.x;
+    const uint cells = look.pane.columns * look.pane.rows;
+    // Not by `&&`, that is a branch to software Vulkan, in which a read is one for each lane.
+    const bool wet = number < cells, holds = film[min(number, cells - 1u)] != 0u;
+    if (wet && holds)
+        show(number);
 }

@@ -29,22 +29,26 @@
 #define LANES 64
 #define OWN 4 // texels of a lane, above one another
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
-#define MOST_CELLS 19 // along a side, that a tile lies on or beside where cells are no smaller than texels
+#define MOST_CELLS 20 // along a side, that a tile lies on or beside where cells are no smaller than texels
 
 layout(local_size_x = LANES) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
-layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; };
+layout(scalar, set = 0, binding = 9) buffer Mist { uint mist[]; };
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
-layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // see virga_glass_picture_gpu
+layout(set = 0, binding = 20, rgba32f) uniform writeonly image2D relief_out;
+layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
+layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_BLOCKS, _QUARTER
+layout(scalar, set = 0, binding = 18) readonly buffer Work { virga_glass_work_gpu work; uint wet[]; };
 
 struct Ball {
     vec2 middle, sag;
     float inv_radius, height, peak, radius;
 };
 
-shared uint highest, widest, any_mist, parts_shown;
+shared uint highest, widest, narrowest, held, bead_count;
+shared float heights[16][16]; // those of the tile, and a texel around it
 shared float film_m[MOST_CELLS * MOST_CELLS];
-shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS];
+shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS]; // in any order, as sums have none
 #ifndef SHUFFLE
 shared Ball batch[LANES];
 #endif
@@ -80,37 +84,50 @@ void add(vec2 place, Ball ball, float reach)
 
 // ---- what a tile holds
 
+bool has_film(virga_glass_tile_gpu tile) { return (tile.film & VIRGA_GLASS_HAS_FILM) != 0u; }
+
 void find_largest(virga_glass_tile_gpu tile)
 {
     if (gl_LocalInvocationIndex == 0u)
-        highest = widest = any_mist = parts_shown = 0u;
+        highest = widest = held = bead_count = 0u;
+    if (gl_LocalInvocationIndex == 0u)
+        narrowest = floatBitsToUint(1e9);
     barrier();
-    float height = 0.0, radius = 0.0;
-    for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
-        const uint ball = entries[tile.first + i];
-        height = max(height, balls[ball].height_m);
-        radius = max(radius, balls[ball].radius_m);
+    if (gl_LocalInvocationIndex < tile.count) {
+        float height = 0.0, radius = 0.0, least = 1e9;
+        for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
+            const uint ball = entries[tile.first + i];
+            height = max(height, balls[ball].height_m);
+            radius = max(radius, balls[ball].radius_m);
+            least = min(least, balls[ball].radius_m);
+        }
+        atomicMin(narrowest, floatBitsToUint(least));
+        atomicMax(highest, floatBitsToUint(height));
+        atomicMax(widest, floatBitsToUint(radius));
     }
-    if (tile.film != 0u)
-        radius = max(radius, BEAD_CELLS * look.pane.cell_m);
-    height = max(height, tile.film != 0u ? radius * look.cap_height : 0.0);
-    atomicMax(highest, floatBitsToUint(height));
-    atomicMax(widest, floatBitsToUint(radius));
     barrier();
-    tile_height = max(uintBitsToFloat(highest) * 1.6, 1e-9); // the fatter side of one that sags
-    tile_radius = max(uintBitsToFloat(widest), 1e-9);
+    const float radius = max(uintBitsToFloat(widest), has_film(tile) ? BEAD_CELLS * look.pane.cell_m : 0.0);
+    const float height = max(uintBitsToFloat(highest), has_film(tile) ? radius * look.cap_height : 0.0);
+    tile_height = max(height * 1.6, 1e-9); // the fatter side of one that sags
+    tile_radius = max(radius, 1e-9);
 }
 
 void add_balls(virga_glass_tile_gpu tile, vec2 place)
 {
     const float reach = density_reach();
 #ifdef SHUFFLE
+    // Each lane looks at one ball; those that reach none of the subgroup's texels are left out.
+    const vec2 low = subgroupMin(place), high = subgroupMax(place) + vec2(0.0, look.texel_m[1] * float(OWN - 1));
     for (uint from = 0u; from < tile.count; from += gl_SubgroupSize) {
         const uint some = min(tile.count - from, gl_SubgroupSize);
         const Ball mine = ball_of(tile.first + from + min(gl_SubgroupInvocationID, some - 1u));
+        const vec2 apart = (mine.middle - clamp(mine.middle, low, high)) * mine.inv_radius;
         const vec4 ends = vec4(mine.middle, mine.sag);
         const vec4 sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.radius);
-        for (uint i = 0u; i < some; i++) {
+        uvec4 near = subgroupBallot(gl_SubgroupInvocationID < some && dot(apart, apart) < reach * reach);
+        while (near != uvec4(0u)) {
+            const uint i = subgroupBallotFindLSB(near);
+            near &= ~(uvec4(i / 32u == 0u, i / 32u == 1u, i / 32u == 2u, i / 32u == 3u) << (i % 32u));
             const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
             add(place, Ball(e.xy, e.zw, s.x, s.y, s.z, s.w), reach);
         }
@@ -132,7 +149,7 @@ void add_balls(virga_glass_tile_gpu tile, vec2 place)
 
 bool cells_are_wide() { return look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]); }
 
-ivec2 first_cell(ivec2 tile) { return ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1; }
+ivec2 first_cell(ivec2 tile) { return ivec2(floor((vec2(tile) * tile_m() - texel_m()) / look.pane.cell_m)) - 1; }
 
 float sheet_m(uint cell)
 {
@@ -144,17 +161,25 @@ bool is_cell(ivec2 cell)
     return all(greaterThanEqual(cell, ivec2(0))) && cell.x < int(look.pane.columns) && cell.y < int(look.pane.rows);
 }
 
-// The tile's cells, and those beside it.
-void load_cells(ivec2 tile, uint count)
+// The tile's cells, and those beside it, with those of their beads that have a shape.
+void load_cells(ivec2 tile)
 {
-    for (uint i = gl_LocalInvocationIndex; i < count; i += LANES) {
-        const ivec2 cell = first_cell(tile) + ivec2(i % MOST_CELLS, i / MOST_CELLS);
+    const ivec2 corner = first_cell(tile);
+    const ivec2 span = min(ivec2(floor((vec2(tile + 1) * tile_m() + texel_m()) / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
+    for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
+        const ivec2 at = ivec2(int(i) % span.x, int(i) / span.x), cell = corner + at;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
-        const bool wet = is_cell(cell) && film[number] != 0u;
-        film_m[i] = wet ? sheet_m(number) : 0.0;
-        const float broken_nl = wet ? float(film[number]) * (1.0 - film_fresh(number)) : 0.0;
-        for (uint k = 0u; k < BEADS; k++)
-            beads[i * BEADS + k] = wet ? bead_of(cell, number, k, broken_nl) : vec3(0.0);
+        const bool wet_cell = is_cell(cell) && film[number] != 0u;
+        film_m[at.x + at.y * MOST_CELLS] = 0.0;
+        if (wet_cell) {
+            film_m[at.x + at.y * MOST_CELLS] = sheet_m(number);
+            const float broken_nl = float(film[number]) * (1.0 - film_fresh(number));
+            for (uint k = 0u; k < BEADS; k++) {
+                const vec3 bead = bead_of(cell, number, k, broken_nl);
+                if (shape_share(bead.z) > 0.0)
+                    beads[atomicAdd(bead_count, 1u)] = bead;
+            }
+        }
     }
 }
 
@@ -164,16 +189,13 @@ uint shared_cell(ivec2 cell)
     return uint(at.x) + uint(at.y) * MOST_CELLS;
 }
 
-void add_beads(ivec2 tile, vec2 place, int own, int most)
+void add_beads(vec2 place)
 {
-    const ivec2 cell = ivec2(floor(place / look.pane.cell_m)) - first_cell(tile);
     const float reach = density_reach();
-    for (int i = 0; i < most; i++) {
-        const uint number = shared_cell(cell + ivec2(i / BEADS % 3 - 1, i / BEADS / 3 - 1)) * BEADS + uint(i % BEADS);
-        const vec3 bead = beads[number];
-        if (shape_share(bead.z) > 0.0)
-            add_at(own, place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
-                                    shape_share(bead.z), bead.z / tile_radius), reach);
+    for (uint i = 0u; i < bead_count; i++) {
+        const vec3 bead = beads[i];
+        add(place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
+                        shape_share(bead.z), bead.z / tile_radius), reach);
     }
 }
 
@@ -214,47 +236,99 @@ vec4 texel_of(ivec4 sum, float sheet, float mist_share)
     return vec4(compressed(water.x), mix(water.y, max(water.y, 0.0), film_there) + sheet, mist_share, sheet);
 }
 
-float mist_at(ivec2 texel)
+bool on_tile(ivec2 at) { return all(greaterThan(at, ivec2(0))) && all(lessThanEqual(at, ivec2(VIRGA_GLASS_TILE))); }
+
+// Taken away as it is read, so that the next view finds none. Looked up without a branch, as is_glass.
+float take_mist(ivec2 texel, bool there)
 {
-    return min(float(mist[uint(texel.x) + uint(texel.y) * look.map_columns]) / float(VIRGA_GLASS_MIST_ONE), 1.0);
+    const uint at = there ? uint(texel.x) + uint(texel.y) * look.map_columns : 0u;
+    const uint held_there = mist[at], found = there ? held_there : 0u;
+    if (found != 0u)
+        mist[at] = 0u;
+    return min(float(found) / float(VIRGA_GLASS_MIST_ONE), 1.0);
+}
+
+// The least density that a texel beside a rim has, or less. Where beads may be, or other densities than Goto's, as for the
+// smallest drops.
+float shown_from()
+{
+    const float step = max(look.texel_m[0], look.texel_m[1]) / max(uintBitsToFloat(narrowest), 1e-6);
+    const float x = 1.0 + 1.1 * step, x2 = x * x;
+    return look.threshold * (FILM || DENSITY != DENSITY_GOTO ? 0.2 : clamp(2.0 / (1.0 + x2 * x2), 0.1, 0.7));
+}
+
+// What the draws read: see picture_surface.glsl.
+vec4 relief_of(vec4 texel, vec2 slope, float bend)
+{
+    const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, texel.w) : 0.0; // the paper has no film
+    const float density = max(texel.x, 2.0 * look.threshold * film_cover);
+    const float inner = look.opaque != 0u ? max(texel.y, 0.0) : bend;
+    return vec4(density, slope, density > 0.7 * look.threshold ? -inner : texel.z);
+}
+
+// Looked up without a branch: in one, software Vulkan reads lane by lane.
+bool is_glass(ivec2 texel)
+{
+    const vec2 at = (vec2(texel) + 0.5) * texel_m() / look.pane.cell_m;
+    const uvec2 cell = uvec2(clamp(at, vec2(0.0), vec2(look.pane.columns, look.pane.rows) - 1.0));
+    const uint known = surface[look.masked != 0u ? cell.x + cell.y * look.pane.columns : 0u];
+    return look.masked == 0u || (known & 0x1000000u) != 0u;
 }
 
 void gather()
 {
-    const ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    const uint number = tile_number(tile), lane = gl_LocalInvocationIndex;
+    const uint number = wet[gl_WorkGroupID.x + (FILM ? look.max_tiles : 0u)], lane = gl_LocalInvocationIndex;
+    const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
     const virga_glass_tile_gpu at = tiles[number];
-    const ivec2 first = tile * VIRGA_GLASS_TILE + ivec2(lane % 16u, lane / 16u * OWN);
+    const ivec2 own = ivec2(lane % 16u, lane / 16u * OWN), first = tile * VIRGA_GLASS_TILE + own - 1;
     const vec2 place = (vec2(first) + 0.5) * texel_m();
     find_largest(at);
-    vec4 shares;
-    for (int i = 0; i < OWN; i++) {
+    for (int i = 0; i < OWN; i++)
         sums[i] = ivec4(0);
-        shares[i] = mist_at(first + ivec2(0, i));
-    }
-    if (dot(shares, vec4(1.0)) > 0.0)
-        atomicOr(any_mist, 1u);
     add_balls(at, place);
-    const bool beads_shown = at.film != 0u && cells_are_wide();
-    load_cells(tile, beads_shown ? MOST_CELLS * MOST_CELLS : 0u);
-    barrier();
-    // A tile without water that had none before is as it was.
-    const uint place_in_list = uint(tile.x) + uint(tile.y) * look.written_columns;
-    const bool empty = at.count == 0u && at.film == 0u && any_mist == 0u;
-    if (empty && written[place_in_list] == 0u)
-        return;
-    for (int i = 0; i < OWN; i++) {
-        const vec2 here = place + vec2(0.0, look.texel_m[1] * float(i));
-        // A loop without turns, not a branch: software Vulkan runs all sides of a branch, and unrolls what has a
-        // fixed length.
-        add_beads(tile, here, i, beads_shown ? 9 * BEADS : 0);
-        const vec4 texel = texel_of(sums[i], at.film != 0u ? sheet_at(tile, here) : 0.0, shares[i]);
-        imageStore(map_out, first + ivec2(0, i), texel);
-        // Well below the threshold, as a neighbour's rim may reach over.
-        if (texel.x > 0.2 * look.threshold || texel.z > 0.0 || texel.w > 1e-7)
-            atomicOr(parts_shown, 2u << (lane % 16u / 8u + 2u * (lane / 32u)));
+    if (FILM) {
+        if (cells_are_wide())
+            load_cells(tile);
+        barrier();
+        add_beads(place);
     }
+    vec4 texels[OWN];
+    for (int i = 0; i < OWN; i++) {
+        float sheet = 0.0;
+        if (FILM)
+            sheet = sheet_at(tile, place + vec2(0.0, look.texel_m[1] * float(i)));
+        const bool misty = (at.film & VIRGA_GLASS_HAS_MIST) != 0u && on_tile(own + ivec2(0, i));
+        const float share = take_mist(first + ivec2(0, i), misty);
+        texels[i] = texel_of(sums[i], sheet, share);
+        heights[own.y + i][own.x] = look.style == 0u ? texels[i].x : texels[i].y;
+    }
+    barrier();
+    bool any = false, shown = false;
+    const int left = max(own.x - 1, 0), right = min(own.x + 1, 15), below = max(own.y - 1, 0), above = min(own.y + OWN, 15);
+    float column[OWN + 2];
+    column[0] = heights[below][own.x];
+    column[OWN + 1] = heights[above][own.x];
+    for (int i = 0; i < OWN; i++)
+        column[i + 1] = look.style == 0u ? texels[i].x : texels[i].y;
+    for (int i = 0; i < OWN; i++) {
+        const int row = own.y + i;
+        const vec2 before = vec2(heights[row][left], column[i]), after = vec2(heights[row][right], column[i + 2]);
+        const vec2 slope = 0.5 * (after - before) / texel_m();
+        const vec2 bend = abs(after + before - 2.0 * column[i + 1]) / (texel_m() * texel_m());
+        const vec4 relief = is_glass(first + ivec2(0, i)) ? relief_of(texels[i], slope, max(bend.x, bend.y)) : vec4(0.0);
+        if (on_tile(ivec2(own.x, row))) {
+            imageStore(relief_out, first + ivec2(0, i), relief);
+            if (WITH_MAP)
+                imageStore(map_out, first + ivec2(0, i), texels[i]);
+            any = any || dot(abs(texels[i]), vec4(1.0)) > 0.0;
+            // Below the threshold, as a neighbour's rim may reach over.
+            shown = shown || relief.x > shown_from() || relief.w > 0.0;
+        }
+    }
+    const uint quarter = VIRGA_GLASS_QUARTER << (own.x > 7 ? 1 : 0);
+    if (any)
+        atomicOr(held, VIRGA_GLASS_WRITTEN | (shown ? quarter << (lane >= 32u ? 2 : 0) : 0u));
     barrier();
     if (lane == 0u)
-        written[place_in_list] = empty ? 0u : 1u | parts_shown;
+        written[uint(tile.x) + uint(tile.y) * look.written_columns] = held;
 }

@@ -1,17 +1,20 @@
-// picture_pane.vert - the pane's quarters of tiles that have water to show, as two triangles each; the others have
-// no area.
+// picture_pane.vert - corners of the quarters of tiles that have water to show.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
+#include "gpu/light.glsl"
 
 layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
-layout(scalar, set = 0, binding = 17) readonly buffer Written { uint written[]; };
 
 layout(location = 0) out vec2 place;    // (u, v) on the pane (m)
 layout(location = 1) out vec3 position; // relative to the camera
 layout(location = 2) out vec3 along_u;
 layout(location = 3) out vec3 along_v;
+
+layout(location = 4) out vec3 mist_light;
+
+#include "picture_copies.glsl"
 
 struct Corner {
     vec3 position, along_u, along_v;
@@ -38,13 +41,18 @@ Corner corner_at(vec2 share)
                        mix_corners(node_at(low + uvec2(0, 1)), node_at(low + uvec2(1, 1)), t.x), t.y);
 }
 
+// Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
+vec3 shown_by_mist()
+{
+    const vec2 uv = clamp(0.5 * gl_Position.xy / max(gl_Position.w, 1e-5) + 0.5, vec2(0.0), vec2(1.0));
+    const vec3 around = environment(normalize(position), vec2(1.0));
+    return 0.85 * to_vec(look.tint) * (view.color_given != 0u ? copy_at(uv, VIRGA_GLASS_COPY_LEVELS - 2) : around);
+}
+
 void main()
 {
-    const uint part = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
-    const uvec2 corners[6] = uvec2[6](uvec2(0, 0), uvec2(1, 0), uvec2(0, 1), uvec2(0, 1), uvec2(1, 0), uvec2(1, 1));
-    const uvec2 at = uvec2(part % (2u * look.tile_columns), part / (2u * look.tile_columns)), tile = at / 2u;
-    const uint bit = 2u << (at.x % 2u + 2u * (at.y % 2u));
-    const vec2 share = vec2(at + corners[corner]) / (2.0 * vec2(look.tile_columns, look.tile_rows));
+    const uint columns = 2u * look.tile_columns + 1u, number = uint(gl_VertexIndex);
+    const vec2 share = vec2(number % columns, number / columns) / (2.0 * vec2(look.tile_columns, look.tile_rows));
     const float m[9] = look.world_from_pane;
     const mat3 world_from_pane = mat3(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]);
     const Corner pane = corner_at(share);
@@ -52,6 +60,6 @@ void main()
     position = world_from_pane * pane.position + to_vec(look.origin);
     along_u = world_from_pane * pane.along_u;
     along_v = world_from_pane * pane.along_v;
-    const bool shown = (written[tile.x + tile.y * look.written_columns] & bit) != 0u;
-    gl_Position = shown ? to_mat(view.clip_from_rel) * vec4(position, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
+    gl_Position = to_mat(view.clip_from_rel) * vec4(position, 1.0);
+    mist_light = shown_by_mist();
 }

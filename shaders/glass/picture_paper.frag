@@ -14,13 +14,12 @@ layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    Water water = water_here();
-    if (water.cover + water.mist <= 0.0 || behind_scene() || !is_glass())
+    const Water water = water_here();
+    if (water.cover + water.mist <= 0.0 || behind_scene())
         discard;
-    add_relief(water);
     const vec2 pixel = paper_pixel(water), size = vec2(view.viewport[2], view.viewport[3]);
     const vec2 mirrored = vec2(view.viewport[0], view.viewport[1]) + paper_uv(pixel) * size;
-    const vec3 light = view.color_given != 0u ? copy_at(mirrored / plate_size(), 3)
+    const vec3 light = view.color_given != 0u ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
                                               : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
     const float alpha = water.cover + water.mist;
     radiance = vec4(light * alpha, alpha);

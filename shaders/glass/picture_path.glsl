@@ -9,6 +9,7 @@ struct Path {
     vec3 mirrored;  // direction that the water reflects from
     float reflects; // share of the light
     bool total;     // none passes
+    float lost;     // (total) how far it is from passing: 0 nearly, 1 at all
     vec3 from;      // place that it leaves the pane at, relative to the camera
     bool ahead;     // before the camera
     vec2 pixel;     // of the picture, that it meets
@@ -35,19 +36,20 @@ float scene_distance(vec3 d)
     return view_depth(stored) * abs(dot(ahead, axis)) / max(abs(dot(d, axis)), 1e-4);
 }
 
-// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there
-// were no
-// glass, only that the glass has shifted it.
+// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there were no
+// glass, only that the glass has shifted it. One that is thrown back goes on as the last that passes would, along the surface:
+// what it shows is `lost` by how far it is beyond that.
 void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
 {
     const vec3 in_water = refract(d, -flat_normal, 1.0 / WATER);
     const vec3 n = path.normal;
-    const float cos_in = max(dot(in_water, n), 0.0);
-    path.out_of = refract(in_water, -n, WATER);
-    path.total = path.out_of == vec3(0.0);
-    path.reflects = path.total ? 1.0 : fresnel(cos_in, dot(path.out_of, n), WATER, 1.0);
-    const vec3 back = refract(reflect(in_water, n), flat_normal, WATER);
-    path.mirrored = back == vec3(0.0) ? reflect(d, flat_normal) : back;
+    const float cos_in = max(dot(in_water, n), 0.0), k = 1.0 - WATER * WATER * (1.0 - cos_in * cos_in);
+    const float cos_out = sqrt(max(k, 0.0));
+    path.total = k < 0.0;
+    path.lost = clamp(-6.0 * k, 0.0, 1.0);
+    path.out_of = normalize(WATER * in_water + (cos_out - WATER * cos_in) * n);
+    path.reflects = path.total ? 0.0 : fresnel(cos_in, cos_out, WATER, 1.0);
+    path.mirrored = reflect(d, n); // the glass between bends it little, and what it shows is faint
 }
 
 // From before the pane: air, water, glass, air.
@@ -60,6 +62,9 @@ void pass_inward(inout Path path, vec3 d, vec3 flat_normal)
     path.mirrored = reflect(d, n);
     path.out_of = refract(in_water, flat_normal, WATER);
     path.total = path.out_of == vec3(0.0);
+    path.lost = path.total ? 1.0 : 0.0;
+    path.out_of = path.total ? path.mirrored : path.out_of;
+    path.reflects = path.total ? 0.0 : path.reflects;
 }
 
 // Snell, in the direction only.
@@ -87,28 +92,36 @@ void find_under(inout Path path, vec3 d, vec3 flat_normal, float height)
     path.mirrored = reflect(d, n);
     path.out_of = d;
     path.total = false;
+    path.lost = 0.0;
     path.ahead = on_picture(vec4(path.from + under, 1.0), path.pixel);
 }
 
-Path path_through(vec3 d, Water water, float pixel_m)
+// On what is not glass: `opaque` as the pipeline or the settings say.
+Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
 {
-    const vec3 u = normalize(along_u), v = normalize(along_v), flat_normal = normalize(cross(u, v));
+    const vec3 flat_normal = cross(along_u, along_v);
     Path path;
-    path.normal = normalize(flat_normal - water.slope.x * u - water.slope.y * v);
+    path.normal = normalize(flat_normal - water.slope.x * along_u - water.slope.y * along_v);
     path.from = position;
-    if (look.opaque != 0u) {
+    if (opaque) {
         find_under(path, d, flat_normal, water.height);
-        path.pixels = 1.0 + water.height * water.bend * 0.25;
+        path.pixels = 1.0;
         return path;
     }
-    path.from += glass_shift(d, flat_normal);
-    if (dot(d, flat_normal) > 0.0)
+    if (HAS_DEPTH)
+        path.from += glass_shift(d, flat_normal);
+    if (SIDE == VIRGA_GLASS_DRAW_BEHIND)
+        pass_outward(path, d, flat_normal);
+    else if (SIDE == VIRGA_GLASS_DRAW_BEFORE)
+        pass_inward(path, d, flat_normal);
+    else if (dot(d, flat_normal) > 0.0)
         pass_outward(path, d, flat_normal);
     else
         pass_inward(path, d, flat_normal);
-    if (path.total)
-        path.out_of = path.mirrored;
-    find_pixel(path, d, scene_distance(d));
+    if (HAS_DEPTH)
+        find_pixel(path, d, scene_distance(d));
+    else
+        path.ahead = on_picture(vec4(path.out_of, 0.0), path.pixel);
     // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
     path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / view.pixel_angle;
     return path;

@@ -11,6 +11,7 @@
 
 layout(location = 0) out vec4 radiance;
 
+#define THROWN 0.3 // share of the light beside it that a ray shows which is thrown back at all
 #define BEHIND 0.25 // share of the environment that rays meet which are thrown back into the room that the pane closes
 
 // Lamps that lie in a direction: a small disc each, as wide as a pixel of a drop shows of the world.
@@ -51,47 +52,34 @@ vec3 caustic(vec3 normal, vec3 flat_normal)
     return max(bright, vec3(0.2));
 }
 
-vec3 shown(Path path, vec3 d, float pixel_m)
+vec3 shown(Path path, vec3 d)
 {
-    const vec3 flat_normal = normalize(cross(along_u, along_v));
+    const vec3 flat_normal = cross(along_u, along_v);
     const float width = max(0.5 * path.pixels * view.pixel_angle, 0.02);
-    const bool outside = dot(d, flat_normal) < 0.0;
-    const vec3 tint = to_vec(look.tint);
-    vec3 through;
-    if (path.total)
-        through = BEHIND * environment(path.mirrored, vec2(1.0)) * tint;
-    else
-        through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * tint;
-    if (look.opaque != 0u)
+    const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
+    const bool outside = opaque || SIDE == VIRGA_GLASS_DRAW_BEFORE ||
+                         (SIDE != VIRGA_GLASS_DRAW_BEHIND && dot(d, flat_normal) < 0.0);
+    vec3 through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * mix(1.0, THROWN, path.lost);
+    if (opaque)
         through *= caustic(path.normal, flat_normal);
-    else if (!path.total)
-        through += lamps_along(path.out_of, width) * tint;
-    const vec3 mirrored = outside ? environment(path.mirrored, vec2(1.0)) + lamps_along(path.mirrored, width)
-                                  : BEHIND * environment(path.mirrored, vec2(1.0));
-    return path.total ? through : mix(through, mirrored * look.gain, path.reflects);
-}
-
-// Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
-vec3 shown_by_mist(vec3 d)
-{
-    return 0.85 * to_vec(look.tint) * seen(true, gl_FragCoord.xy, d, 0.25 * view.viewport[3]);
+    else if (HAS_LAMPS)
+        through += lamps_along(path.out_of, width) * (1.0 - path.lost);
+    // The room is dim and its reflection faint: without the finer part of its light.
+    vec3 mirrored = environment(path.mirrored, outside ? vec2(1.0) : vec2(1.0, 0.0)) * (outside ? 1.0 : BEHIND);
+    if (HAS_LAMPS && outside)
+        mirrored += lamps_along(path.mirrored, width);
+    return mix(through * to_vec(look.tint), mirrored * look.gain, path.reflects);
 }
 
 void main()
 {
-    Water water = water_here();
+    const Water water = water_here();
     const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
-    if (water.cover + water.mist <= 0.0 || behind_scene() || !is_glass())
+    if (water.cover + water.mist <= 0.0 || behind_scene())
         discard;
     const vec3 d = normalize(position);
-    if (look.opaque != 0u && dot(d, cross(along_u, along_v)) > 0.0)
+    if (SIDE == VIRGA_GLASS_DRAW_OPAQUE && dot(d, cross(along_u, along_v)) > 0.0)
         discard; // the back of what is not glass
-    vec3 light = vec3(0.0);
-    if (water.cover > 0.0) {
-        add_relief(water);
-        light = water.cover * shown(path_through(d, water, pixel_m), d, pixel_m);
-    }
-    if (water.mist > 0.0)
-        light += water.mist * shown_by_mist(d);
-    radiance = vec4(light, water.cover + water.mist);
+    const vec3 light = shown(path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE), d);
+    radiance = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
 }

@@ -13,17 +13,16 @@ layout(location = 0) out vec4 offset_cover;
 
 void main()
 {
-    Water water = water_here();
+    const Water water = water_here();
     const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
-    if (water.cover <= 0.0 || behind_scene() || !is_glass())
+    if (water.cover <= 0.0 || behind_scene())
         discard;
     const vec3 d = normalize(position);
-    add_relief(water);
     vec2 pixel = gl_FragCoord.xy;
     if (look.style == 0u)
         pixel = paper_pixel(water);
     else if (look.opaque == 0u || dot(d, cross(along_u, along_v)) < 0.0) {
-        const Path path = path_through(d, water, pixel_m);
+        const Path path = path_through(d, water, pixel_m, look.opaque != 0u);
         pixel = path.ahead && !path.total ? path.pixel : pixel;
     } else
         discard;

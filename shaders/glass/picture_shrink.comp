@@ -1,6 +1,5 @@
-// picture_shrink.comp - from 512 x 512 texels of the plate's copy all smaller ones, by halves, in one pass: a
-// workgroup has
-// 64 x 64 of them. They lie side by side to the right: 256 at the top, below it 128, 64, 32, 16 and 8.
+// picture_shrink.comp - from the plate's largest copy all smaller ones, by halves, in one pass: a workgroup has 64 x 64 texels
+// of it. They lie side by side to the right: 128 at the top, below it 64, 32, 16, 8 and 4.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -29,7 +28,7 @@ void main()
         imageStore(copies_out, corner + at + ivec2(i & 1, i >> 1), vec4(quarter, 1.0));
         mean += 0.25 * quarter;
     }
-    corner.y = 256;
+    corner.y = VIRGA_GLASS_COPY / 2;
     for (int side = 16; side >= 1; side /= 2) {
         const bool mine = all(lessThan(lane, ivec2(side)));
         if (side < 16) {
@@ -43,6 +42,6 @@ void main()
             smaller[lane.y][lane.x] = mean;
             imageStore(copies_out, corner + group * side + lane, vec4(mean, 1.0));
         }
-        corner.x += side * 8;
+        corner.x += side * (VIRGA_GLASS_COPY / 64);
     }
 }

@@ -1,5 +1,5 @@
 // picture_tiles.glsl - balls, and the tiles of the map that they reach.
-// Four for each place, of which those count that come before one without radius.
+// In any order: what they come to is added up in whole numbers.
 layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; };
 layout(scalar, set = 0, binding = 7) buffer Tiles { virga_glass_tile_gpu tiles[]; };
 

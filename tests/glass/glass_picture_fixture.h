@@ -36,7 +36,7 @@ typedef struct shot {
     virga_glass_pose pose;
     double late_s; /* drawn so long before the newest tick */
     host_buffer upload, download;
-    const float *map; /* RGBA of the newest frame, `columns` to a row */
+    const float *map, *relief; /* RGBA of the newest frame, `columns` to a row */
     uint32_t columns, rows;
 } shot;
 
@@ -61,6 +61,7 @@ static inline virga_glass_def shot_def(void)
     def.height_m = 0.064f;
     def.max_drops = 1024;
     def.max_texels = 192;
+    def.height_map = true;
     return def;
 }
 
@@ -95,7 +96,7 @@ static inline void shot_buffers(shot *s)
     REQUIRE(host_buffer_create(&s->gpu.device, g->drops->size + g->film->size + g->passed->size,
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "pane up", &s->upload, error,
                                size));
-    REQUIRE(host_buffer_create(&s->gpu.device, (VkDeviceSize)g->picture->max_columns * g->picture->max_rows * 16,
+    REQUIRE(host_buffer_create(&s->gpu.device, (VkDeviceSize)g->picture->max_columns * g->picture->max_rows * 32,
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "map down", &s->download, error,
                                size));
     memset(s->upload.mapped, 0, s->upload.size);
@@ -248,6 +249,10 @@ static inline void shot_copy_map(shot *s, VkCommandBuffer cmd)
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {map.columns, map.rows, 1}};
     vkCmdCopyImageToBuffer(cmd, map.image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1, &copy);
+    VkBufferImageCopy relief = copy;
+    relief.bufferOffset = 16ull * map.columns * map.rows;
+    vkCmdCopyImageToBuffer(cmd, s->glass->picture->relief->image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1,
+                           &relief);
     shot_memory(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                 VK_ACCESS_HOST_READ_BIT);
 }
@@ -270,6 +275,7 @@ static inline const float *shot_draw(shot *s, bool refraction)
     shot_submit(s);
     host_buffer_invalidate(&s->gpu.device, &s->download);
     s->map = s->download.mapped;
+    s->relief = s->map + 4ull * s->columns * s->rows;
     return host_target_floats(&s->gpu.device, &s->picture, HOST_LAYER);
 }
 

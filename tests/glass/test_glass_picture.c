@@ -14,14 +14,14 @@ typedef struct ball {
     double middle[2], radius, height, sag[2];
 } ball;
 
-/* Over the radius of influence, as the papers print them; Goto's and Blinn's end at three radii, faded from two on. */
+/* Over the radius of influence, as the papers print them; Goto's and Blinn's end at two radii, faded from 4/3 on. */
 static double fade(double x)
 {
-    const double t = fmin(fmax((x * x / 9 - 4.0 / 9) * 9 / 5, 0), 1);
+    const double t = fmin(fmax((x * x / 4 - 4.0 / 9) * 9 / 5, 0), 1);
     return 1 - t * t * (3 - 2 * t);
 }
 
-static const double influence[DENSITIES] = {3, 3, 2.3660254037844386, 1.8477590650225735, 2};
+static const double influence[DENSITIES] = {2, 2, 2.3660254037844386, 1.8477590650225735, 2};
 
 static double density_of(int kind, double x)
 {
@@ -53,7 +53,7 @@ static double inverse_of(int kind, double v)
 
 static double window_of(int kind, double x)
 {
-    return fade(x * 3 / influence[kind]);
+    return fade(x * 2 / influence[kind]);
 }
 
 static double compress(const virga_glass_settings *s, double v)
@@ -175,7 +175,7 @@ static void the_map_is_that_of_the_reference(void **state)
         s.settings.compress = i % 3 != 0;
         put_balls(&s, balls, PLACES);
         shot_draw(&s, false);
-        REQUIRE(s.columns == 192 && s.rows == 128);
+        REQUIRE(s.columns == 196 && s.rows == 140);
         compare_map(&s, balls, PLACES);
     }
     shot_close(&s);
@@ -231,7 +231,7 @@ static void weights_sum_to_one(void **state)
 
 /* The largest second difference of the height along the line through two drops that overlap, against that of the
  * higher of the
- * two, which has a crease: less than a third, for each density and blend. */
+ * two, which has a crease: less than an eighth for sums, and 0.55 for weights. */
 static void merged_drops_have_no_crease(void **state)
 {
     (void)state;
@@ -241,24 +241,50 @@ static void merged_drops_have_no_crease(void **state)
         s.settings.density = (virga_glass_density)(i / 2);
         s.settings.blend = (virga_glass_blend)(i % 2);
         shot_forget(&s);
-        const ball a = ball_of(&s, shot_drop(&s, 0.041, 0.03225, shot_water(&s, 10e-3)));
-        const ball b = ball_of(&s, shot_drop(&s, 0.055, 0.03225, shot_water(&s, 10e-3)));
+        const ball a = ball_of(&s, shot_drop(&s, 0.041, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
+        const ball b = ball_of(&s, shot_drop(&s, 0.055, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
         shot_draw(&s, false);
         double worst = 0, crease = 0, last[3] = {0}, plain[3] = {0};
-        for (uint32_t column = 80; column < 112; column++) {
+        for (uint32_t column = 67; column < 130; column++) {
             const double u = texel_u(&s, column), xa = (u - a.middle[0]) / a.radius, xb = (u - b.middle[0]) / b.radius;
             memmove(last, last + 1, sizeof last - sizeof last[0]);
             memmove(plain, plain + 1, sizeof plain - sizeof plain[0]);
-            last[2] = (double)texel(&s, column, 64)[1];
+            last[2] = (double)texel(&s, column, 70)[1];
             plain[2] = a.height * fmax(1 - xa * xa, 1 - xb * xb);
-            if (column < 82)
+            if (column < 69)
                 continue;
             worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
             crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
         }
-        if (worst > crease / 3)
+        print_message("CREASE %d %d: %g of %g = %g\n", i / 2, i % 2, worst, crease, worst / crease);
+        const double limit =
+            i % 2 ? 0.55 : 0.12; /* weights end with a kink; a profile cut off at the rims' is above 1 */
+        if (worst > limit * crease)
             fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
     }
+    shot_close(&s);
+}
+
+/* Slopes that the draws read are central differences of the heights, texel by texel, over the borders of tiles too. */
+static void slopes_are_differences_of_heights(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    shot_draw(&s, false);
+    const double texel_m[2] = {0.096 / s.columns, 0.064 / s.rows};
+    for (uint32_t row = 1; row + 1 < s.rows; row++)
+        for (uint32_t column = 1; column + 1 < s.columns; column++) {
+            const float *found = s.relief + 4 * ((size_t)row * s.columns + column);
+            const double u = (double)texel(&s, column + 1, row)[1] - (double)texel(&s, column - 1, row)[1];
+            const double v = (double)texel(&s, column, row + 1)[1] - (double)texel(&s, column, row - 1)[1];
+            if (texel(&s, column, row)[0] < 0.5f)
+                continue;
+            assert_float_equal(found[1], 0.5 * u / texel_m[0], 2e-3);
+            assert_float_equal(found[2], 0.5 * v / texel_m[1], 2e-3);
+        }
     shot_close(&s);
 }
 
@@ -367,6 +393,29 @@ static void a_flat_film_does_not_bend(void **state)
             assert_float_equal(found[3], 1, 1e-6);
             assert_float_equal(hypot((double)found[0], (double)found[1]), 0, 0.02);
         }
+    shot_close(&s);
+}
+
+/* Before a black plate under an even sky a flat film shows what it reflects: ((n - 1) / (n + 1))^2 straight on. */
+static void water_reflects_by_fresnel(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
+    shot_plate(&s, black);
+    free(black);
+    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    for (int i = 0; i < 3; i++)
+        s.settings.lighting.environment_sh[0][i] = 1 / 0.282095f;
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = 80;
+        s.passed[i] = s.glass->last_tick;
+    }
+    const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    const double straight = (WATER - 1) / (WATER + 1);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(middle[i], straight * straight, 2e-4);
     shot_close(&s);
 }
 
@@ -533,8 +582,10 @@ int main(void)
         cmocka_unit_test(a_drop_alone_is_a_cap),
         cmocka_unit_test(weights_sum_to_one),
         cmocka_unit_test(merged_drops_have_no_crease),
+        cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),
+        cmocka_unit_test(water_reflects_by_fresnel),
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
         cmocka_unit_test(the_scene_hides_what_is_behind_it),
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),

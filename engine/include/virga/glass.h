@@ -45,10 +45,12 @@ typedef struct virga_glass_def {
     float cell_m;                 /* [0.0005; 0.01] side of a cell, of which one drop has one. 16 bytes of device memory a cell,
                                    * 4,194,304 cells at most (else raised). Default 0.002, the paper's */
     uint32_t max_drops;           /* [256; 262144] drops and particles together, raised to whole workgroups of 256; 180 bytes
-                                   * each. Where there is no place, water joins the film. Default 32768 */
+                                   * each, and 192 for its picture. Where there is no place, water joins the film. Default 32768 */
     float affinity_m;             /* [0.0005; 0.1] width of the spots that the glass is uneven in. Default 0.006 */
     uint32_t max_texels;          /* [64; 4096] of the height map along the pane's longer side; it is made as large as the pane shows
-                                   * on the picture, up to this. 24 bytes each. Default 1024 */
+                                   * on the picture, up to this, in tiles of 14 of which there are
+                                   * 65,535 at most. 22 bytes each. Default 1024 */
+    bool height_map;              /* make what virga_glass_map_get tells of: 16 bytes more a texel, and time. Default false */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     double tick_s;                /* [1/1000; 1/20] the same as rain's. Default 1/60 */
 } virga_glass_def;
@@ -132,7 +134,8 @@ VIRGA_API virga_glass_wiper virga_default_glass_wiper(void);
 VIRGA_API double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s);
 
 typedef enum virga_glass_density {
-    VIRGA_GLASS_DENSITY_GOTO = 0,      /* 1 / (1 + (h / R)^4), Goto et al., equation 1; faded to 0 from 2 R to 3 R */
+    VIRGA_GLASS_DENSITY_GOTO = 0,      /* 1 / (1 + (h / R)^4), Goto et al., equation 1; faded to 0 from 4/3 R to 2 R, beyond
+                                        * where two drops that meet end (1.32 R) */
     VIRGA_GLASS_DENSITY_BLINN = 1,     /* exp(-ln 2 (h / R)^2), Chen and Zhang, equation 2; faded likewise */
     VIRGA_GLASS_DENSITY_MURAKAMI = 2,  /* equation 3 with its second branch for R / 3 to R (printed without the lower end) */
     VIRGA_GLASS_DENSITY_WYVILL = 3,    /* equation 4 */
@@ -307,7 +310,7 @@ VIRGA_API virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd,
  * down), with the coverage as blue and alpha; not blended. For a layer that a compositor bends another plate with. */
 VIRGA_API virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
 
-/* The height map of the newest prepare, in VK_IMAGE_LAYOUT_GENERAL: R32G32B32A32_SFLOAT, red the density (compressed), green
+/* The height map of the newest prepare of a pane that was made with virga_glass_def.height_map, else all zero, in VK_IMAGE_LAYOUT_GENERAL: R32G32B32A32_SFLOAT, red the density (compressed), green
  * the height of the water (m; where red is below the threshold how deep the surface would lie if it went on), blue the share of the
  * texel that water too small for a shape covers, alpha the thickness of the sheet of film (m). The first row is at v = 0. */
 typedef struct virga_glass_map {
