@@ -55,8 +55,10 @@ void count_tiles(vec2 middle, float reach_m)
 void emit_ball(Drop drop, vec2 middle, float radius, float peak)
 {
     const float shape = peak * shape_share(radius);
-    if (shape < 1.0 && peak == 1.0)
+    if (shape < 1.0 && peak == 1.0) {
         add_mist(middle, radius, 1.0 - shape);
+        mark_tiles(middle, max(look.texel_m[0], look.texel_m[1]), VIRGA_GLASS_HAS_MIST);
+    }
     if (shape > 0.0 && radius > 0.0) {
         balls[atomicAdd(ball_count, 1u)] =
             virga_glass_ball_gpu(float[2](middle.x, middle.y), radius, radius * look.cap_height,

@@ -76,7 +76,8 @@ float density_inverse(float v)
     return reach2 * y2;
 }
 
-// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: compilers leave one alone that has
+// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: compilers leave one alone that
+// has
 // another of unknown length in it, and what it indexes goes to memory.
 #define MOST_STEPS 16u
 float compressed(float v)

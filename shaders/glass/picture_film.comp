@@ -22,13 +22,9 @@ void show(uint number)
             add_mist(bead.xy, bead.z, 1.0 - shape);
         shown = shown || shape > 0.0;
     }
-    if (shown) {
-        ivec2 first, last;
-        tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, 1.6 * look.pane.cell_m, first, last);
-        for (int y = first.y; y <= last.y; y++)
-            for (int x = first.x; x <= last.x; x++)
-                mark_tile(ivec2(x, y), VIRGA_GLASS_HAS_FILM);
-    }
+    const float texel = max(look.texel_m[0], look.texel_m[1]);
+    mark_tiles((vec2(cell) + 0.5) * look.pane.cell_m, (shown ? 1.6 : 0.4) * look.pane.cell_m + texel,
+               shown ? VIRGA_GLASS_HAS_MIST | VIRGA_GLASS_HAS_FILM : VIRGA_GLASS_HAS_MIST);
 }
 
 void main()

@@ -165,7 +165,8 @@ bool is_cell(ivec2 cell)
 void load_cells(ivec2 tile)
 {
     const ivec2 corner = first_cell(tile);
-    const ivec2 span = min(ivec2(floor((vec2(tile + 1) * tile_m() + texel_m()) / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
+    const ivec2 span = min(ivec2(floor((vec2(tile + 1) * tile_m() + texel_m()) / look.pane.cell_m)) + 2 - corner,
+        ivec2(MOST_CELLS));
     for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
         const ivec2 at = ivec2(int(i) % span.x, int(i) / span.x), cell = corner + at;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
@@ -248,7 +249,8 @@ float take_mist(ivec2 texel, bool there)
     return min(float(found) / float(VIRGA_GLASS_MIST_ONE), 1.0);
 }
 
-// The least density that a texel beside a rim has, or less. Where beads may be, or other densities than Goto's, as for the
+// The least density that a texel beside a rim has, or less. Where beads may be, or other densities than Goto's, as for
+// the
 // smallest drops.
 float shown_from()
 {
@@ -304,7 +306,8 @@ void gather()
     }
     barrier();
     bool any = false, shown = false;
-    const int left = max(own.x - 1, 0), right = min(own.x + 1, 15), below = max(own.y - 1, 0), above = min(own.y + OWN, 15);
+    const int left = max(own.x - 1, 0), right = min(own.x + 1, 15), below = max(own.y - 1, 0),
+        above = min(own.y + OWN, 15);
     float column[OWN + 2];
     column[0] = heights[below][own.x];
     column[OWN + 1] = heights[above][own.x];
@@ -315,7 +318,8 @@ void gather()
         const vec2 before = vec2(heights[row][left], column[i]), after = vec2(heights[row][right], column[i + 2]);
         const vec2 slope = 0.5 * (after - before) / texel_m();
         const vec2 bend = abs(after + before - 2.0 * column[i + 1]) / (texel_m() * texel_m());
-        const vec4 relief = is_glass(first + ivec2(0, i)) ? relief_of(texels[i], slope, max(bend.x, bend.y)) : vec4(0.0);
+        const vec4 relief = is_glass(first + ivec2(0, i)) ? relief_of(texels[i], slope, max(bend.x,
+            bend.y)) : vec4(0.0);
         if (on_tile(ivec2(own.x, row))) {
             imageStore(relief_out, first + ivec2(0, i), relief);
             if (WITH_MAP)

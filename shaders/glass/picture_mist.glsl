@@ -12,32 +12,22 @@ void add_mist_at(ivec2 texel, float share)
         atomicAdd(mist[uint(texel.x) + uint(texel.y) * look.map_columns], whole);
 }
 
-// A flag that many set: most find it set.
-void mark_tile(ivec2 tile, uint flag)
+// For all tiles that what lies there reaches, in one loop: each place in a shader that sets flags costs, taken or not.
+void mark_tiles(vec2 middle, float reach_m, uint flags)
 {
-    const bool on_map = all(greaterThanEqual(tile, ivec2(0))) &&
-                        all(lessThan(tile, ivec2(look.tile_columns, look.tile_rows)));
-    if (on_map && (tiles[tile_number(tile)].film & flag) == 0u)
-        atomicOr(tiles[tile_number(tile)].film, flag);
+    ivec2 first, last;
+    tiles_around(middle, reach_m, first, last);
+    for (int y = first.y; y <= last.y; y++)
+        for (int x = first.x; x <= last.x; x++)
+            atomicOr(tiles[tile_number(ivec2(x, y))].film, flags);
 }
 
-void mark_mist(ivec2 low)
-{
-    const ivec2 first = max(low, ivec2(0)) / VIRGA_GLASS_TILE, last = (low + 1) / VIRGA_GLASS_TILE;
-    mark_tile(first, VIRGA_GLASS_HAS_MIST);
-    if (first != last) {
-        mark_tile(last, VIRGA_GLASS_HAS_MIST);
-        mark_tile(ivec2(first.x, last.y), VIRGA_GLASS_HAS_MIST);
-        mark_tile(ivec2(last.x, first.y), VIRGA_GLASS_HAS_MIST);
-    }
-}
-
-// A disc, spread over the four texels around its middle by how near they are: all of its area, wherever it lies.
+// The caller marks the tiles. A disc, spread over the four texels around its middle by how near they are: all of its
+// area, wherever it lies.
 void add_mist(vec2 middle, float radius_m, float share)
 {
     const vec2 place = middle / texel_m() - 0.5, low = floor(place), t = place - low;
     const float covers = share * min(3.14159265 * radius_m * radius_m / (look.texel_m[0] * look.texel_m[1]), 4.0);
-    mark_mist(ivec2(low));
     add_mist_at(ivec2(low), covers * (1.0 - t.x) * (1.0 - t.y));
     add_mist_at(ivec2(low) + ivec2(1, 0), covers * t.x * (1.0 - t.y));
     add_mist_at(ivec2(low) + ivec2(0, 1), covers * (1.0 - t.x) * t.y);

@@ -1,4 +1,5 @@
-// picture_parts.comp - quarters of tiles that have something to show, tile by tile, as the corners of two triangles each.
+// picture_parts.comp - quarters of tiles that have something to show, tile by tile, as the corners of two triangles
+// each.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,7 +21,8 @@ uint quarters_of(uint tile)
 void put(uint number, uint tile, uint quarter)
 {
     const uint columns = 2u * look.tile_columns + 1u;
-    const uvec2 at = 2u * uvec2(tile % look.tile_columns, tile / look.tile_columns) + uvec2(quarter & 1u, quarter >> 1u);
+    const uvec2 at = 2u * uvec2(tile % look.tile_columns, tile / look.tile_columns) + uvec2(quarter & 1u,
+        quarter >> 1u);
     const uint first = at.x + at.y * columns;
     const uint six[6] = uint[6](first, first + 1u, first + columns, first + columns, first + 1u, first + columns + 1u);
     for (uint i = 0u; i < 6u; i++)

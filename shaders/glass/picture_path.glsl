@@ -36,8 +36,10 @@ float scene_distance(vec3 d)
     return view_depth(stored) * abs(dot(ahead, axis)) / max(abs(dot(d, axis)), 1e-4);
 }
 
-// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there were no
-// glass, only that the glass has shifted it. One that is thrown back goes on as the last that passes would, along the surface:
+// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there
+// were no
+// glass, only that the glass has shifted it. One that is thrown back goes on as the last that passes would, along the
+// surface:
 // what it shows is `lost` by how far it is beyond that.
 void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
 {

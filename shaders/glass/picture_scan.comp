@@ -1,4 +1,5 @@
-// picture_scan.comp - which tiles there is anything to do in, and where each one's list begins: sums of the counts before it. A list that does not fit is left
+// picture_scan.comp - which tiles there is anything to do in, and where each one's list begins: sums of the counts
+// before it. A list that does not fit is left
 // out whole, so
 // that what is seen does not depend on who came first.
 #version 460

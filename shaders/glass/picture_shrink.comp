@@ -1,4 +1,5 @@
-// picture_shrink.comp - from the plate's largest copy all smaller ones, by halves, in one pass: a workgroup has 64 x 64 texels
+// picture_shrink.comp - from the plate's largest copy all smaller ones, by halves, in one pass: a workgroup has 64 x
+// 64 texels
 // of it. They lie side by side to the right: 128 at the top, below it 64, 32, 16, 8 and 4.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -10,8 +10,10 @@ layout(constant_id = 0) const uint DRAW_MODE = 0u;
 #define BY_HAND ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
 #define SIDE (DRAW_MODE & VIRGA_GLASS_DRAW_SIDE)
 
-// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, or (paper) of the density, per metre.
-// Alpha: above 0 the share that water too small for a shape covers; below 0, in drops, the largest change of the slope (1/m),
+// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, or (paper) of the density,
+// per metre.
+// Alpha: above 0 the share that water too small for a shape covers; below 0, in drops, the largest change of the slope
+// (1/m),
 // or on what is not glass the height (m).
 layout(set = 0, binding = 12) uniform sampler2D relief_map;
 
