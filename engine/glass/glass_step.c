@@ -13,6 +13,8 @@
 #define RELAX_ROUNDS 8u  /* even: positions end where they began */
 #define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
 
+#define MEASURED_CELLS 16u /* by a lane */
+
 #define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
 #define HOLD_BACK  1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
@@ -460,8 +462,8 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, measured), 24, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-    const uint64_t cells = (uint64_t)glass->columns * glass->rows;
-    dispatch(glass, cmd, glass->measure, groups_of(cells > glass->def.max_drops ? cells : glass->def.max_drops));
+    const uint64_t lanes = (uint64_t)glass->columns * glass->rows / MEASURED_CELLS + 1;
+    dispatch(glass, cmd, glass->measure, groups_of(lanes > glass->def.max_drops ? lanes : glass->def.max_drops));
     virga_pass_end(context, cmd, scope);
 }
 

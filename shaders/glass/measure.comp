@@ -1,4 +1,4 @@
-// measure.comp - water on the pane, by where it is; each workgroup adds up its share.
+// measure.comp - water on the pane, by where it is; each lane adds up several cells, each workgroup its lanes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,8 +21,11 @@ void main()
     if (lane < 3u)
         water[lane] = counts[lane] = 0u;
     barrier();
-    if (i < cell_count())
-        atomicAdd(water[2], film[i]);
+    uint sum = 0u;
+    for (uint cell = i; cell < cell_count(); cell += gl_NumWorkGroups.x * VIRGA_GLASS_GROUP)
+        sum += film[cell];
+    if (sum != 0u)
+        atomicAdd(water[2], sum);
     if (i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS)
         atomicAdd(water[2], state.bins_nl[i]);
     if (i < tick.pane.max_drops && drops[i].kind != VIRGA_GLASS_FREE) {
