@@ -147,7 +147,8 @@ static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
     const virga_glass_def *def = &glass->def;
     const uint32_t frames = glass->context->frames_in_flight;
     const VkDeviceSize cells = (VkDeviceSize)glass->columns * glass->rows, places = def->max_drops;
-    const VkDeviceSize seeds = GLASS_MOST_ARRIVALS + GLASS_MOST_IMPACTS + places + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
+    const VkDeviceSize seeds =
+        GLASS_MOST_ARRIVALS + GLASS_MOST_IMPACTS + places + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
@@ -166,8 +167,8 @@ static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
         {&glass->grid, (grid_cells(glass) + places) * 4, storage, VIRGA_HEAP_DEVICE, "glass.grid"},
         {&glass->moved, places * 16, storage, VIRGA_HEAP_DEVICE, "glass.moved"},
         {&glass->surface, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.surface"},
-        {&glass->nodes, VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu), storage, VIRGA_HEAP_DEVICE,
-         "glass.nodes"},
+        {&glass->nodes, VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu), storage,
+         VIRGA_HEAP_DEVICE, "glass.nodes"},
         {&glass->tick_ring, (VkDeviceSize)frames * def->max_ticks_per_step * glass_tick_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.ticks"},
         {&glass->readback_ring, frames * sizeof(glass_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,
@@ -431,9 +432,10 @@ static virga_result check_numbers(const virga_log *log, virga_glass_settings *s,
     s->receding_deg = s->receding_deg > s->advancing_deg ? s->advancing_deg : s->receding_deg;
     s->hold_back_cells =
         virga_clamp_setting_u32(log, "glass_settings.hold_back_cells", s->hold_back_cells, 0, 8, changed);
-    s->compress_steps = virga_clamp_setting_u32(log, "glass_settings.compress_steps", s->compress_steps, 0, 16, changed);
-    s->wiper_count = virga_clamp_setting_u32(log, "glass_settings.wiper_count", s->wiper_count, 0,
-                                             VIRGA_GLASS_MAX_WIPERS, changed);
+    s->compress_steps =
+        virga_clamp_setting_u32(log, "glass_settings.compress_steps", s->compress_steps, 0, 16, changed);
+    s->wiper_count =
+        virga_clamp_setting_u32(log, "glass_settings.wiper_count", s->wiper_count, 0, VIRGA_GLASS_MAX_WIPERS, changed);
     for (uint32_t i = 0; i < s->wiper_count; i++)
         if (check_wiper(log, &s->wipers[i], changed))
             return VIRGA_ERROR_INVALID;

@@ -37,28 +37,29 @@ struct virga_glass {
     virga_glass_def def;
     uint32_t columns, rows; /* cells */
     virga_glass_settings settings;
-    uint64_t ticks;         /* run since creation */
+    uint64_t ticks; /* run since creation */
     uint32_t last_tick;
     bool started;
     double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) at the end of the newest step */
     bool host_known;
 
     /* State of the pane. */
-    virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved, *awake;
+    virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
+        *awake;
     /* What the pane is like: cells (affinity, bump, mask) and the grid of its shape. */
     virga_buffer *surface, *nodes;
     virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */
     virga_buffer *tick_ring, *readback_ring;
     virga_bindings *bindings;
-    virga_pipeline *census_find, *census_scan, *census_list, *move, *awake_scan, *awake_list, *choose, *enter, *capture_find, *capture, *wipe,
-        *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim, *place_scan, *place,
-        *settle, *dry, *measure;
+    virga_pipeline *census_find, *census_scan, *census_list, *move, *awake_scan, *awake_list, *choose, *enter,
+        *capture_find, *capture, *wipe, *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim,
+        *place_scan, *place, *settle, *dry, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
-    float farthest_m;       /* of the nodes from the pane's origin */
-    bool masked;            /* there may be cells without glass */
-    float outline[9][3];    /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
+    float farthest_m;                                        /* of the nodes from the pane's origin */
+    bool masked;                                             /* there may be cells without glass */
+    float outline[9][3];                /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
     const virga_glass_tick_gpu *blades; /* of the tick that is recorded */
-    bool particles_ever;    /* there may be particles */
+    bool particles_ever;                /* there may be particles */
     VkDescriptorSet step_set;
     VkBuffer impacts; /* of the step that is recorded */
     VkDeviceSize impacts_offset;

@@ -7,10 +7,10 @@
 
 /* Contact angles, advancing and receding, and what differs beside them.
  *
- * The paper's pane lets drops run from a radius of 2.2 mm on (section 4.6). Upright, a drop of base radius a runs when its
- * weight rho g pi f a^3 exceeds 24/pi^3 sigma 2 a (cos r - cos a): with 63 and 38 degrees that is at 2.2 mm. Clean glass and
- * coated glass: within what is published for soda-lime glass after cleaning, and for silane coatings (hysteresis of 10 to 15
- * degrees); a leaf: the waxy ones, e.g. lotus has even more. */
+ * The paper's pane lets drops run from a radius of 2.2 mm on (section 4.6). Upright, a drop of base radius a runs when
+ * its weight rho g pi f a^3 exceeds 24/pi^3 sigma 2 a (cos r - cos a): with 63 and 38 degrees that is at 2.2 mm. Clean
+ * glass and coated glass: within what is published for soda-lime glass after cleaning, and for silane coatings
+ * (hysteresis of 10 to 15 degrees); a leaf: the waxy ones, e.g. lotus has even more. */
 static const struct {
     float advancing_deg, receding_deg, run_hold, film_um, tail_mm, affinity;
 } kinds[VIRGA_GLASS_KINDS] = {
@@ -57,10 +57,10 @@ double glass_hold(const virga_glass_settings *settings)
 
 /* Resistance of a running drop over its speed and the radius of its base.
  *
- * Bulk: a film of the drop's mean height f a sheared at the glass, 3 mu v / (f a) on pi a^2. Wedge: the corner at the rim, after
- * Huh and Scriven 1971 3 mu v ln(L) / t a length of rim, with the dynamic contact angle t and the ratio L of the drop's
- * size to molecules'; the rim's front and back together, seen along the way, are pi a. Kim, Lee and Kang 2002 add the
- * two in the same way. */
+ * Bulk: a film of the drop's mean height f a sheared at the glass, 3 mu v / (f a) on pi a^2. Wedge: the corner at the
+ * rim, after Huh and Scriven 1971 3 mu v ln(L) / t a length of rim, with the dynamic contact angle t and the ratio L of
+ * the drop's size to molecules'; the rim's front and back together, seen along the way, are pi a. Kim, Lee and Kang
+ * 2002 add the two in the same way. */
 double glass_drag(const virga_glass_settings *settings)
 {
     const double viscosity = 1.002e-3, log_ratio = 10, angle_deg = glass_rest_deg(settings);

@@ -26,15 +26,16 @@ virga_glass_shape virga_default_glass_shape(void)
 
 /* ---- shapes for hosts */
 
-void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns, uint32_t rows,
-                            float *positions)
+void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
+                            uint32_t rows, float *positions)
 {
     if (!positions || columns < 2 || rows < 2)
         return;
     const double rake = (double)rake_deg * 3.14159265358979323846 / 180;
     for (uint32_t row = 0; row < rows; row++)
         for (uint32_t column = 0; column < columns; column++) {
-            const double u = (double)width_m * (column / (columns - 1.0) - 0.5), v = (double)height_m * row / (rows - 1.0);
+            const double u = (double)width_m * (column / (columns - 1.0) - 0.5),
+                         v = (double)height_m * row / (rows - 1.0);
             const double r = (double)bend_m, x = r > 0 ? r * sin(u / r) : u, back = r > 0 ? r * (1 - cos(u / r)) : 0;
             float *out = positions + 3 * (row * columns + column);
             out[0] = (float)x;
@@ -89,7 +90,8 @@ static void fill_uncovered(uint32_t columns, uint32_t rows, float *grid, const u
         uint32_t nearest = 0;
         double least = INFINITY;
         for (uint32_t k = 0; k < columns * rows; k++) {
-            const double x = (double)(i % columns) - (double)(k % columns), y = (double)(i / columns) - (double)(k / columns);
+            const double x = (double)(i % columns) - (double)(k % columns),
+                         y = (double)(i / columns) - (double)(k / columns);
             if (mask[k] && x * x + y * y < least) {
                 least = x * x + y * y;
                 nearest = k;
@@ -103,7 +105,8 @@ virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, u
                                    const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
                                    uint32_t columns, uint32_t rows, float *grid, uint8_t *mask)
 {
-    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || !(width_m > 0) || !(height_m > 0))
+    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || !(width_m > 0) ||
+        !(height_m > 0))
         return VIRGA_ERROR_INVALID;
     memset(mask, 0, (size_t)columns * rows);
     bool any = false;
@@ -226,14 +229,16 @@ static double uneven(const virga_glass *glass, double u, double v)
 /* Height of the bump map at a place, repeated, between its four neighbours. */
 static double bump(const virga_glass_shape *shape, double u, double v)
 {
-    const double x = u / (double)shape->bump_width_m * shape->bump_columns, y = v / (double)shape->bump_height_m * shape->bump_rows;
+    const double x = u / (double)shape->bump_width_m * shape->bump_columns,
+                 y = v / (double)shape->bump_height_m * shape->bump_rows;
     const double wx = x - floor(x / shape->bump_columns) * shape->bump_columns;
     const double wy = y - floor(y / shape->bump_rows) * shape->bump_rows;
     const uint32_t x0 = (uint32_t)wx % shape->bump_columns, y0 = (uint32_t)wy % shape->bump_rows;
     const uint32_t x1 = (x0 + 1) % shape->bump_columns, y1 = (y0 + 1) % shape->bump_rows;
     const double fx = wx - floor(wx), fy = wy - floor(wy);
     const float *h = shape->bumps_m;
-    return (1 - fy) * ((1 - fx) * (double)h[x0 + y0 * shape->bump_columns] + fx * (double)h[x1 + y0 * shape->bump_columns]) +
+    return (1 - fy) *
+               ((1 - fx) * (double)h[x0 + y0 * shape->bump_columns] + fx * (double)h[x1 + y0 * shape->bump_columns]) +
            fy * ((1 - fx) * (double)h[x0 + y1 * shape->bump_columns] + fx * (double)h[x1 + y1 * shape->bump_columns]);
 }
 
@@ -294,24 +299,27 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
     if (result)
         return result;
     if (shape->positions && (shape->columns < 2 || shape->rows < 2 || shape->columns > 1025 || shape->rows > 1025))
-        return virga_wrong_argument(log, "glass_shape: expected 2 to 1025 columns and rows, got %u x %u", shape->columns,
-                                    shape->rows);
-    if (shape->mask && (!shape->mask_columns || !shape->mask_rows || shape->mask_columns > 8192 || shape->mask_rows > 8192))
+        return virga_wrong_argument(log, "glass_shape: expected 2 to 1025 columns and rows, got %u x %u",
+                                    shape->columns, shape->rows);
+    if (shape->mask &&
+        (!shape->mask_columns || !shape->mask_rows || shape->mask_columns > 8192 || shape->mask_rows > 8192))
         return virga_wrong_argument(log, "glass_shape: expected a mask of 1 to 8192 columns and rows, got %u x %u",
                                     shape->mask_columns, shape->mask_rows);
     if (shape->bumps_m &&
         (shape->bump_columns < 2 || shape->bump_rows < 2 || shape->bump_columns > 8192 || shape->bump_rows > 8192))
         return virga_wrong_argument(log, "glass_shape: expected a bump map of 2 to 8192 columns and rows, got %u x %u",
                                     shape->bump_columns, shape->bump_rows);
-    if (shape->bumps_m && !(shape->bump_width_m >= 1e-4f && shape->bump_width_m <= 100 && shape->bump_height_m >= 1e-4f &&
-                            shape->bump_height_m <= 100))
+    if (shape->bumps_m && !(shape->bump_width_m >= 1e-4f && shape->bump_width_m <= 100 &&
+                            shape->bump_height_m >= 1e-4f && shape->bump_height_m <= 100))
         return virga_wrong_argument(log, "glass_shape: expected a bump map of 0.0001 to 100 m, got %g x %g",
                                     (double)shape->bump_width_m, (double)shape->bump_height_m);
     if (!(shape->bump_pull >= 0 && shape->bump_pull <= 10))
         return virga_wrong_argument(log, "glass_shape.bump_pull: expected 0 to 10, got %g", (double)shape->bump_pull);
-    if (shape->positions && virga_settings_finite(log, "glass_shape.positions", shape->positions, 3 * shape->columns * shape->rows))
+    if (shape->positions &&
+        virga_settings_finite(log, "glass_shape.positions", shape->positions, 3 * shape->columns * shape->rows))
         return VIRGA_ERROR_INVALID;
-    if (shape->bumps_m && virga_settings_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
+    if (shape->bumps_m &&
+        virga_settings_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -336,8 +344,8 @@ static void direction(const float from[3], const float to[3], double out[3])
         out[0] = 1;
 }
 
-void virga_glass_rectangle(const virga_glass *glass, float corner[3], float along_u[3], float along_v[3], float *width_m,
-                           float *height_m)
+void virga_glass_rectangle(const virga_glass *glass, float corner[3], float along_u[3], float along_v[3],
+                           float *width_m, float *height_m)
 {
     if (!glass || !corner || !along_u || !along_v || !width_m || !height_m)
         return;

@@ -16,7 +16,7 @@
 #define MEASURED_CELLS 16u /* by a lane */
 
 #define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
-#define HOLD_BACK  1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
+#define HOLD_BACK      1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
 
 uint32_t glass_tick_bytes(void)
@@ -117,12 +117,13 @@ static void store(const double from[3], float out[3])
 
 /* ---- what lands
  *
- * Drops of the diameter D fall with their terminal speed v(D) in air that moves with the wind, the pane moves too: seen from
- * it they come with V(D) = wind - v(D) up - pane, and N(D) dD |V . n| of them meet a square metre in a second. */
+ * Drops of the diameter D fall with their terminal speed v(D) in air that moves with the wind, the pane moves too: seen
+ * from it they come with V(D) = wind - v(D) up - pane, and N(D) dD |V . n| of them meet a square metre in a second. */
 
 #define SIZES 128
 
-static void landing_of(virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *tick, double *per_tick)
+static void landing_of(virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *tick,
+                       double *per_tick)
 {
     *per_tick = 0;
     if (!(info->rate_mm_h > 0))
@@ -132,11 +133,13 @@ static void landing_of(virga_glass *glass, const virga_glass_step_info *info, vi
     double diameters[SIZES], density[SIZES], fluxes[SIZES], mean[3] = {0, 0, 0}, ways[SIZES][3];
     for (int i = 0; i < SIZES; i++)
         diameters[i] = VIRGA_DROP_MIN_M + (i + 0.5) * step;
-    if (virga_sizes_densities(info->sizes ? info->sizes : &marshall_palmer, (double)info->rate_mm_h, air, SIZES, diameters, density))
+    if (virga_sizes_densities(info->sizes ? info->sizes : &marshall_palmer, (double)info->rate_mm_h, air, SIZES,
+                              diameters, density))
         return;
     for (int i = 0; i < SIZES; i++) {
         const double world[3] = {(double)info->wind_m_s[0] - (double)info->velocity_m_s[0],
-                                 (double)info->wind_m_s[1] - (double)info->velocity_m_s[1] - virga_drop_terminal_speed(diameters[i], air),
+                                 (double)info->wind_m_s[1] - (double)info->velocity_m_s[1] -
+                                     virga_drop_terminal_speed(diameters[i], air),
                                  (double)info->wind_m_s[2] - (double)info->velocity_m_s[2]};
         to_pane(info, world, ways[i]);
         for (int axis = 0; axis < 3; axis++)
@@ -225,8 +228,9 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->cells_per_tick = ROUNDS;
 }
 
-/* The radius from which drops run on this pane as it stands: what holds them (by the radius) against their weight along it (by its
- * cube). The threshold of section 4.6 must not be less, or a drop that holds particles back may stay for ever. */
+/* The radius from which drops run on this pane as it stands: what holds them (by the radius) against their weight along
+ * it (by its cube). The threshold of section 4.6 must not be less, or a drop that holds particles back may stay for
+ * ever. */
 static double running_radius(const virga_glass *glass, const virga_glass_tick_gpu *tick)
 {
     const float *n = glass->normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES / 2];
@@ -303,9 +307,9 @@ static void push_tick(virga_glass *glass, const virga_glass_step_info *info, con
     out->arrivals = (uint32_t)(arrivals + (double)virga_unit(virga_hash3(glass->def.seed, out->tick, 0x61727269u)));
     const uint32_t share = (glass->rows + DRY_SHARE - 1) / DRY_SHARE, turn = out->tick % DRY_SHARE;
     out->rolling_row = turn * share;
-    out->rolling_rows = out->rolling_row >= glass->rows              ? 0
+    out->rolling_rows = out->rolling_row >= glass->rows          ? 0
                         : out->rolling_row + share > glass->rows ? glass->rows - out->rolling_row
-                                                                  : share;
+                                                                 : share;
     out->rolling_s = (float)(DRY_SHARE * glass->def.tick_s);
     glass_fill_blades(glass, (out->tick - 1.0) * glass->def.tick_s, out->tick * glass->def.tick_s,
                       (double)i / info->ticks, (i + 1.0) / info->ticks, out);
@@ -345,12 +349,13 @@ static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *
 
 static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words, uint32_t count)
 {
-    glass->context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words, words);
+    glass->context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words,
+                                        words);
 }
 
-#define ALIVE offsetof(virga_glass_state_gpu, alive_groups)
-#define SEEDS offsetof(virga_glass_state_gpu, seed_groups)
-#define AWAKE offsetof(virga_glass_state_gpu, awake_groups)
+#define ALIVE     offsetof(virga_glass_state_gpu, alive_groups)
+#define SEEDS     offsetof(virga_glass_state_gpu, seed_groups)
+#define AWAKE     offsetof(virga_glass_state_gpu, awake_groups)
 #define PARTICLES offsetof(virga_glass_state_gpu, particle_groups)
 
 static uint32_t groups_of(uint64_t invocations)
@@ -472,7 +477,8 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
 static void first_contents(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
-    virga_buffer *const zero[] = {glass->state, glass->drops, glass->occupants, glass->film, glass->passed, glass->seeds, glass->grid};
+    virga_buffer *const zero[] = {glass->state,  glass->drops, glass->occupants, glass->film,
+                                  glass->passed, glass->seeds, glass->grid};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, glass->claims->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_NOWHERE);
@@ -568,7 +574,8 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     take_shape(glass, cmd);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                      VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (info->ticks)
         record_ticks(glass, cmd, info);

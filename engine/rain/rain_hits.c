@@ -40,8 +40,8 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
     return VIRGA_OK;
 }
 
-/* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of its
- * half side on, and drops of the pane's step come from a little farther. */
+/* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of
+ * its half side on, and drops of the pane's step come from a little farther. */
 static uint32_t groups_near(const virga_rain *rain, const virga_rain_pane_gpu *pane)
 {
     double far = 0;
@@ -83,7 +83,8 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
     /* Lists are shared with the impacts; a pane may still read the hits of a step before. */
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
@@ -99,7 +100,8 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     virga_pass_end(context, cmd, scope);
 }
 
-virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane, virga_rain_buffer *hits)
+virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
+                             virga_rain_buffer *hits)
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;

@@ -1,5 +1,5 @@
-// blades.glsl - where a place is relative to a blade. Blades are rectangles (Goto et al. 2009, section 4.2); in a tick one moves
-// from a pose to another, and a place counts as swept if the blade passed over it.
+// blades.glsl - where a place is relative to a blade. Blades are rectangles (Goto et al. 2009, section 4.2); in a tick
+// one moves from a pose to another, and a place counts as swept if the blade passed over it.
 
 // Across the blade (to the left of its direction) and along it, from its middle.
 vec2 in_blade(vec2 place, vec2 middle, vec2 along)
@@ -28,7 +28,8 @@ bool lies_under(uint i, vec2 place, float radius)
     return abs(now.y) <= tick.blades[i].half_length_m + radius && abs(now.x) < tick.blades[i].half_width_m + radius;
 }
 
-// Whether a blade passed over a circle in this tick, or lies on it at its end. `was` is where the circle was at its start.
+// Whether a blade passed over a circle in this tick, or lies on it at its end. `was` is where the circle was at its
+// start.
 bool touched(uint i, vec2 was, vec2 place, float radius)
 {
     const vec2 now = now_in_blade(i, place);
@@ -59,8 +60,9 @@ bool in_band(vec2 place)
     return false;
 }
 
-// Where a blade pushes a particle that it touches: to the side where it was when the tick began, which for what the blade caught up
-// with is its front; past its end where it is nearer to that; `flip` takes the other side, and it slides along by so much.
+// Where a blade pushes a particle that it touches: to the side where it was when the tick began, which for what the
+// blade caught up with is its front; past its end where it is nearer to that; `flip` takes the other side, and it
+// slides along by so much.
 vec2 pushed_by(uint i, vec2 at, vec2 was, bool flip, float slide_m, inout bool pushed)
 {
     const vec2 now = now_in_blade(i, at);
@@ -75,8 +77,8 @@ vec2 pushed_by(uint i, vec2 at, vec2 was, bool flip, float slide_m, inout bool p
     return out_of_blade(i, vec2((flip ? -side : side) * reach, now.y + slide_m));
 }
 
-// Out of all blades. One may push it into another: then it is tried again, on the other sides, and at last along the blade, ever
-// farther to one end and the other: where two blades cross there is room beyond the crossing.
+// Out of all blades. One may push it into another: then it is tried again, on the other sides, and at last along the
+// blade, ever farther to one end and the other: where two blades cross there is room beyond the crossing.
 vec2 push_by_blades(vec2 at, vec2 was, inout bool pushed)
 {
     for (uint attempt = 0u; attempt < 16u; attempt++) {

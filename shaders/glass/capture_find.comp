@@ -1,5 +1,5 @@
-// capture_find.comp - a drop that runs takes in the lighter ones that its base touches, not only those whose cell it enters: a
-// drop is often wider than a cell.
+// capture_find.comp - a drop that runs takes in the lighter ones that its base touches, not only those whose cell it
+// enters: a drop is often wider than a cell.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -54,10 +54,11 @@ void write_down(uint place, uint entry, inout virga_glass_drop_gpu drop)
 
 const ivec2 ways[8] = ivec2[8](ivec2(1, 0), ivec2(1, 1), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1));
 
-// How likely the way ahead and those to its right and left are before the glass has its say, so that the mean step lies in
-// the direction of motion, which is by `off` (its tangent) to the left of the middle way. With shares s + t to the left and s - t
-// to the right, the mean of three steps of a square grid is off by 2 t where the middle way lies along an axis, and by
-// t / (1 - s) where it is a diagonal. No share is negative if s is at least |t|: what s is above that is meander.
+// How likely the way ahead and those to its right and left are before the glass has its say, so that the mean step lies
+// in the direction of motion, which is by `off` (its tangent) to the left of the middle way. With shares s + t to the
+// left and s - t to the right, the mean of three steps of a square grid is off by 2 t where the middle way lies along
+// an axis, and by t / (1 - s) where it is a diagonal. No share is negative if s is at least |t|: what s is above that
+// is meander.
 vec3 even_shares(float off, bool diagonal)
 {
     const float least = diagonal ? abs(off) / (1.0 + abs(off)) : 0.5 * abs(off);

@@ -2,10 +2,10 @@
 
 // Forces along the pane on water of a mass (kg) with a base of radius a at a place; N.
 //
-// Gravity less the pane's own acceleration: in the pane's frame that is tick.force, and a turning pane adds -w x (w x r).
-// Bump maps (Chen and Zhang, equation 14): of the force, what presses on the structure's face with the normal N is borne by
-// it, F - (N . F) N is left. Air: its flow along the pane pulls with half its density times its speed squared on the drop's
-// section; tick.air_drag holds the numbers.
+// Gravity less the pane's own acceleration: in the pane's frame that is tick.force, and a turning pane adds -w x (w x
+// r). Bump maps (Chen and Zhang, equation 14): of the force, what presses on the structure's face with the normal N is
+// borne by it, F - (N . F) N is left. Air: its flow along the pane pulls with half its density times its speed squared
+// on the drop's section; tick.air_drag holds the numbers.
 vec2 pull(vec2 place, float mass, float a, uint word)
 {
     const Frame frame = frame_at(place);
@@ -21,17 +21,17 @@ vec2 pull(vec2 place, float mass, float a, uint word)
 
 #define LEAST_HOLD 0.4 // of the mean
 
-// The largest force (N) that the drop's rim withstands, Furmidge 1962: uneven glass holds more here and less there, and a
-// wet path less.
+// The largest force (N) that the drop's rim withstands, Furmidge 1962: uneven glass holds more here and less there, and
+// a wet path less.
 float holding(float a, uint cell, uint word)
 {
     const float uneven = clamp(1.0 - 0.3 * tick.affinity_sigma * cell_affinity(word), LEAST_HOLD, 2.0 - LEAST_HOLD);
     return tick.hold * a * uneven * (1.0 - tick.path_ease * cell_wet(cell));
 }
 
-// The velocity after a tick. m dv/dt = F - H v/|v| - C v, with C = drag a; C / m may be large against 1 / tick, so the solution
-// of the linear equation is taken whole: v goes to (F - H) / C with the time constant m / C. A drop at rest stays there while
-// F is below H; one that runs feels a part of H.
+// The velocity after a tick. m dv/dt = F - H v/|v| - C v, with C = drag a; C / m may be large against 1 / tick, so the
+// solution of the linear equation is taken whole: v goes to (F - H) / C with the time constant m / C. A drop at rest
+// stays there while F is below H; one that runs feels a part of H.
 vec2 next_velocity(vec2 velocity, vec2 force, float hold, float mass, float a)
 {
     const float speed = length(velocity), pulled = length(force);

@@ -1,5 +1,5 @@
-// leave_find.comp - particles that left the bands beside the blades become drops again (Goto et al. 2009, section 4.5), each in the
-// cell that it claims, but not while a large drop is near (section 4.6). What is over the edge is gone.
+// leave_find.comp - particles that left the bands beside the blades become drops again (Goto et al. 2009, section 4.5),
+// each in the cell that it claims, but not while a large drop is near (section 4.6). What is over the edge is gone.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

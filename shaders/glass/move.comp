@@ -1,4 +1,5 @@
-// move.comp - a tick begins: drops dry, forces act on those that they may move, and each of these gets the way that it may go.
+// move.comp - a tick begins: drops dry, forces act on those that they may move, and each of these gets the way that it
+// may go.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

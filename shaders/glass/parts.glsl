@@ -1,7 +1,9 @@
-// parts.glsl - particles (Goto et al. 2009, section 4.2): circles of one radius that push each other. Neighbours are found through a
-// grid whose cells hold linked lists; lists come in any order, so what neighbours do is summed up in whole units.
+// parts.glsl - particles (Goto et al. 2009, section 4.2): circles of one radius that push each other. Neighbours are
+// found through a grid whose cells hold linked lists; lists come in any order, so what neighbours do is summed up in
+// whole units.
 //
-// A particle's number here is its place in the list of awake ones, which has all particles first: positions lie close together.
+// A particle's number here is its place in the list of awake ones, which has all particles first: positions lie close
+// together.
 layout(scalar, set = 0, binding = 11) buffer Grid { uint grid[]; }; // heads of all cells, then the next of each; + 1, 0: none
 layout(scalar, set = 0, binding = 10) buffer Ranks { uint ranks[]; };
 layout(scalar, set = 0, binding = 15) buffer Moved { vec2 moved[]; }; // positions in every other round

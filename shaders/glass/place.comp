@@ -1,5 +1,5 @@
-// place.comp - seeds come to their places: a free one, or the drop that is in their cell. Without a free place water joins the
-// film.
+// place.comp - seeds come to their places: a free one, or the drop that is in their cell. Without a free place water
+// joins the film.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// place_scan.comp - ranks of those that get a place of their own, in the order of seeds. One workgroup; each lane takes a run.
+// place_scan.comp - ranks of those that get a place of their own, in the order of seeds. One workgroup; each lane takes
+// a run.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// relax.comp - one round of pushing: overlapping particles part by half of their overlap each, and a bit more by the penalty
-// (section 4.2); then blades push what they touch. All move at once, from one array of positions into the other.
+// relax.comp - one round of pushing: overlapping particles part by half of their overlap each, and a bit more by the
+// penalty (section 4.2); then blades push what they touch. All move at once, from one array of positions into the
+// other.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,8 +1,8 @@
-// rounds.glsl - drops go from cell to cell in rounds: in each, every drop with way left claims the next cell, then all claims
-// are settled at once, so that no order of drops matters.
+// rounds.glsl - drops go from cell to cell in rounds: in each, every drop with way left claims the next cell, then all
+// claims are settled at once, so that no order of drops matters.
 //
-// choose: writes down who came to which cell in the round before, then claims: the lowest place wins a cell
-// enter:  the winner enters; who lost, and who came to a drop that stays, merges with it: water and momentum are added as
+// choose: writes down who came to which cell in the round before, then claims: the lowest place wins a cell enter:  the
+// winner enters; who lost, and who came to a drop that stays, merges with it: water and momentum are added as
 //         integers, in whatever order
 //
 // A cell that its drop leaves in this round is free for those who come: two drops that follow each other do not merge.

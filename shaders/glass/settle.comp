@@ -22,7 +22,8 @@ void take_in(inout virga_glass_drop_gpu drop)
     drop.merged_nl_mm_s = int[2](0, 0);
 }
 
-// Cells lie on a grid, but water does not: a drop is drawn on its way to the middle of its cell, as far as it has moved.
+// Cells lie on a grid, but water does not: a drop is drawn on its way to the middle of its cell, as far as it has
+// moved.
 void draw_nearer(inout virga_glass_drop_gpu drop)
 {
     const float way = length(to_vec2(drop.velocity)) * tick.tick_s;

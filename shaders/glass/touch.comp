@@ -1,5 +1,6 @@
-// touch.comp - drops that a blade meets become particles (Goto et al. 2009, section 4.4): as many as their water gives, the first in
-// the drop's place, the others beside it by seeds. Those too small for a particle are gathered in the blade's bins.
+// touch.comp - drops that a blade meets become particles (Goto et al. 2009, section 4.4): as many as their water gives,
+// the first in the drop's place, the others beside it by seeds. Those too small for a particle are gathered in the
+// blade's bins.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
-// wipe.comp - a blade takes up the film of the cells that it passes over, into bins along it; a thin film stays behind, thicker in
-// the streaks of a worn blade. One dispatch a blade, over the cells around it.
+// wipe.comp - a blade takes up the film of the cells that it passes over, into bins along it; a thin film stays behind,
+// thicker in the streaks of a worn blade. One dispatch a blade, over the cells around it.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,8 +1,8 @@
 // hit.glsl - drops that met a pane in the newest step: a rectangle that moves through the field.
 //
-// Drops and pane move evenly in a step, so seen from the pane a drop comes on a straight line. A slot that stands for several
-// drops has them around its own place, each shifted by a hash: the slots of a class lie anywhere in their box, so its
-// drops do too. The first is the slot's own, with its id: the one whose streak is drawn.
+// Drops and pane move evenly in a step, so seen from the pane a drop comes on a straight line. A slot that stands for
+// several drops has them around its own place, each shifted by a hash: the slots of a class lie anywhere in their box,
+// so its drops do too. The first is the slot's own, with its id: the one whose streak is drawn.
 layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
 layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, push_constant) uniform Pane { virga_rain_pane_gpu pane; };

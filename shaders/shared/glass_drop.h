@@ -20,7 +20,8 @@ typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
 #define VIRGA_GLASS_HELD     16 /* (particle) out of its blade's band, but a large drop is too near (section 4.6) */
 #define VIRGA_GLASS_PUSHED   32 /* (particle) a blade pushed it in the newest tick */
 
-/* One drop, 80 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower left corner. */
+/* One drop, 80 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower
+ * left corner. */
 struct virga_glass_drop_gpu {
     float position[2];   /* m, of its middle at the newest tick, where it is drawn */
     float before[2];     /* m, the same a tick before */
@@ -32,7 +33,8 @@ struct virga_glass_drop_gpu {
     float ahead_m;       /* (drop) how far it has come towards the next cell */
     float tail_m;        /* (drop) way since it last left a drop behind */
     float age_s;         /* since it landed, or was left behind */
-    uint id;             /* of the rain's drop, or a hash for those that were left behind; a merged one keeps the heavier's */
+    uint id;             /* of the rain's drop, or a hash for those that were left behind; a merged one keeps the
+                          * heavier's */
     uint random;         /* a hash of its own */
     uint merged_nl;      /* water that came in this tick, counted in at the tick's end */
     int merged_nl_mm_s[2]; /* its momentum: nl x mm/s */

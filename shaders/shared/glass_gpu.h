@@ -38,7 +38,8 @@ struct virga_glass_pane_gpu {
     uint pad;
 };
 
-/* A corner of the grid that a pane's shape is given on; by column + row x VIRGA_GLASS_NODES, in the pane's own frame. */
+/* A corner of the grid that a pane's shape is given on; by column + row x VIRGA_GLASS_NODES, in the pane's own frame.
+ * */
 struct virga_glass_node_gpu {
     float position[3];     /* m */
     float along_u[3];      /* unit length */
@@ -136,7 +137,8 @@ struct virga_glass_state_gpu {
     uint held;
     uint alive_groups[3];  /* of a dispatch over the list */
     uint seed_groups[3];   /* of one over all seeds */
-    uint awake;           /* places that something happens to in this tick: particles, then drops that may move or meet a blade */
+    uint awake;           /* places that something happens to in this tick: particles, then drops that may move or meet
+                           * a blade */
     uint awake_particles;
     uint awake_groups[3]; /* of a dispatch over all of them, and over the particles */
     uint particle_groups[3];

@@ -1,4 +1,5 @@
-/* How drops move: what holds them, the way they meander, what they leave behind, and how blades and particles meet them. */
+/* How drops move: what holds them, the way they meander, what they leave behind, and how blades and particles meet
+ * them. */
 #include "glass_fixture.h"
 
 #include <math.h>
@@ -85,8 +86,8 @@ static void kinds_of_glass_differ_in_what_sticks_and_how_fast_it_runs(void **unu
     const double clean = critical_water(VIRGA_GLASS_KIND_CLEAN, &clean_m_s);
     const double dirty = critical_water(VIRGA_GLASS_KIND_DIRTY, &dirty_m_s);
     const double coated = critical_water(VIRGA_GLASS_KIND_COATED, &coated_m_s);
-    print_message("run from %.1f ul clean, %.1f dirty, %.1f coated on; twice as large at %.3f, %.3f, %.3f m/s\n", clean * 1e9,
-                  dirty * 1e9, coated * 1e9, clean_m_s, dirty_m_s, coated_m_s);
+    print_message("run from %.1f ul clean, %.1f dirty, %.1f coated on; twice as large at %.3f, %.3f, %.3f m/s\n",
+                  clean * 1e9, dirty * 1e9, coated * 1e9, clean_m_s, dirty_m_s, coated_m_s);
     assert_true(dirty > 1.5 * clean);
     assert_true(coated_m_s > 1.5 * clean_m_s && coated_m_s > 1.5 * dirty_m_s);
 }
@@ -168,7 +169,8 @@ static void run_lanes(double *sum, double *squares, uint32_t *count)
             const virga_glass_drop_gpu *drop = drop_of(ids[i]);
             if (seen[i] || (!drop && before[i][1] == TOP_M))
                 continue;
-            const double now[2] = {drop ? (double)drop->position[0] : before[i][0], drop ? (double)drop->position[1] : 0};
+            const double now[2] = {drop ? (double)drop->position[0] : before[i][0],
+                                   drop ? (double)drop->position[1] : 0};
             if (now[1] <= TOP_M - DOWN_M) {
                 const double t = (before[i][1] - (TOP_M - DOWN_M)) / (before[i][1] - now[1]);
                 const double off = before[i][0] + t * (now[0] - before[i][0]) - (0.06 + 0.09 * i);
@@ -223,7 +225,8 @@ static void wind_from_the_side_tilts_the_mean_as_the_force(void **unused)
     const paths tilted = release(6, 0.3f, wind);
     print_message("mean %.4f m, expected %.4f\n", tilted.mean, aside / down * DOWN_M);
     assert_true(aside / down > 0.1);
-    assert_true(fabs(tilted.mean - aside / down * DOWN_M) < 0.06 * aside / down * DOWN_M + 3 * tilted.deviation / sqrt(tilted.count));
+    assert_true(fabs(tilted.mean - aside / down * DOWN_M) <
+                0.06 * aside / down * DOWN_M + 3 * tilted.deviation / sqrt(tilted.count));
 }
 
 /* Share of the cells of a second drop's path that lie on the first one's. */
@@ -310,7 +313,8 @@ static double deepest_overlap(void)
             const virga_glass_drop_gpu *a = &f.drops[i], *b = &f.drops[k];
             if (glass_fixture_kind(a) != VIRGA_GLASS_PARTICLE || glass_fixture_kind(b) != VIRGA_GLASS_PARTICLE)
                 continue;
-            const double apart = hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
+            const double apart =
+                hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
             deepest = fmax(deepest, 2 - apart / radius);
         }
     return deepest;
@@ -346,8 +350,8 @@ static void particles_settle_apart_in_front_of_the_blade(void **unused)
     f.info.world_from_pane[5] = -1;
     f.info.world_from_pane[7] = 1;
     for (uint32_t i = 0; i < 40; i++)
-        glass_fixture_land(&f, 0.06 + 0.04 * (double)virga_unit(virga_hash1(i)), 0.03 + 0.06 * (double)virga_unit(virga_hash1(i + 100)),
-                           particle_water());
+        glass_fixture_land(&f, 0.06 + 0.04 * (double)virga_unit(virga_hash1(i)),
+                           0.03 + 0.06 * (double)virga_unit(virga_hash1(i + 100)), particle_water());
     turn_to(45, 1);
     turn_to(110, 24);
     assert_in_range(count_of(VIRGA_GLASS_PARTICLE), 20, 40);
@@ -357,8 +361,8 @@ static void particles_settle_apart_in_front_of_the_blade(void **unused)
     glass_fixture_close(&f);
 }
 
-/* Sections 4.5 and 4.6: particles that the blade left behind become drops, but not beside a large one; once that has run away,
- * within a second. */
+/* Sections 4.5 and 4.6: particles that the blade left behind become drops, but not beside a large one; once that has
+ * run away, within a second. */
 static void held_particles_become_drops_when_the_way_is_free(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* What must hold on a pane whatever happens to it: one drop to a cell, water to the nanolitre, particles beside blades and not
- * in them or in each other, nothing under a blade and nothing outside; and the same input gives the same bits. */
+/* What must hold on a pane whatever happens to it: one drop to a cell, water to the nanolitre, particles beside blades
+ * and not in them or in each other, nothing under a blade and nothing outside; and the same input gives the same bits.
+ * */
 #include "glass_fixture.h"
 
 #include <math.h>
@@ -26,7 +27,8 @@ static bool under_blade(const virga_glass_tick_gpu *tick, const float place[2], 
     for (uint32_t i = 0; i < tick->blade_count; i++) {
         double local[2];
         blade_local(&tick->blades[i], place, local);
-        if (fabs(local[0]) < (double)tick->blades[i].half_width_m + by && fabs(local[1]) < (double)tick->blades[i].half_length_m + by)
+        if (fabs(local[0]) < (double)tick->blades[i].half_width_m + by &&
+            fabs(local[1]) < (double)tick->blades[i].half_length_m + by)
             return true;
     }
     return false;
@@ -144,8 +146,8 @@ static void budget_and_cells_hold_over_10000_ticks(void **unused)
         f.info.velocity_m_s[2] = (float)(hash >> 8 & 31);
         f.info.acceleration_m_s2[0] = (float)(hash >> 16 & 15) - 8;
         for (uint32_t i = 0; i < (hash >> 20 & 7); i++)
-            glass_fixture_land(&f, 0.16 * (double)virga_unit(virga_hash2(hash, i)), 0.12 * (double)virga_unit(virga_hash2(hash, 9 + i)),
-                               virga_hash2(hash, 20 + i) % 60000);
+            glass_fixture_land(&f, 0.16 * (double)virga_unit(virga_hash2(hash, i)),
+                               0.12 * (double)virga_unit(virga_hash2(hash, 9 + i)), virga_hash2(hash, 20 + i) % 60000);
         glass_fixture_step(&f, 25, true);
         assert_cells();
         assert_budget();
@@ -153,10 +155,12 @@ static void budget_and_cells_hold_over_10000_ticks(void **unused)
     }
     virga_glass_stats stats;
     virga_glass_stats_get(f.glass, &stats);
-    printf("landed %.1f ml, run off %.1f, wiped %.1f, evaporated %.1f; %u drops, %u particles, %u held; merged %llu, to particles %llu, to drops %llu, crowded %llu\n",
+    printf("landed %.1f ml, run off %.1f, wiped %.1f, evaporated %.1f; %u drops, %u particles, %u held; merged %llu, "
+           "to particles %llu, to drops %llu, crowded %llu\n",
            (double)stats.landed_nl * 1e-6, (double)stats.run_off_nl * 1e-6, (double)stats.wiped_nl * 1e-6,
-           (double)stats.evaporated_nl * 1e-6, stats.drops, stats.particles, stats.held, (unsigned long long)stats.merged,
-           (unsigned long long)stats.to_particles, (unsigned long long)stats.to_drops, (unsigned long long)stats.crowded);
+           (double)stats.evaporated_nl * 1e-6, stats.drops, stats.particles, stats.held,
+           (unsigned long long)stats.merged, (unsigned long long)stats.to_particles, (unsigned long long)stats.to_drops,
+           (unsigned long long)stats.crowded);
     glass_fixture_close(&f);
 }
 

@@ -1,5 +1,5 @@
-/* test_rain_hits.c - what meets a pane in the rain is what the drops in its way bring: as much water as theory says, more where it
- * drives into them, none under a roof, and the drop of a streak keeps its id. */
+/* test_rain_hits.c - what meets a pane in the rain is what the drops in its way bring: as much water as theory says,
+ * more where it drives into them, none under a roof, and the drop of a streak keeps its id. */
 #include "rain_fixture.h"
 
 #include <math.h>
@@ -121,11 +121,13 @@ static void lying_pane_gets_the_rate(void **unused)
     (void)unused;
     open_rain(false);
     f.camera[1] = 1.7;
-    const virga_rain_pane pane = {.corner_m = {-0.6, 1.5, 0.4}, .along_u = {1, 0, 0}, .along_v = {0, 0, -1}, .width_m = 1.2f, .height_m = 0.8f};
+    const virga_rain_pane pane = {
+        .corner_m = {-0.6, 1.5, 0.4}, .along_u = {1, 0, 0}, .along_v = {0, 0, -1}, .width_m = 1.2f, .height_m = 0.8f};
     run(pane, 0.5);
     const caught got = run(pane, 6);
     const double expected = 50e-3 / 3600 * 1.2 * 0.8 * 6;
-    print_message("%u drops, %.3f ml, expected %.3f +- %.3f\n", got.drops, got.water_m3 * 1e6, expected * 1e6, sqrt(got.variance_m6) * 1e6);
+    print_message("%u drops, %.3f ml, expected %.3f +- %.3f\n", got.drops, got.water_m3 * 1e6, expected * 1e6,
+                  sqrt(got.variance_m6) * 1e6);
     assert_true(fabs(got.water_m3 - expected) < 0.03 * expected + 3 * sqrt(got.variance_m6));
     print_message("%u of the last %u are drops with a streak\n", got.named, got.last);
     assert_true(got.named > got.last / 4);
@@ -137,12 +139,17 @@ static void a_driving_pane_meets_more(void **unused)
     (void)unused;
     open_rain(false);
     f.camera[1] = 1.7;
-    const virga_rain_pane pane = {.corner_m = {-0.6, 1.3, 0.7}, .along_u = {1, 0, 0}, .along_v = {0, 1, 0}, .width_m = 1.2f,
-                                  .height_m = 0.6f, .velocity_m_s = {0, 0, 12}};
+    const virga_rain_pane pane = {.corner_m = {-0.6, 1.3, 0.7},
+                                  .along_u = {1, 0, 0},
+                                  .along_v = {0, 1, 0},
+                                  .width_m = 1.2f,
+                                  .height_m = 0.6f,
+                                  .velocity_m_s = {0, 0, 12}};
     run(pane, 0.5);
     const caught got = run(pane, 2);
     const double expected = theory(12) * 1.2 * 0.6 * 2;
-    print_message("%u drops, %.3f ml, expected %.3f +- %.3f\n", got.drops, got.water_m3 * 1e6, expected * 1e6, sqrt(got.variance_m6) * 1e6);
+    print_message("%u drops, %.3f ml, expected %.3f +- %.3f\n", got.drops, got.water_m3 * 1e6, expected * 1e6,
+                  sqrt(got.variance_m6) * 1e6);
     assert_true(fabs(got.water_m3 - expected) < 0.04 * expected + 3 * sqrt(got.variance_m6));
     close_rain();
 }
@@ -152,7 +159,8 @@ static void nothing_meets_a_pane_under_a_roof(void **unused)
     (void)unused;
     open_rain(true);
     f.camera[1] = 1.7;
-    const virga_rain_pane pane = {.corner_m = {-0.6, 1.5, 0.4}, .along_u = {1, 0, 0}, .along_v = {0, 0, -1}, .width_m = 1.2f, .height_m = 0.8f};
+    const virga_rain_pane pane = {
+        .corner_m = {-0.6, 1.5, 0.4}, .along_u = {1, 0, 0}, .along_v = {0, 0, -1}, .width_m = 1.2f, .height_m = 0.8f};
     run(pane, 0.5);
     assert_int_equal(run(pane, 0.5).drops, 0);
     close_rain();

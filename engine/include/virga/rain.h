@@ -166,9 +166,9 @@ VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd,
  * for a rain. Call it where compiling is fine, not while recording a frame that must be on time. */
 VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *target);
 
-/* Draws haze and streaks of the newest prepare, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering
- * of `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards. VIRGA_NOT_READY (and nothing
- * drawn) for a target that was not attached, or before the first prepare. */
+/* Draws haze and streaks of the newest prepare, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of
+ * `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards. VIRGA_NOT_READY
+ * (and nothing drawn) for a target that was not attached, or before the first prepare. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
 /* ---- what others read ----------------------------------------------------------------------------------------- */
@@ -185,17 +185,18 @@ VIRGA_API void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *imp
 /* A pane that drops fall on: a rectangle, moving evenly. */
 typedef struct virga_rain_pane {
     double corner_m[3];      /* in the world, at the end of the newest step */
-    float along_u[3], along_v[3]; /* unit length: its sides from there; the cross product of both points to the outside, which is
+    float along_u[3], along_v[3]; /* unit length: its sides from there; the cross product of both points to the outside,
+                                   * which is
                               * where drops come from */
     float width_m, height_m; /* (0; 100] along u, along v */
     float velocity_m_s[3];   /* in the world: the faster it goes the more drops it meets */
 } virga_rain_pane;
 
-/* The drops that met a pane in the newest step, as impacts with positions (u, v, 0) in metres on it: a virga_impacts_gpu, then
- * up to VIRGA_RAIN_MAX_HITS x virga_impact_gpu. What falls under a cover of the occlusion maps
- * does not count; slots that stand for several drops have them scattered around. The first drop of a slot has the id of its streak.
- * Outside rendering, after the step, in its frame; ready for compute and transfers. The pane does not stop the drops: hide
- * their streaks by depth. VIRGA_NOT_READY before the first step of a frame. */
+/* The drops that met a pane in the newest step, as impacts with positions (u, v, 0) in metres on it: a
+ * virga_impacts_gpu, then up to VIRGA_RAIN_MAX_HITS x virga_impact_gpu. What falls under a cover of the occlusion maps
+ * does not count; slots that stand for several drops have them scattered around. The first drop of a slot has the id of
+ * its streak. Outside rendering, after the step, in its frame; ready for compute and transfers. The pane does not stop
+ * the drops: hide their streaks by depth. VIRGA_NOT_READY before the first step of a frame. */
 VIRGA_API virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
                                        virga_rain_buffer *hits);
 
