@@ -270,7 +270,7 @@ static virga_result init(virga_glass *glass)
     list_passes(glass, passes);
     TRY(virga_buffers_create(glass->context, buffers, BUFFERS));
     TRY(virga_bindings_create(glass->context, kinds, BINDINGS, 1, 5 * sizeof(uint32_t), &glass->bindings));
-    TRY(virga_compute_pipelines_create(glass->context, glass->bindings->layout, passes, PASSES));
+    TRY(virga_compute_pipelines_create(glass->context, glass->bindings->layout, &glass->needed, passes, PASSES));
     TRY(glass_shape_init(glass));
     TRY(glass_picture_create(glass));
 error:
@@ -347,6 +347,13 @@ VkDeviceSize virga_glass_estimate(const virga_glass_def *given)
         sum += rows[i].size;
     return sum + (VkDeviceSize)glass.columns * glass.rows * 4 + /* the uploads */
            VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu);
+}
+
+virga_result virga_glass_ready(const virga_glass *glass)
+{
+    return !glass                 ? VIRGA_ERROR_INVALID
+           : glass->context->lost ? VIRGA_ERROR_DEVICE_LOST
+                                  : virga_group_ready(&glass->needed);
 }
 
 /* ---- settings */

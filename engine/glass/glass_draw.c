@@ -305,6 +305,16 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_counts(glass, cmd);
 }
 
+/* The passes of all panes, and the two gathers of its density and blend. */
+static virga_result ready_to_prepare(const virga_glass *glass)
+{
+    const uint32_t mode = GLASS_GATHER_MODE(glass->settings.density, glass->settings.blend);
+    const virga_pipeline *gathers[] = {glass->picture->gather_passes[mode],
+                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM]};
+    const virga_result result = virga_group_ready(&glass->needed);
+    return result ? result : virga_pipelines_ready(gathers, 2);
+}
+
 static bool pose_is_finite(const virga_log *log, const virga_glass_pose *pose)
 {
     return !virga_settings_finite_double(log, "glass_pose.position_m", pose->position_m, 3) &&
@@ -375,6 +385,9 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
         return VIRGA_ERROR_INVALID;
     if (!glass->started || view->viewport[2] < 1 || view->viewport[3] < 1)
         return VIRGA_NOT_READY;
+    result = ready_to_prepare(glass);
+    if (result)
+        return result;
     uint32_t place = 0;
     result = take_place(glass, &place);
     if (result)
@@ -517,7 +530,11 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
                            : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
                                ? GLASS_DRAW_PAPER + depth
                                : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
-    record_draw(glass, cmd, found->draws[which], refraction ? "glass.refraction" : "glass.draw");
+    const virga_pipeline *used = found->draws[which];
+    const virga_result result = virga_pipelines_ready(&used, 1);
+    if (result)
+        return result;
+    record_draw(glass, cmd, used, refraction ? "glass.refraction" : "glass.draw");
     return VIRGA_OK;
 }
 

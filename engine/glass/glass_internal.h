@@ -51,6 +51,7 @@ struct virga_glass {
     virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */
     virga_buffer *tick_ring, *readback_ring;
     virga_bindings *bindings;
+    virga_pipeline_group needed; /* for all but gathers and draws, of which there are many and few in use */
     virga_pipeline *census_find, *census_scan, *census_list, *move, *awake_scan, *awake_list, *choose, *enter,
         *capture_find, *capture, *wipe, *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim,
         *place_scan, *place, *settle, *dry, *measure;

@@ -217,9 +217,11 @@ static virga_result create_gathers(virga_context *context, bool shuffle, struct 
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < 4 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
         const uint32_t mode = GLASS_GATHER_MODE(i / 4, i / 2 % 2) | (i % 2 ? GLASS_GATHER_FILM : 0);
-        TRY(virga_compute_pipeline_special(context, shader, picture->bindings->layout,
-                                           mode | (picture->map ? GLASS_GATHER_MAP : 0), "glass.gather",
-                                           &picture->gather_passes[mode]));
+        const virga_compute_def def = {.shader = shader,
+                                       .layout = picture->bindings->layout,
+                                       .constant = mode | (picture->map ? GLASS_GATHER_MAP : 0),
+                                       .name = "glass.gather"};
+        TRY(virga_compute_pipeline_create(context, &def, &picture->gather_passes[mode]));
     }
 error:
     return result;
@@ -272,7 +274,7 @@ virga_result glass_picture_create(virga_glass *glass)
     TRY(create_images(context, glass->def.height_map, picture));
     picture->filtered = can_filter(context);
     TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
-    TRY(virga_compute_pipelines_create(context, picture->bindings->layout, passes, PASSES));
+    TRY(virga_compute_pipelines_create(context, picture->bindings->layout, &glass->needed, passes, PASSES));
     TRY(create_gathers(context, can_shuffle(context), picture));
 error:
     return result; /* what was made goes with the pane */

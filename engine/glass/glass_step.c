@@ -521,7 +521,7 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
         return VIRGA_ERROR_INVALID;
     if (!(info->rate_mm_h >= 0 && info->rate_mm_h <= 200))
         return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
-    return VIRGA_OK;
+    return virga_group_ready(&glass->needed);
 }
 
 static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)

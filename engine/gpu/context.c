@@ -96,6 +96,11 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
                                     VIRGA_MAX_FRAMES_IN_FLIGHT, def->frames_in_flight);
     if (!def->device_memory.alloc != !def->device_memory.free)
         return virga_wrong_argument(log, "context_def.device_memory: expected both alloc and free, or neither");
+    if ((uint32_t)def->pipelines > VIRGA_PIPELINES_AS_JOBS)
+        return virga_wrong_argument(log, "context_def.pipelines: there is no %d", (int)def->pipelines);
+    if ((def->pipelines == VIRGA_PIPELINES_AS_JOBS) != (def->pipeline_jobs.run != NULL))
+        return virga_wrong_argument(log, "context_def.pipeline_jobs: expected run with VIRGA_PIPELINES_AS_JOBS, and "
+                                         "without it none");
     return VIRGA_OK;
 }
 
@@ -141,6 +146,7 @@ error:
 static void destroy_objects(virga_context *context)
 {
     virga_graveyard_sweep(context, true);
+    virga_builds_free(context);
     const VkSampler samplers[2] = {context->nearest, context->linear};
     for (int i = 0; i < 2; i++)
         if (samplers[i]) {
@@ -176,6 +182,8 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->memory_budget = def->memory_budget;
     context->frames_in_flight = def->frames_in_flight;
     context->debug_names = def->debug_names;
+    context->pipelines_when = def->pipelines;
+    context->pipeline_jobs = def->pipeline_jobs;
     TRY(virga_functions_load_instance(&context->vk, &context->log, def->get_instance_proc_addr, def->instance));
     result =
         virga_check_device(def->get_instance_proc_addr, def->instance, def->physical_device, reason, sizeof reason);
@@ -264,6 +272,7 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     context->frame_index = frame_index;
     context->completed_index = completed_index;
     context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
+    virga_builds_collect(context); /* a failure is its effect's to say */
     virga_graveyard_sweep(context, false);
     virga_timer_slot *slot = &context->timers[context->ring_slot];
     virga_timers_collect(context, slot);

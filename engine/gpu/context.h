@@ -28,6 +28,7 @@ typedef struct virga_memory {
 typedef struct virga_resource {
     struct virga_resource *next;
     uint64_t last_frame;
+    bool retired; /* lies in the graveyard */
     void (*destroy)(struct virga_context *context, struct virga_resource *resource);
 } virga_resource;
 
@@ -51,9 +52,19 @@ typedef struct virga_image_2d {
     virga_memory memory;
 } virga_image_2d;
 
+/* Pipelines that are needed together: nothing that uses them is recorded before all of them are there. */
+typedef struct virga_pipeline_group {
+    uint32_t waiting;    /* to be built */
+    virga_result failed; /* of the first that could not be; VIRGA_OK: none */
+} virga_pipeline_group;
+
 typedef struct virga_pipeline {
-    virga_resource resource; /* first */
-    VkPipeline pipeline;
+    virga_resource resource;   /* first */
+    VkPipeline pipeline;       /* null while it waits to be built, or where that failed */
+    const char *name;          /* static */
+    virga_pipeline_group *group; /* (optional) lives as long as this is not let go of */
+    struct virga_build *build; /* NULL: nothing is left to be done */
+    virga_result failed;
 } virga_pipeline;
 
 /* Timestamps of one frame in flight. */
@@ -80,6 +91,9 @@ struct virga_context {
     uint32_t frames_in_flight;
     bool debug_names;
     bool lost;
+    virga_pipelines_when pipelines_when;
+    virga_pipeline_jobs pipeline_jobs;
+    struct virga_build *builds; /* pipelines to be built, in the order they were asked for */
 
     VkSampler nearest, linear; /* clamped to the edge */
     uint64_t frame_index, completed_index;
@@ -193,12 +207,17 @@ typedef struct virga_spirv {
 /* An embedded shader: the array that the build made of shaders/<effect>/<pass>. */
 #define VIRGA_SPIRV(name) ((virga_spirv){name##_spv, sizeof name##_spv})
 
-virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
-                                           const char *name, virga_pipeline **pipeline);
+/* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one. */
+typedef struct virga_compute_def {
+    virga_spirv shader;
+    VkPipelineLayout layout;
+    uint32_t constant;
+    virga_pipeline_group *group; /* (optional) */
+    const char *name;            /* static */
+} virga_compute_def;
 
-/* The same, with specialisation constant 0 where the shader has one. */
-virga_result virga_compute_pipeline_special(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
-                                            uint32_t constant, const char *name, virga_pipeline **pipeline);
+virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
+                                           virga_pipeline **pipeline);
 
 /* A row of an effect's table of compute passes. */
 typedef struct virga_compute_row {
@@ -209,32 +228,65 @@ typedef struct virga_compute_row {
 
 /* As virga_buffers_create and virga_buffers_retire. */
 virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout,
-                                            const virga_compute_row *rows, uint32_t count);
+                                            virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count);
 void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
 
-/* What a graphics pipeline of ours varies in. */
+/* What a graphics pipeline of ours varies in. Holds no pointer that must outlive the call. */
 typedef struct virga_graphics_def {
     virga_spirv vertex, fragment;
     VkPipelineLayout layout;
-    VkRenderPass render_pass;
+    VkRenderPass render_pass; /* null: dynamic rendering into these formats */
     uint32_t subpass;
-    const void *next;       /* chain for dynamic rendering */
+    VkFormat color_format, depth_format, stencil_format;
     uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
     uint32_t color_count;   /* those beyond the first are not written */
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
-    bool cull_back;         /* counter-clockwise on the picture is the front */
+    bool cull_back;    /* counter-clockwise on the picture is the front */
     uint32_t constant; /* specialisation constant 0 of the fragment shader, where it has one */
     VkSampleCountFlagBits samples;
-    const char *name;
+    virga_pipeline_group *group; /* (optional) */
+    const char *name;            /* static */
 } virga_graphics_def;
 
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **pipeline);
 
+/* Builds one pipeline: touches the device and nothing of the context's own, so that any thread may call it. `call` gets
+ * the name of the call that failed. */
+VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
+                             const char **call);
+VkResult virga_graphics_build(const virga_context *context, const virga_graphics_def *def, VkPipeline *pipeline,
+                              const char **call);
+
 /* The context's pipeline cache, from a blob of virga_pipeline_cache_get (or NULL). One that is not whole or from
  * another driver or device is ignored, with a line. */
 virga_result virga_pipeline_cache_create(virga_context *context, const void *blob, size_t size);
+
+/* ---- builds.c: when pipelines are built - at once, in steps, or by the host's jobs */
+
+/* Builds at once or queues, as the context was told. Exactly one of the two definitions is given; they are copied. On
+ * failure the pipeline stays its owner's, to be let go of. */
+virga_result virga_pipeline_ask(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
+                                const virga_graphics_def *graphics);
+
+/* VIRGA_OK: all may be bound. VIRGA_NOT_READY: waits to be built. Else why it never will be. */
+virga_result virga_pipelines_ready(const virga_pipeline *const *pipelines, uint32_t count);
+virga_result virga_group_ready(const virga_pipeline_group *group);
+
+/* Takes in what was built since; the first failure among it, which it logs. On the API's thread. */
+virga_result virga_builds_collect(virga_context *context);
+
+/* A pipeline dies before it was built. */
+void virga_build_disown(virga_context *context, virga_pipeline *pipeline);
+
+/* Keeps builds that nobody wants any more from starting; true where a job still runs, so that what its pipeline is made
+ * of must stay. */
+bool virga_builds_hold(virga_context *context);
+
+/* Frees all of them, with the context: no job may run any more. */
+void virga_builds_free(virga_context *context);
+
 /* ---- bindings.c: one set of bindings an effect, the same for all of its passes */
 
 #define VIRGA_MAX_BINDINGS 32

@@ -119,7 +119,7 @@ error:
     return result;
 }
 
-static virga_result create_pipelines(virga_context *context, virga_mesh_map *map)
+static virga_result create_pipelines(virga_context *context, virga_pipeline_group *group, virga_mesh_map *map)
 {
     virga_result result = VIRGA_OK;
     const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
@@ -136,6 +136,7 @@ static virga_result create_pipelines(virga_context *context, virga_mesh_map *map
                               .color_count = 1,
                               .depth_test = true,
                               .depth_write = true,
+                              .group = group,
                               .name = map->name};
     for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++) {
         def.vertex_stride = map->strides[i];
@@ -147,7 +148,8 @@ error:
 }
 
 virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
-                                   const uint32_t strides[VIRGA_MAP_STRIDES], const char *name, virga_mesh_map **map)
+                                   const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
+                                   virga_pipeline_group *group, virga_mesh_map **map)
 {
     virga_result result = VIRGA_OK;
     virga_mesh_map *made = virga_alloc(&context->heap, sizeof *made);
@@ -163,7 +165,7 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
     if (size) {
         TRY(create_pass(context, made));
         TRY(create_framebuffers(context, made));
-        TRY(create_pipelines(context, made));
+        TRY(create_pipelines(context, group, made));
     }
     *map = made;
     return VIRGA_OK;

@@ -39,7 +39,8 @@ typedef struct virga_map_view {
 /* Images of size x size texels (0: one texel that nothing is drawn into), a pipeline for each vertex stride that is
  * not 0. */
 virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
-                                   const uint32_t strides[VIRGA_MAP_STRIDES], const char *name, virga_mesh_map **map);
+                                   const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
+                                   virga_pipeline_group *group, virga_mesh_map **map);
 void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map);
 
 /* Layouts that descriptors promise, before anything was drawn. */

@@ -6,6 +6,7 @@
 static void pipeline_destroy(virga_context *context, virga_resource *resource)
 {
     virga_pipeline *pipeline = (virga_pipeline *)resource;
+    virga_build_disown(context, pipeline);
     if (pipeline->pipeline) {
         context->vk.DestroyPipeline(context->device, pipeline->pipeline, NULL);
         context->objects--;
@@ -13,69 +14,84 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
     virga_free(&context->heap, pipeline);
 }
 
-static virga_result module_create(virga_context *context, virga_spirv shader, VkShaderModule *module)
+/* A pipeline of that name, built or asked for. */
+static virga_result pipeline_create(virga_context *context, const char *name, virga_pipeline_group *group,
+                                    const virga_compute_def *compute, const virga_graphics_def *graphics,
+                                    virga_pipeline **created)
 {
-    virga_result result = VIRGA_OK;
-    const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = shader.size, .pCode = shader.code};
-    VK_TRY(context, CreateShaderModule(context->device, &info, NULL, module));
-error:
+    virga_pipeline *pipeline = virga_alloc(&context->heap, sizeof *pipeline);
+    if (!pipeline)
+        return virga_out_of_host_memory(context, name);
+    pipeline->resource.destroy = pipeline_destroy;
+    pipeline->name = name;
+    pipeline->group = group;
+    const virga_result result = virga_pipeline_ask(context, pipeline, compute, graphics);
+    if (result)
+        pipeline_destroy(context, &pipeline->resource);
+    else
+        *created = pipeline;
     return result;
 }
 
-static virga_result pipeline_object(virga_context *context, const char *name, virga_pipeline **pipeline)
+virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
+                                           virga_pipeline **pipeline)
 {
-    *pipeline = virga_alloc(&context->heap, sizeof **pipeline);
-    if (!*pipeline)
-        return virga_out_of_host_memory(context, name);
-    (*pipeline)->resource.destroy = pipeline_destroy;
-    return VIRGA_OK;
+    return pipeline_create(context, def->name, def->group, def, NULL, pipeline);
 }
 
-virga_result virga_compute_pipeline_create(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
-                                           const char *name, virga_pipeline **created)
+virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
+                                            virga_pipeline **pipeline)
 {
-    return virga_compute_pipeline_special(context, shader, layout, 0, name, created);
+    return pipeline_create(context, def->name, def->group, NULL, def, pipeline);
 }
 
-virga_result virga_compute_pipeline_special(virga_context *context, virga_spirv shader, VkPipelineLayout layout,
-                                            uint32_t constant, const char *name, virga_pipeline **created)
+static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
+                              const char **call)
 {
-    const VkSpecializationMapEntry entry = {0, 0, sizeof constant};
-    const VkSpecializationInfo constants = {1, &entry, sizeof constant, &constant};
-    VkShaderModule module = VK_NULL_HANDLE;
-    virga_pipeline *pipeline = NULL;
-    virga_result result = pipeline_object(context, name, &pipeline);
-    if (result)
-        return result;
-    TRY(module_create(context, shader, &module));
-    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                                                        .module = module,
-                                                        .pName = "main",
-                                                        .pSpecializationInfo = &constants},
-                                              .layout = layout};
-    VK_TRY(context,
-           CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, &pipeline->pipeline));
-    context->objects++;
-    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, name);
-    *created = pipeline;
-    pipeline = NULL;
-error:
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = shader.size, .pCode = shader.code};
+    *call = "vkCreateShaderModule";
+    return context->vk.CreateShaderModule(context->device, &info, NULL, module);
+}
+
+static void module_destroy(const virga_context *context, VkShaderModule module)
+{
     if (module)
         context->vk.DestroyShaderModule(context->device, module, NULL);
-    if (pipeline)
-        pipeline_destroy(context, &pipeline->resource);
+}
+
+VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
+                             const char **call)
+{
+    const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
+    const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};
+    VkShaderModule module = VK_NULL_HANDLE;
+    VkResult result = module_create(context, def->shader, &module, call);
+    if (result == VK_SUCCESS) {
+        const VkComputePipelineCreateInfo info = {
+            .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+            .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                      .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                      .module = module,
+                      .pName = "main",
+                      .pSpecializationInfo = &constants},
+            .layout = def->layout};
+        *call = "vkCreateComputePipelines";
+        result = context->vk.CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, pipeline);
+    }
+    module_destroy(context, module);
     return result;
 }
 
 virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout,
-                                            const virga_compute_row *rows, uint32_t count)
+                                            virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count)
 {
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < count; i++)
-        TRY(virga_compute_pipeline_create(context, rows[i].shader, layout, rows[i].name, rows[i].pipeline));
+    for (uint32_t i = 0; i < count; i++) {
+        const virga_compute_def def = {
+            .shader = rows[i].shader, .layout = layout, .group = group, .name = rows[i].name};
+        TRY(virga_compute_pipeline_create(context, &def, rows[i].pipeline));
+    }
 error:
     return result;
 }
@@ -101,6 +117,8 @@ typedef struct graphics_state {
     VkPipelineColorBlendStateCreateInfo blend;
     VkDynamicState dynamics[2];
     VkPipelineDynamicStateCreateInfo dynamic;
+    VkFormat color_formats[8];
+    VkPipelineRenderingCreateInfo rendering;
 } graphics_state;
 
 static void describe_blend(const virga_graphics_def *def, graphics_state *state)
@@ -143,11 +161,11 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
 {
     state->viewport = (VkPipelineViewportStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    state->raster =
-        (VkPipelineRasterizationStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-                                                 .polygonMode = VK_POLYGON_MODE_FILL,
-                                                 .cullMode = (VkCullModeFlags)(def->cull_back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-                                                 .lineWidth = 1};
+    state->raster = (VkPipelineRasterizationStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = (VkCullModeFlags)(def->cull_back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+        .lineWidth = 1};
     state->multisample = (VkPipelineMultisampleStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = def->samples ? def->samples : VK_SAMPLE_COUNT_1_BIT};
@@ -163,14 +181,27 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
                                                         .pDynamicStates = state->dynamics};
 }
 
+/* What is drawn into, where no render pass says it. */
+static void describe_rendering(const virga_graphics_def *def, graphics_state *state)
+{
+    memset(state->color_formats, 0, sizeof state->color_formats);
+    state->color_formats[0] = def->color_format;
+    state->rendering = (VkPipelineRenderingCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                                                       .colorAttachmentCount = def->color_count,
+                                                       .pColorAttachmentFormats = state->color_formats,
+                                                       .depthAttachmentFormat = def->depth_format,
+                                                       .stencilAttachmentFormat = def->stencil_format};
+}
+
 static VkGraphicsPipelineCreateInfo describe(const virga_graphics_def *def, graphics_state *state,
                                              const VkPipelineShaderStageCreateInfo stages[2])
 {
     describe_input(def, state);
     describe_raster(def, state);
     describe_blend(def, state);
+    describe_rendering(def, state);
     return (VkGraphicsPipelineCreateInfo){.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                          .pNext = def->next,
+                                          .pNext = def->render_pass ? NULL : &state->rendering,
                                           .stageCount = 2,
                                           .pStages = stages,
                                           .pVertexInputState = &state->input,
@@ -186,19 +217,16 @@ static VkGraphicsPipelineCreateInfo describe(const virga_graphics_def *def, grap
                                           .subpass = def->subpass};
 }
 
-virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
-                                            virga_pipeline **created)
+VkResult virga_graphics_build(const virga_context *context, const virga_graphics_def *def, VkPipeline *pipeline,
+                              const char **call)
 {
     VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
-    virga_pipeline *pipeline = NULL;
-    virga_result result = pipeline_object(context, def->name, &pipeline);
-    if (result)
-        return result;
-    TRY(module_create(context, def->vertex, &modules[0]));
-    TRY(module_create(context, def->fragment, &modules[1]));
     VkPipelineShaderStageCreateInfo stages[2];
     const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
     const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};
+    VkResult result = module_create(context, def->vertex, &modules[0], call);
+    if (result == VK_SUCCESS)
+        result = module_create(context, def->fragment, &modules[1], call);
     for (int i = 0; i < 2; i++)
         stages[i] =
             (VkPipelineShaderStageCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -206,20 +234,15 @@ virga_result virga_graphics_pipeline_create(virga_context *context, const virga_
                                               .module = modules[i],
                                               .pName = "main",
                                               .pSpecializationInfo = i ? &constants : NULL};
-    graphics_state state;
-    const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);
-    VK_TRY(context,
-           CreateGraphicsPipelines(context->device, context->pipeline_cache, 1, &info, NULL, &pipeline->pipeline));
-    context->objects++;
-    virga_set_name(context, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline, def->name);
-    *created = pipeline;
-    pipeline = NULL;
-error:
+    if (result == VK_SUCCESS) {
+        graphics_state state;
+        const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);
+        *call = "vkCreateGraphicsPipelines";
+        result =
+            context->vk.CreateGraphicsPipelines(context->device, context->pipeline_cache, 1, &info, NULL, pipeline);
+    }
     for (int i = 0; i < 2; i++)
-        if (modules[i])
-            context->vk.DestroyShaderModule(context->device, modules[i], NULL);
-    if (pipeline)
-        pipeline_destroy(context, &pipeline->resource);
+        module_destroy(context, modules[i]);
     return result;
 }
 

@@ -246,6 +246,7 @@ error:
 void virga_retire(virga_context *context, virga_resource *resource)
 {
     resource->last_frame = context->frame_index;
+    resource->retired = true;
     resource->next = context->graveyard;
     context->graveyard = resource;
     /* No device work is under way, so nothing has to wait: memory is free for what is made next, a create that failed
@@ -256,6 +257,9 @@ void virga_retire(virga_context *context, virga_resource *resource)
 
 void virga_graveyard_sweep(virga_context *context, bool all)
 {
+    /* A pipeline that is being built on another thread reads its layout, which may lie here. */
+    if (virga_builds_hold(context) && !all)
+        return;
     virga_resource **at = &context->graveyard;
     while (*at) {
         virga_resource *resource = *at;

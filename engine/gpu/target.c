@@ -60,21 +60,18 @@ void virga_target_destroy(virga_target **target)
 
 virga_result virga_target_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline)
 {
-    VkFormat formats[8] = {target->def.color_format};
-    const VkPipelineRenderingCreateInfo rendering = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                     .colorAttachmentCount = target->def.color_count,
-                                                     .pColorAttachmentFormats = formats,
-                                                     .depthAttachmentFormat = target->def.depth_format,
-                                                     .stencilAttachmentFormat = target->def.stencil_format};
-    def.color_count = target->def.color_count;
-    def.samples = target->def.samples;
-    def.depth_test = def.depth_test && target->def.depth_attached;
-    def.reversed_depth = target->def.reversed_depth;
-    if (target->def.kind == VIRGA_TARGET_DYNAMIC) {
-        def.next = &rendering;
+    const virga_target_def *into = &target->def;
+    def.color_count = into->color_count;
+    def.samples = into->samples;
+    def.depth_test = def.depth_test && into->depth_attached;
+    def.reversed_depth = into->reversed_depth;
+    if (into->kind == VIRGA_TARGET_DYNAMIC) {
+        def.color_format = into->color_format;
+        def.depth_format = into->depth_format;
+        def.stencil_format = into->stencil_format;
     } else {
-        def.render_pass = target->def.render_pass;
-        def.subpass = target->def.subpass;
+        def.render_pass = into->render_pass;
+        def.subpass = into->subpass;
     }
     return virga_graphics_pipeline_create(target->context, &def, pipeline);
 }

@@ -119,8 +119,7 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->landings,
          ((VkDeviceSize)ground->def.max_impacts + ground->def.max_returns) * sizeof(virga_landing_gpu), storage,
          VIRGA_HEAP_DEVICE, "ground.landings"},
-        {&ground->spawns,
-         sizeof(virga_spawns_gpu) + (VkDeviceSize)ground->def.max_spawns * sizeof(virga_spawn_gpu),
+        {&ground->spawns, sizeof(virga_spawns_gpu) + (VkDeviceSize)ground->def.max_spawns * sizeof(virga_spawn_gpu),
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "ground.spawns"},
         {&ground->no_rules, sizeof(virga_splash_rules_gpu),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_DEVICE, "ground.no_rules"},
@@ -148,7 +147,7 @@ static virga_result create_images(virga_ground *ground)
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.spot_map", &ground->spot_map));
     TRY(virga_image_create(ground->context, VK_FORMAT_R8_UINT, (VkExtent2D){1, 1}, 1, VK_IMAGE_USAGE_SAMPLED_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.blank_materials", &ground->blank_materials));
-    TRY(virga_mesh_map_create(ground->context, cells, 1, ground->def.occluder_strides, "ground.survey",
+    TRY(virga_mesh_map_create(ground->context, cells, 1, ground->def.occluder_strides, "ground.survey", &ground->needed,
                               &ground->survey));
 error:
     return result;
@@ -194,9 +193,8 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
     const VkSampler nearest = ground->context->nearest;
     const virga_ground_step_info *info = &ground->info;
     const bool returns = source == GROUND_RETURNS, mapped = info->materials.image.view != VK_NULL_HANDLE;
-    const virga_bound rules = {.buffer = info->splash_rules,
-                               .offset = info->splash_rules_offset,
-                               .range = sizeof(virga_splash_rules_gpu)};
+    const virga_bound rules = {
+        .buffer = info->splash_rules, .offset = info->splash_rules_offset, .range = sizeof(virga_splash_rules_gpu)};
     const virga_bound bound[BINDINGS] = {
         {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
         {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
@@ -250,7 +248,7 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
     };
-    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, passes,
+    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, &ground->needed, passes,
                                           sizeof passes / sizeof passes[0]);
 }
 
@@ -267,7 +265,7 @@ static virga_result init(virga_ground *ground)
     TRY(create_images(ground));
     TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2 * GROUND_SOURCES, 0, &ground->bindings));
     TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, (double)ground->def.ripple_texel_m,
-                              ground->bindings->layout, &ground->ripples));
+                              ground->bindings->layout, &ground->needed, &ground->ripples));
     TRY(create_pipelines(ground));
 error:
     return result;
@@ -310,16 +308,15 @@ void virga_ground_destroy(virga_ground **ground)
         return;
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
-    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,  &dying->land, &dying->share, &dying->soak,
-                                    &dying->flow,  &dying->measure, &dying->map,  &dying->ring,
-                                    &dying->spawn_find, &dying->spawn_scan};
+    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,     &dying->land,      &dying->share,
+                                    &dying->soak,  &dying->flow,       &dying->measure,   &dying->map,
+                                    &dying->ring,  &dying->spawn_find, &dying->spawn_scan};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->floors,    &dying->cells[0],     &dying->cells[1],   &dying->arrivals,
-                                &dying->spots,     &dying->kept_cells,   &dying->kept_spots, &dying->counts,
-                                &dying->landings,  &dying->rings,        &dying->stirs,      &dying->tick_ring,
-                                &dying->list_ring, &dying->readback_ring,
-                                &dying->spawns,    &dying->no_rules};
+    virga_buffer **buffers[] = {&dying->floors,    &dying->cells[0],      &dying->cells[1],   &dying->arrivals,
+                                &dying->spots,     &dying->kept_cells,    &dying->kept_spots, &dying->counts,
+                                &dying->landings,  &dying->rings,         &dying->stirs,      &dying->tick_ring,
+                                &dying->list_ring, &dying->readback_ring, &dying->spawns,     &dying->no_rules};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);
@@ -332,6 +329,13 @@ void virga_ground_destroy(virga_ground **ground)
     context->effects--;
     virga_free(&context->heap, dying);
     *ground = NULL;
+}
+
+virga_result virga_ground_ready(const virga_ground *ground)
+{
+    return !ground                 ? VIRGA_ERROR_INVALID
+           : ground->context->lost ? VIRGA_ERROR_DEVICE_LOST
+                                   : virga_group_ready(&ground->needed);
 }
 
 virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings)

@@ -70,7 +70,7 @@ typedef struct ground_ripples {
     virga_pipeline *pipeline;
 } ground_ripples;
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout, virga_pipeline_group *group,
                                    ground_ripples **ripples);
 void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
@@ -112,6 +112,7 @@ struct virga_ground {
     double ripple_low_m[2]; /* in the world */
     uint32_t last_tick;
     virga_bindings *bindings;
+    virga_pipeline_group needed; /* for all of it */
     virga_pipeline *adopt, *forget, *spawn_find, *spawn_scan, *land, *share, *soak, *flow, *measure, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 

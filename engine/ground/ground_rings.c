@@ -92,7 +92,7 @@ error:
     return result;
 }
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout, virga_pipeline_group *group,
                                    ground_ripples **ripples)
 {
     virga_result result = VIRGA_OK;
@@ -112,6 +112,7 @@ virga_result ground_ripples_create(virga_context *context, uint32_t texels, doub
                                     .render_pass = made->pass,
                                     .color_count = 1,
                                     .blend_add = true,
+                                    .group = group,
                                     .name = "ground.ripples"};
     TRY(virga_graphics_pipeline_create(context, &def, &made->pipeline));
     *ripples = made;

@@ -452,7 +452,9 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_finite_double(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
         virga_settings_finite_double(log, "step_info.materials.high_m", info->materials.high_m, 2))
         return VIRGA_ERROR_INVALID;
-    return virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
+    const virga_result result =
+        virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
+    return result ? result : virga_group_ready(&ground->needed);
 }
 
 virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)

@@ -133,8 +133,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
     return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
                     (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps +
-           def.max_panes * rain_hits_bytes() +
+           (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps + def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
@@ -255,7 +254,7 @@ static virga_result init(virga_rain *rain)
                            &rain->blank_wind));
     TRY(rain_occlusion_create(rain));
     TRY(rain_descriptors_create(rain));
-    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, passes, PASSES));
+    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, &rain->needed, passes, PASSES));
 error:
     return result;
 }
@@ -476,6 +475,13 @@ void virga_rain_get(const virga_rain *rain, virga_rain_settings *settings)
 }
 
 /* ---- what others read */
+
+virga_result virga_rain_ready(const virga_rain *rain)
+{
+    return !rain                 ? VIRGA_ERROR_INVALID
+           : rain->context->lost ? VIRGA_ERROR_DEVICE_LOST
+                                 : virga_group_ready(&rain->needed);
+}
 
 void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *impacts)
 {

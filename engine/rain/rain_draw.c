@@ -126,10 +126,12 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
         return virga_wrong_argument(&rain->context->log, "virga_rain_prepare: NULL argument");
     if (rain->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    const virga_result result = virga_view_check(&rain->context->log, view, time_s);
+    rain->prepared = false;
+    virga_result result = virga_view_check(&rain->context->log, view, time_s);
+    if (!result)
+        result = virga_group_ready(&rain->needed);
     if (result)
         return result;
-    rain->prepared = false;
     if (!rain->stepped || view->viewport[2] < 1 || view->viewport[3] < 1)
         return VIRGA_NOT_READY;
     rain_begin_frame(rain, cmd);
@@ -237,6 +239,10 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     const rain_target *found = find_target(rain, target->serial);
     if (!found || !rain->prepared)
         return VIRGA_NOT_READY;
+    const virga_pipeline *used[] = {found->haze, found->thin[rain->prepared_depth], found->wide[rain->prepared_depth]};
+    const virga_result result = virga_pipelines_ready(used, 3);
+    if (result)
+        return result;
     virga_context *context = rain->context;
     const float *box = rain->prepared_viewport;
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};

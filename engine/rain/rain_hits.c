@@ -37,7 +37,7 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
     if (rain->hits_frame == rain->context->frame_index && rain->hits_panes >= rain->def.max_panes)
         return virga_wrong_argument(log, "virga_rain_hits: more than rain_def.max_panes = %u in a frame",
                                     rain->def.max_panes);
-    return VIRGA_OK;
+    return virga_group_ready(&rain->needed);
 }
 
 /* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of

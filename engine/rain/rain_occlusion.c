@@ -108,7 +108,7 @@ virga_result rain_occlusion_create(virga_rain *rain)
 {
     return virga_mesh_map_create(rain->context, rain->def.occlusion_size,
                                  rain->def.occlusion_cascades * rain->def.occlusion_slants, rain->def.occluder_strides,
-                                 "rain.map", &rain->map);
+                                 "rain.map", &rain->needed, &rain->map);
 }
 
 static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, const double camera_m[3],
@@ -153,6 +153,8 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
     if (!cmd || !camera_m || (count && !occluders))
         return virga_wrong_argument(&rain->context->log, "virga_rain_occlusion: NULL argument");
     result = virga_mesh_map_check(rain->context, rain->map, occluders, count);
+    if (!result)
+        result = virga_group_ready(&rain->needed);
     if (result)
         return result;
     rain_begin_frame(rain, cmd);

@@ -272,7 +272,7 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
         return virga_wrong_argument(log, "step_info.camera_m: expected less than 1e9 m from the origin");
     if (rain->ring_frame == rain->context->frame_index && rain->ring_ticks >= rain->def.max_ticks_per_step)
         return virga_wrong_argument(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
-    return VIRGA_OK;
+    return virga_group_ready(&rain->needed);
 }
 
 /* Copies the heads of the buffers to where the host reads them when the frame has completed. */

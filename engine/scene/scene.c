@@ -263,11 +263,28 @@ static virga_result prepare(virga_scene *scene, VkCommandBuffer cmd, const virga
     return result < 0 ? result : worst(result, virga_rain_prepare(scene->rain, cmd, view, time_s));
 }
 
+virga_result virga_scene_ready(const virga_scene *scene)
+{
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    virga_result result = virga_rain_ready(scene->rain);
+    if (scene->ground)
+        result = worst(result, virga_ground_ready(scene->ground));
+    if (scene->splash)
+        result = worst(result, virga_splash_ready(scene->splash));
+    for (uint32_t i = 0; i < scene->pane_count; i++)
+        result = worst(result, virga_glass_ready(scene->panes[i]));
+    return result;
+}
+
 virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     if (!scene || !frame)
         return VIRGA_ERROR_INVALID;
-    virga_result result = VIRGA_OK;
+    /* Rain that falls while its ground is not there yet would make a run depend on how fast pipelines were built. */
+    virga_result result = virga_scene_ready(scene);
+    if (result)
+        return result;
     if (frame->occluders)
         result = virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
     virga_rain_step_info step = {.dt_s = frame->dt_s};

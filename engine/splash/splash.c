@@ -78,8 +78,7 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     *def = *given;
     def->max_splashes =
         power_of_two(virga_clamp_setting_u32(log, "splash_def.max_splashes", def->max_splashes, 256, 1048576, NULL));
-    def->max_droplets =
-        virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL);
+    def->max_droplets = virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL);
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
     def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
@@ -125,9 +124,8 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
     return sizeof(virga_splash_state_gpu) + (VkDeviceSize)def.max_splashes * sizeof(virga_splash_gpu) +
            (VkDeviceSize)def.max_droplets * (2 * sizeof(virga_droplet_gpu) + 1) + (VkDeviceSize)def.max_spawns * 8 +
            (VkDeviceSize)def.max_returns * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
-               (def.max_ticks_per_step * splash_tick_bytes() + splash_rules_bytes() +
-                SPLASH_MAX_VIEWS * splash_view_bytes()) +
+           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * splash_tick_bytes() +
+                                                       splash_rules_bytes() + SPLASH_MAX_VIEWS * splash_view_bytes()) +
            VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def.max_droplets + def.max_splashes)) +
            (VkDeviceSize)splash_max_sprites(&def) * (sizeof(virga_sprite_gpu) + 4) + splash_index_bytes(&def);
 }
@@ -199,22 +197,22 @@ static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
 
 /* As in shaders/splash: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 tick */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 1 view */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 2 rules */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 3 spawns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 4 state */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 5 splashes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 6 droplets */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 marks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 places */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 returns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 10 picks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 11 lists */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 12 droplets that stay */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},         /* 13 sprites */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 14 prepared */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 15 indices */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 tick */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 1 view */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 2 rules */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 spawns */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 4 state */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 5 splashes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 6 droplets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 marks */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 places */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 returns */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 10 picks */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 11 lists */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 12 droplets that stay */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 13 sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 14 prepared */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 15 indices */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 scene depth */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene colour */
 };
@@ -232,8 +230,7 @@ static virga_bound image_or_blank(const virga_image *image, const virga_image_2d
     const bool given = image && image->view;
     return (virga_bound){.sampler = sampler,
                          .view = given ? image->view : blank->layer_views[0],
-                         .image_layout =
-                             given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+                         .image_layout = given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
 /* Not every device filters four whole floats. */
@@ -295,7 +292,7 @@ static virga_result init(virga_splash *splash)
     TRY(virga_image_create(splash->context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
                            "splash.blank_color", &splash->blank_color));
     TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
-    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, passes, PASSES));
+    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, &splash->needed, passes, PASSES));
 error:
     return result;
 }
@@ -350,6 +347,13 @@ void virga_splash_destroy(virga_splash **splash)
     context->effects--;
     virga_free(&context->heap, dying);
     *splash = NULL;
+}
+
+virga_result virga_splash_ready(const virga_splash *splash)
+{
+    return !splash                 ? VIRGA_ERROR_INVALID
+           : splash->context->lost ? VIRGA_ERROR_DEVICE_LOST
+                                   : virga_group_ready(&splash->needed);
 }
 
 /* ---- settings */
@@ -436,8 +440,7 @@ void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
     if (!splash->context->frame_index)
         return;
     splash_push_rules(splash);
-    *rules =
-        (virga_splash_buffer){splash->rules_ring->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
+    *rules = (virga_splash_buffer){splash->rules_ring->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
 }
 
 void virga_splash_returns(const virga_splash *splash, virga_splash_buffer *returns)

@@ -119,7 +119,9 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     splash->prepared = false;
-    const virga_result result = virga_view_check(&context->log, view, time_s);
+    virga_result result = virga_view_check(&context->log, view, time_s);
+    if (!result)
+        result = virga_group_ready(&splash->needed);
     if (result)
         return result;
     if (!splash->ticks || view->viewport[2] < 1 || view->viewport[3] < 1)
@@ -235,22 +237,26 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     /* What was prepared for an earlier frame or step is not what the buffers hold now. */
     if (!found || !splash->prepared || splash->view_frame != context->frame_index)
         return VIRGA_NOT_READY;
+    const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
+    const int depth = splash->prepared_depth;
+    const virga_pipeline *used[] = {found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
+                                    found->draws[film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES][depth],
+                                    found->draws[SPLASH_DRAW_THIN][depth]};
+    const virga_result result = virga_pipelines_ready(used, 3);
+    if (result)
+        return result;
     const float *box = splash->prepared_viewport;
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
     const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
                               {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
-    const int depth = splash->prepared_depth;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->prepared_set);
     context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
-    draw(splash, cmd, found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
-         offsetof(virga_splash_prepared_gpu, crowns));
-    draw(splash, cmd, found->draws[film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES][depth],
-         offsetof(virga_splash_prepared_gpu, wide));
-    draw(splash, cmd, found->draws[SPLASH_DRAW_THIN][depth], offsetof(virga_splash_prepared_gpu, thin));
+    draw(splash, cmd, used[0], offsetof(virga_splash_prepared_gpu, crowns));
+    draw(splash, cmd, used[1], offsetof(virga_splash_prepared_gpu, wide));
+    draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

@@ -62,6 +62,7 @@ struct virga_splash {
     virga_buffer *tick_ring, *rules_ring, *view_ring, *readback_ring;
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
+    virga_pipeline_group needed; /* for all but the draws */
     virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices;
     virga_pipeline *few_find, *droplet_find, *splash_find, *view_scan, *view_list, *sprite_write;
     splash_target targets[SPLASH_MAX_TARGETS];

@@ -267,7 +267,7 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
     if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
         return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
+    return virga_group_ready(&splash->needed);
 }
 
 virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)

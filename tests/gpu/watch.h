@@ -55,6 +55,8 @@ static struct watch {
     const void *cache_data; /* what the newest pipeline cache was made of */
     size_t cache_size;
 
+    void (*before_pipeline)(void); /* called on the thread that makes one, before it does */
+
     const char *hidden; /* a function that the instance does not know */
     void (*lie_properties)(VkPhysicalDeviceProperties *properties);
     void (*lie_features)(VkPhysicalDeviceFeatures2 *features);
@@ -150,6 +152,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice devi
     memset(pipelines, 0, count * sizeof *pipelines); /* as Vulkan has it where one fails */
     if (watch_fails("vkCreateComputePipelines"))
         return watch.failure;
+    if (watch.before_pipeline)
+        watch.before_pipeline();
     const VkResult result = vkCreateComputePipelines(device, cache, count, infos, allocator, pipelines);
     for (uint32_t i = 0; i < count; i++)
         watch_count(WATCH_Pipeline, result);
@@ -165,6 +169,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateGraphicsPipelines(VkDevice dev
     memset(pipelines, 0, count * sizeof *pipelines);
     if (watch_fails("vkCreateGraphicsPipelines"))
         return watch.failure;
+    if (watch.before_pipeline)
+        watch.before_pipeline();
     const VkResult result = vkCreateGraphicsPipelines(device, cache, count, infos, allocator, pipelines);
     for (uint32_t i = 0; i < count; i++)
         watch_count(WATCH_Pipeline, result);

@@ -253,6 +253,10 @@ VIRGA_API void virga_glass_destroy(virga_glass **glass);
  * HOST_MEMORY, DEVICE_MEMORY; nothing changes then. Allocates: not while recording. */
 VIRGA_API virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *shape);
 
+/* Whether its pipelines for stepping and preparing are there, see virga_pipelines_build: VIRGA_OK, VIRGA_NOT_READY, or
+ * why one could not be built. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS always VIRGA_OK. Costs nothing. */
+VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
+
 /* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
  * VIRGA_ERROR_INVALID and nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);

@@ -93,6 +93,10 @@ VIRGA_API virga_result virga_ground_create(virga_context *context, const virga_g
  * have completed. */
 VIRGA_API void virga_ground_destroy(virga_ground **ground);
 
+/* Whether its pipelines for stepping and preparing are there, see virga_pipelines_build: VIRGA_OK, VIRGA_NOT_READY, or
+ * why one could not be built. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS always VIRGA_OK. Costs nothing. */
+VIRGA_API virga_result virga_ground_ready(const virga_ground *ground);
+
 /* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
  * VIRGA_ERROR_INVALID and nothing changes. */
 VIRGA_API virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings);

@@ -101,6 +101,10 @@ VIRGA_API virga_result virga_rain_create(virga_context *context, const virga_rai
  * have completed. */
 VIRGA_API void virga_rain_destroy(virga_rain **rain);
 
+/* Whether its pipelines for stepping and preparing are there, see virga_pipelines_build: VIRGA_OK, VIRGA_NOT_READY, or
+ * why one could not be built. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS always VIRGA_OK. Costs nothing. */
+VIRGA_API virga_result virga_rain_ready(const virga_rain *rain);
+
 /* Takes new settings, at once or eased. Out of range: clamped and logged, and the call returns VIRGA_DEGRADED. NaN,
  * infinite or wrong cookie: VIRGA_ERROR_INVALID and nothing changes. Costs about 0.2 ms when rate or sizes change. */
 VIRGA_API virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *settings);

@@ -83,9 +83,12 @@ typedef struct virga_scene_frame {
                              * Default false */
 } virga_scene_frame;
 
+/* Whether the pipelines of all effects are there for stepping and preparing, see virga_rain_ready. */
+VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
+
 /* Occlusion, rain, ground, splash, panes and prepare, in that order. Panes get the rate, sizes, air and wind of the
- * rain's settings. The worst of their results is returned; VIRGA_ERROR_INVALID for a scene with panes and none in
- * `frame`. */
+ * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready. Else the worst of the
+ * effects' results is returned; VIRGA_ERROR_INVALID for a scene with panes and none in `frame`. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Builds the pipelines of all effects for a target, see virga_rain_attach. */

@@ -115,6 +115,10 @@ VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_s
  * have completed. */
 VIRGA_API void virga_splash_destroy(virga_splash **splash);
 
+/* Whether its pipelines for stepping and preparing are there, see virga_pipelines_build: VIRGA_OK, VIRGA_NOT_READY, or
+ * why one could not be built. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS always VIRGA_OK. Costs nothing. */
+VIRGA_API virga_result virga_splash_ready(const virga_splash *splash);
+
 /* Takes new settings at once; what is in the air keeps what it started with, but wind, air and piles' ends are live. Out of range: clamped, logged,
  * VIRGA_DEGRADED. NaN, infinite or wrong cookie: VIRGA_ERROR_INVALID and nothing changes. */
 VIRGA_API virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings);

@@ -76,6 +76,25 @@ typedef struct virga_device_memory {
     void (*free)(void *user, const virga_memory_block *block);
 } virga_device_memory;
 
+/* When the pipelines of effects are built. A scene of all effects has some 90 (120 with three targets); a driver takes 1
+ * to 80 ms for each that its caches do not know. */
+typedef enum virga_pipelines_when {
+    VIRGA_PIPELINES_AT_ONCE = 0,  /* in create and attach, on their thread, before they return: for loading screens */
+    VIRGA_PIPELINES_IN_STEPS = 1, /* create and attach return at once; virga_pipelines_build builds as many as it is
+                                   * told, e.g. one a frame */
+    VIRGA_PIPELINES_AS_JOBS = 2,  /* create and attach hand each to the host's job system (virga_pipeline_jobs) */
+} virga_pipelines_when;
+
+/* The host's job system. `run` takes a job, which the host calls once as job(data), at any later time (or before `run`
+ * returns) and on any thread, several at once if it likes; each calls the device for a pipeline, takes no lock and
+ * needs about 256 KiB of stack. `run` is called on the thread of create and attach.
+ * A job counts as done when virga_frame_begin or virga_pipelines_build have seen it. All jobs must have returned, or be
+ * forgotten, before virga_context_destroy; effects may be destroyed before theirs have run, which then do nothing. */
+typedef struct virga_pipeline_jobs {
+    void *user;
+    void (*run)(void *user, void (*job)(void *data), void *data);
+} virga_pipeline_jobs;
+
 /* What virga_context_create needs. Fill with virga_default_context_def. */
 typedef struct virga_context_def {
     uint32_t size, cookie; /* set by the default function */
@@ -99,6 +118,9 @@ typedef struct virga_context_def {
 
     const void *pipeline_cache;  /* (optional) a blob from virga_pipeline_cache_get; a stale one is ignored */
     size_t pipeline_cache_size;
+
+    virga_pipelines_when pipelines;    /* default VIRGA_PIPELINES_AT_ONCE */
+    virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
     bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none */
     bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled. Default true */
@@ -124,6 +146,14 @@ VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_
  * statistics of that frame are then there at once. Frees nothing. `completed_index` must not fall, nor pass the newest
  * frame begun (VIRGA_ERROR_INVALID). */
 VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t completed_index);
+
+/* Builds up to `most` of the pipelines that wait (VIRGA_PIPELINES_IN_STEPS, oldest first, on this thread; with jobs it
+ * builds none), and takes in what jobs have built. *left (optional) gets how many are not there yet. While an effect's
+ * pipelines are not there, its calls that record return VIRGA_NOT_READY and record nothing; no simulated time passes.
+ * Returns VIRGA_OK with none left, VIRGA_NOT_READY with some; VULKAN, HOST_MEMORY, DEVICE_MEMORY or DEVICE_LOST where
+ * one could not be built: the effect that it belongs to returns the same from then on. Costs what the driver takes for
+ * the pipelines, and microseconds with most 0. Render passes of targets must live until the pipelines are there. */
+VIRGA_API virga_result virga_pipelines_build(virga_context *context, uint32_t most, uint32_t *left);
 
 /* The pipeline cache: call with data NULL for the size, then with a buffer of *size bytes. */
 VIRGA_API virga_result virga_pipeline_cache_get(virga_context *context, size_t *size, void *data);
