@@ -28,7 +28,8 @@
     X(VIRGA_LOG_PIPELINE_CACHE, "pipeline-cache")     \
     X(VIRGA_LOG_FRAME_ORDER, "frame-order")           \
     X(VIRGA_LOG_TICKS_DROPPED, "ticks-dropped")       \
-    X(VIRGA_LOG_IMPACTS_DROPPED, "impacts-dropped")
+    X(VIRGA_LOG_IMPACTS_DROPPED, "impacts-dropped")   \
+    X(VIRGA_LOG_SHRUNK, "shrunk")
 
 #define RESULT_CASE(value) \
     case value: {          \

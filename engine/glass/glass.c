@@ -277,6 +277,37 @@ error:
     return result;
 }
 
+static virga_result make(virga_context *context, const void *def, void **glass)
+{
+    virga_glass *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "a pane");
+    made->context = context;
+    made->def = *(const virga_glass_def *)def;
+    made->columns = cells_along(made->def.width_m, made->def.cell_m);
+    made->rows = cells_along(made->def.height_m, made->def.cell_m);
+    made->settings = virga_default_glass_settings();
+    context->effects++;
+    const virga_result result = init(made);
+    if (result < 0)
+        virga_glass_destroy(&made);
+    *glass = made;
+    return result;
+}
+
+/* How many drops it holds and how fine its picture is. Its cells stay: they say where drops can be. */
+static virga_result make_in_budget(virga_context *context, virga_glass_def *def, virga_glass **glass)
+{
+    const virga_pool pools[] = {
+        {"max_drops", &def->max_drops, VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP},
+        {"max_texels", &def->max_texels, 64, 1},
+    };
+    void *made = NULL;
+    const virga_result result = virga_make_in_budget(context, "a pane", pools, 2, make, def, &made);
+    *glass = made;
+    return result;
+}
+
 virga_result virga_glass_create(virga_context *context, const virga_glass_def *given, virga_glass **glass)
 {
     if (glass)
@@ -289,25 +320,15 @@ virga_result virga_glass_create(virga_context *context, const virga_glass_def *g
     virga_result result = check_def(&context->log, given, &def);
     if (result)
         return result;
-    virga_glass *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "a pane");
-    made->context = context;
-    made->def = def;
-    made->columns = cells_along(def.width_m, def.cell_m);
-    made->rows = cells_along(def.height_m, def.cell_m);
-    made->settings = virga_default_glass_settings();
-    context->effects++;
-    result = init(made);
-    if (result < 0) {
-        virga_glass_destroy(&made);
+    virga_glass *made = NULL;
+    result = make_in_budget(context, &def, &made);
+    if (result < 0)
         return result;
-    }
     virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
                   "glass: %u x %u cells, up to %u drops, %.1f MB of device memory in use", made->columns, made->rows,
                   made->def.max_drops, (double)context->device_used * 1e-6);
     *glass = made;
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_glass_destroy(virga_glass **glass)

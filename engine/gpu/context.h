@@ -88,6 +88,11 @@ struct virga_context {
     VkPhysicalDeviceProperties properties;
     virga_device_memory device_memory;
     VkDeviceSize memory_budget;
+    VkDeviceSize budget_share; /* of it that may be taken in all for now, 0: all of it */
+    bool share_is_wish;        /* not fitting into the share is not yet worth a line in the log */
+    bool making;      /* an effect, which no frame has used yet */
+    bool may_shrink;  /* if it does not fit into the budget */
+    bool over_budget; /* it did not */
     uint32_t frames_in_flight;
     bool debug_names;
     bool lost;
@@ -146,6 +151,23 @@ virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequire
                                    VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool for_image,
                                    const char *name, virga_memory *memory);
 void virga_memory_release(virga_context *context, virga_memory *memory);
+
+/* ---- budget.c */
+
+#define VIRGA_MAX_POOLS 8
+
+/* A size in an effect's definition that may be smaller than it was asked to be. */
+typedef struct virga_pool {
+    const char *name;
+    uint32_t *size, least;
+    uint32_t unit; /* it stays a multiple of that; 0: a power of two */
+} virga_pool;
+
+/* Makes an effect from its definition, in which the pools lie; with smaller pools, a line in the log and VIRGA_DEGRADED
+ * where it does not fit into the memory budget else. `make` leaves nothing behind where it fails. */
+virga_result virga_make_in_budget(virga_context *context, const char *what, const virga_pool *pools, uint32_t count,
+                                  virga_result (*make)(virga_context *context, const void *def, void **made),
+                                  const void *def, void **made);
 
 /* ---- resources.c */
 

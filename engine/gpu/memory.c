@@ -156,12 +156,22 @@ error:
     return result;
 }
 
+/* What may be taken in all; 0: no limit. */
+static VkDeviceSize budget_now(const virga_context *context)
+{
+    const VkDeviceSize share = context->budget_share;
+    return share && share < context->memory_budget ? share : context->memory_budget;
+}
+
 /* DEVICE_MEMORY where `size` more bytes would pass the budget. */
 static virga_result check_budget(virga_context *context, VkDeviceSize size, const char *name)
 {
-    const VkDeviceSize budget = context->memory_budget, taken = context->device_bytes;
+    const VkDeviceSize budget = budget_now(context), taken = context->device_bytes;
     if (!budget || (taken <= budget && size <= budget - taken))
         return VIRGA_OK;
+    context->over_budget = true;
+    if (context->may_shrink || context->share_is_wish)
+        return VIRGA_ERROR_DEVICE_MEMORY;
     virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY,
                   "%s needs %llu bytes and the budget of %llu bytes has %llu left", name, (unsigned long long)size,
                   (unsigned long long)budget, (unsigned long long)(taken < budget ? budget - taken : 0));
@@ -171,7 +181,7 @@ static virga_result check_budget(virga_context *context, VkDeviceSize size, cons
 /* Size of the page to be made for a request. */
 static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
 {
-    const VkDeviceSize budget = context->memory_budget, own = align_up(need, PAGE_ROUND);
+    const VkDeviceSize budget = budget_now(context), own = align_up(need, PAGE_ROUND);
     VkDeviceSize common = PAGE_BYTES;
     if (budget && budget / PAGE_BUDGET < common)
         common = align_up(budget / PAGE_BUDGET + 1, PAGE_ROUND);

@@ -245,13 +245,13 @@ error:
 
 void virga_retire(virga_context *context, virga_resource *resource)
 {
-    resource->last_frame = context->frame_index;
+    resource->last_frame = context->making ? 0 : context->frame_index;
     resource->retired = true;
     resource->next = context->graveyard;
     context->graveyard = resource;
     /* No device work is under way, so nothing has to wait: memory is free for what is made next, a create that failed
      * half-way leaves nothing behind, and a host that has no more frames gets everything back. */
-    if (context->frame_index == context->completed_index)
+    if (context->making || context->frame_index == context->completed_index)
         virga_graveyard_sweep(context, false);
 }
 

@@ -48,6 +48,12 @@ virga_ground_settings virga_default_ground_settings(void)
     return settings;
 }
 
+/* All of the window twice: a cut of the camera and back loses nothing. */
+static uint32_t least_kept(uint32_t tiles, uint32_t asked)
+{
+    return asked > 2 * tiles * tiles ? asked : 2 * tiles * tiles;
+}
+
 static virga_result check_def(const virga_log *log, const virga_ground_def *given, virga_ground_def *def)
 {
     const virga_result result =
@@ -63,8 +69,7 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
         return virga_wrong_argument(log, "ground_def.cells: expected a power of two, got %u", def->cells);
     def->cell_m = (float)virga_clamp_setting(log, "ground_def.cell_m", (double)def->cell_m, 0.01, 0.1, NULL);
     def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 60000, NULL);
-    const uint32_t tiles = def->cells / VIRGA_GROUND_TILE;
-    def->kept_tiles = def->kept_tiles > 2 * tiles * tiles ? def->kept_tiles : 2 * tiles * tiles;
+    def->kept_tiles = least_kept(def->cells / VIRGA_GROUND_TILE, def->kept_tiles);
     if (virga_settings_finite(log, "ground_def.ripple_texel_m", &def->ripple_texel_m, 1))
         return VIRGA_ERROR_INVALID;
     def->ripple_texels = virga_clamp_setting_u32(log, "ground_def.ripple_texels", def->ripple_texels, 64, 4096, NULL);
@@ -271,6 +276,38 @@ error:
     return result;
 }
 
+static virga_result make(virga_context *context, const void *def, void **ground)
+{
+    virga_ground *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "ground");
+    made->context = context;
+    made->def = *(const virga_ground_def *)def;
+    const uint32_t tiles = made->def.cells / VIRGA_GROUND_TILE;
+    made->def.kept_tiles = least_kept(tiles, made->def.kept_tiles);
+    made->settings = virga_default_ground_settings();
+    context->effects++;
+    const virga_result result = init(made);
+    if (result < 0)
+        virga_ground_destroy(&made);
+    *ground = made;
+    return result;
+}
+
+/* Its window, what it keeps beyond that, and the map of ripples. What it shares with rain and splashes stays. */
+static virga_result make_in_budget(virga_context *context, virga_ground_def *def, virga_ground **ground)
+{
+    const virga_pool pools[] = {
+        {"cells", &def->cells, 128, 0},
+        {"kept_tiles", &def->kept_tiles, 0, 1},
+        {"ripple_texels", &def->ripple_texels, 64, 1},
+    };
+    void *made = NULL;
+    const virga_result result = virga_make_in_budget(context, "the ground", pools, 3, make, def, &made);
+    *ground = made;
+    return result;
+}
+
 virga_result virga_ground_create(virga_context *context, const virga_ground_def *given, virga_ground **ground)
 {
     if (ground)
@@ -283,23 +320,15 @@ virga_result virga_ground_create(virga_context *context, const virga_ground_def 
     virga_result result = check_def(&context->log, given, &def);
     if (result)
         return result;
-    virga_ground *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "ground");
-    made->context = context;
-    made->def = def;
-    made->settings = virga_default_ground_settings();
-    context->effects++;
-    result = init(made);
-    if (result < 0) {
-        virga_ground_destroy(&made);
+    virga_ground *made = NULL;
+    result = make_in_budget(context, &def, &made);
+    if (result < 0)
         return result;
-    }
     virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
-                  "ground: %u x %u cells of %g m, %u tiles kept, %.1f MB of device memory in use", def.cells, def.cells,
-                  (double)def.cell_m, def.kept_tiles, (double)context->device_used * 1e-6);
+                  "ground: %u x %u cells of %g m, %u tiles kept, %.1f MB of device memory in use", made->def.cells,
+                  made->def.cells, (double)made->def.cell_m, made->def.kept_tiles, (double)context->device_used * 1e-6);
     *ground = made;
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_ground_destroy(virga_ground **ground)

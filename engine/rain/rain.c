@@ -259,6 +259,37 @@ error:
     return result;
 }
 
+static virga_result make(virga_context *context, const void *def, void **rain)
+{
+    virga_rain *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "rain");
+    made->context = context;
+    made->def = *(const virga_rain_def *)def;
+    made->settings = virga_default_rain_settings();
+    context->effects++;
+    const virga_result result = init(made);
+    if (result)
+        virga_rain_destroy(&made);
+    *rain = made;
+    return result;
+}
+
+/* The field of drops, what is seen of it, what it hits, and its maps. */
+static virga_result make_in_budget(virga_context *context, virga_rain_def *def, virga_rain **rain)
+{
+    const virga_pool pools[] = {
+        {"max_drops", &def->max_drops, 1024, 1},
+        {"max_streaks", &def->max_streaks, 256, 1},
+        {"max_impacts", &def->max_impacts, 256, 1},
+        {"occlusion_size", &def->occlusion_size, def->occlusion_size < 64 ? def->occlusion_size : 64, 1},
+    };
+    void *made = NULL;
+    const virga_result result = virga_make_in_budget(context, "rain", pools, 4, make, def, &made);
+    *rain = made;
+    return result;
+}
+
 virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain)
 {
     if (rain)
@@ -275,23 +306,15 @@ virga_result virga_rain_create(virga_context *context, const virga_rain_def *def
     const uint32_t texels = context->properties.limits.maxTexelBufferElements;
     checked.max_streaks = virga_clamp_setting_u32(&context->log, "rain_def.max_streaks", checked.max_streaks, 256,
                                                   texels / (uint32_t)(sizeof(virga_streak_gpu) / 16), NULL);
-    virga_rain *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "rain");
-    made->context = context;
-    made->def = checked;
-    made->settings = virga_default_rain_settings();
-    context->effects++;
-    result = init(made);
-    if (result) {
-        virga_rain_destroy(&made);
+    virga_rain *made = NULL;
+    result = make_in_budget(context, &checked, &made);
+    if (result < 0)
         return result;
-    }
     virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
                   "rain: %u slots in %u boxes up to %.4g m wide, %.1f MB of device memory in use", made->slots,
                   made->levels, made->classes->side_m, (double)context->device_used * 1e-6);
     *rain = made;
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_rain_destroy(virga_rain **rain)

@@ -27,7 +27,7 @@ virga_scene_def virga_default_scene_def(void)
 }
 
 /* What must be the same as the rain's is taken from it. */
-static virga_result create_ground(virga_context *context, const virga_scene_def *def, virga_ground **ground)
+static virga_ground_def ground_of(const virga_scene_def *def)
 {
     virga_ground_def taken = def->ground;
     taken.seed = def->rain.seed;
@@ -38,35 +38,120 @@ static virga_result create_ground(virga_context *context, const virga_scene_def 
     taken.max_ticks_per_step = def->rain.max_ticks_per_step;
     for (int i = 0; i < 4; i++)
         taken.occluder_strides[i] = def->rain.occluder_strides[i];
-    return virga_ground_create(context, &taken, ground);
+    return taken;
 }
 
-static virga_result create_splash(virga_context *context, const virga_scene_def *def, virga_splash **splash)
+static virga_splash_def splash_of(const virga_scene_def *def)
 {
     virga_splash_def taken = def->splash;
-    if (!def->with_ground)
-        return virga_wrong_argument(&context->log, "scene_def.with_splash: expected with_ground too");
     taken.tick_s = def->rain.tick_s;
     taken.max_ticks_per_step = def->rain.max_ticks_per_step;
     taken.max_spawns = def->ground.max_spawns;
     taken.max_returns = def->ground.max_returns > taken.max_spawns ? def->ground.max_returns : taken.max_spawns;
-    return virga_splash_create(context, &taken, splash);
+    return taken;
 }
 
-static virga_result create_panes(virga_context *context, const virga_scene_def *def, virga_scene *scene)
+static virga_glass_def pane_of(const virga_scene_def *def, uint32_t index)
 {
+    virga_glass_def taken = def->panes[index];
+    taken.seed = def->rain.seed + index;
+    taken.tick_s = def->rain.tick_s;
+    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
+    return taken;
+}
+
+/* The first error, else the last remark. */
+static virga_result worst(virga_result a, virga_result b)
+{
+    return a < 0 ? a : b ? b : a;
+}
+
+static virga_result check_def(const virga_log *log, const virga_scene_def *def)
+{
+    const virga_result result =
+        virga_settings_check(log, "scene_def", def->size, sizeof *def, def->cookie, SCENE_COOKIE);
+    if (result)
+        return result;
+    if (def->with_splash && !def->with_ground)
+        return virga_wrong_argument(log, "scene_def.with_splash: expected with_ground too");
     if (def->pane_count > VIRGA_SCENE_MAX_PANES || (def->pane_count && !def->panes))
-        return virga_wrong_argument(&context->log,
-                                    "scene_def.pane_count: expected up to %d and as many panes, got %u%s",
+        return virga_wrong_argument(log, "scene_def.pane_count: expected up to %d and as many panes, got %u%s",
                                     VIRGA_SCENE_MAX_PANES, def->pane_count, def->panes ? "" : " and panes NULL");
+    return VIRGA_OK;
+}
+
+/* Parts of a scene, in the order they are made. */
+enum { PART_RAIN, PART_GROUND, PART_SPLASH, PART_PANES };
+
+static VkDeviceSize part_estimate(const virga_scene_def *def, uint32_t part)
+{
+    const virga_ground_def ground = ground_of(def);
+    const virga_splash_def splash = splash_of(def);
+    if (part == PART_RAIN)
+        return virga_rain_estimate(&def->rain);
+    if (part == PART_GROUND)
+        return def->with_ground ? virga_ground_estimate(&ground) : 0;
+    if (part == PART_SPLASH)
+        return def->with_splash ? virga_splash_estimate(&splash) : 0;
+    const virga_glass_def pane = pane_of(def, part - PART_PANES);
+    return virga_glass_estimate(&pane);
+}
+
+VkDeviceSize virga_scene_estimate(const virga_scene_def *def)
+{
+    VkDeviceSize sum = 0;
+    if (!def || check_def(NULL, def))
+        return 0;
+    for (uint32_t part = 0; part < PART_PANES + def->pane_count; part++)
+        sum += part_estimate(def, part);
+    return sum;
+}
+
+static virga_result create_part(virga_scene *scene, const virga_scene_def *def, uint32_t part)
+{
+    virga_context *context = scene->context;
+    const virga_ground_def ground = ground_of(def);
+    const virga_splash_def splash = splash_of(def);
+    if (part == PART_RAIN)
+        return virga_rain_create(context, &def->rain, &scene->rain);
+    if (part == PART_GROUND)
+        return def->with_ground ? virga_ground_create(context, &ground, &scene->ground) : VIRGA_OK;
+    if (part == PART_SPLASH)
+        return def->with_splash ? virga_splash_create(context, &splash, &scene->splash) : VIRGA_OK;
+    const virga_glass_def pane = pane_of(def, part - PART_PANES);
+    const virga_result result = virga_glass_create(context, &pane, &scene->panes[part - PART_PANES]);
+    scene->pane_count += result >= 0;
+    return result;
+}
+
+/* Parts that are still to come keep their share of what the budget has left, by what they ask for: a scene over the
+ * budget is then smaller in all of its parts, instead of having first ones that leave nothing. A share is a wish: a part
+ * whose smallest does not fit into it may have all that is left. */
+static virga_result create_in_share(virga_scene *scene, const virga_scene_def *def, uint32_t part, VkDeviceSize to_come)
+{
+    virga_context *context = scene->context;
+    const VkDeviceSize budget = context->memory_budget, taken = context->device_bytes;
+    const VkDeviceSize left = budget > taken ? budget - taken : 0;
+    if (!budget || to_come <= left)
+        return create_part(scene, def, part);
+    context->budget_share = taken + (VkDeviceSize)((double)left * (double)part_estimate(def, part) / (double)to_come);
+    context->share_is_wish = true;
+    virga_result result = create_part(scene, def, part);
+    context->budget_share = 0;
+    context->share_is_wish = false;
+    if (result == VIRGA_ERROR_DEVICE_MEMORY && context->over_budget)
+        result = create_part(scene, def, part);
+    return result;
+}
+
+static virga_result create_effects(const virga_scene_def *def, virga_scene *scene)
+{
+    const uint32_t parts = PART_PANES + def->pane_count;
+    VkDeviceSize to_come = virga_scene_estimate(def);
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < def->pane_count && result >= 0; i++) {
-        virga_glass_def taken = def->panes[i];
-        taken.seed = def->rain.seed + i;
-        taken.tick_s = def->rain.tick_s;
-        taken.max_ticks_per_step = def->rain.max_ticks_per_step;
-        result = virga_glass_create(context, &taken, &scene->panes[i]);
-        scene->pane_count += result >= 0;
+    for (uint32_t part = 0; part < parts && result >= 0; part++) {
+        result = worst(result, create_in_share(scene, def, part, to_come));
+        to_come -= part_estimate(def, part);
     }
     scene->catching = def->rain.max_panes;
     return result;
@@ -78,21 +163,14 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
         *scene = NULL;
     if (!context || !def || !scene)
         return virga_wrong_argument(context ? &context->log : NULL, "virga_scene_create: NULL argument");
-    virga_result result =
-        virga_settings_check(&context->log, "scene_def", def->size, sizeof *def, def->cookie, SCENE_COOKIE);
+    virga_result result = check_def(&context->log, def);
     if (result)
         return result;
     virga_scene *made = virga_alloc(&context->heap, sizeof *made);
     if (!made)
         return virga_out_of_host_memory(context, "a scene");
     made->context = context;
-    result = virga_rain_create(context, &def->rain, &made->rain);
-    if (result >= 0 && def->with_ground)
-        result = create_ground(context, def, &made->ground);
-    if (result >= 0 && def->with_splash)
-        result = create_splash(context, def, &made->splash);
-    if (result >= 0)
-        result = create_panes(context, def, made);
+    result = create_effects(def, made);
     if (result < 0)
         virga_scene_destroy(&made);
     *scene = made;
@@ -130,12 +208,6 @@ virga_splash *virga_scene_splash(virga_scene *scene)
 virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
 {
     return scene && index < scene->pane_count ? scene->panes[index] : NULL;
-}
-
-/* The first error, else the last remark. */
-static virga_result worst(virga_result a, virga_result b)
-{
-    return a < 0 ? a : b ? b : a;
 }
 
 static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)

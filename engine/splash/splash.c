@@ -297,6 +297,35 @@ error:
     return result;
 }
 
+static virga_result make(virga_context *context, const void *def, void **splash)
+{
+    virga_splash *made = virga_alloc(&context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(context, "splashes");
+    made->context = context;
+    made->def = *(const virga_splash_def *)def;
+    made->settings = virga_default_splash_settings();
+    context->effects++;
+    const virga_result result = init(made);
+    if (result < 0)
+        virga_splash_destroy(&made);
+    *splash = made;
+    return result;
+}
+
+/* What lives at a time. What it shares with the ground stays. */
+static virga_result make_in_budget(virga_context *context, virga_splash_def *def, virga_splash **splash)
+{
+    const virga_pool pools[] = {
+        {"max_splashes", &def->max_splashes, 256, 0},
+        {"max_droplets", &def->max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
+    };
+    void *made = NULL;
+    const virga_result result = virga_make_in_budget(context, "splash", pools, 2, make, def, &made);
+    *splash = made;
+    return result;
+}
+
 virga_result virga_splash_create(virga_context *context, const virga_splash_def *given, virga_splash **splash)
 {
     if (splash)
@@ -309,23 +338,15 @@ virga_result virga_splash_create(virga_context *context, const virga_splash_def 
     virga_result result = check_def(&context->log, given, &def);
     if (result)
         return result;
-    virga_splash *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "splashes");
-    made->context = context;
-    made->def = def;
-    made->settings = virga_default_splash_settings();
-    context->effects++;
-    result = init(made);
-    if (result < 0) {
-        virga_splash_destroy(&made);
+    virga_splash *made = NULL;
+    result = make_in_budget(context, &def, &made);
+    if (result < 0)
         return result;
-    }
     virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
                   "splash: up to %u splashes and %u droplets, %.1f MB of device memory in use", made->def.max_splashes,
                   made->def.max_droplets, (double)context->device_used * 1e-6);
     *splash = made;
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_splash_destroy(virga_splash **splash)

@@ -18,7 +18,7 @@
 
 #include "watch.h"
 
-enum { LOG_IDS = 16 };
+enum { LOG_IDS = 17 };
 
 typedef struct gpu_fixture {
     fixture gpu;

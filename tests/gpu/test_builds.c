@@ -227,14 +227,14 @@ static void definitions_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(steps_build_as_many_as_they_are_told, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(draws_wait_for_their_target, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(jobs_build_on_another_thread, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(jobs_of_a_dead_effect_do_nothing, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(jobs_may_be_forgotten, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(layouts_outlive_a_running_job, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(failure_stays_with_its_effect, gpu_set_up, gpu_tear_down),
-        cmocka_unit_test_setup_teardown(definitions_are_checked, gpu_set_up, gpu_tear_down),
+        gpu_test(steps_build_as_many_as_they_are_told),
+        gpu_test(draws_wait_for_their_target),
+        gpu_test(jobs_build_on_another_thread),
+        gpu_test(jobs_of_a_dead_effect_do_nothing),
+        gpu_test(jobs_may_be_forgotten),
+        gpu_test(layouts_outlive_a_running_job),
+        gpu_test(failure_stays_with_its_effect),
+        gpu_test(definitions_are_checked),
     };
     return cmocka_run_group_tests_name("builds", tests, NULL, NULL);
 }

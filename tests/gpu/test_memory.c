@@ -156,64 +156,6 @@ static void memory_is_used_again(void **state)
     virga_context_destroy(&context);
 }
 
-/* Whatever the budget, no more is taken than it, and a failure takes nothing. */
-static void budget_is_never_passed(void **state)
-{
-    gpu_fixture *f = *state;
-    bool refused = false, made = false;
-    for (VkDeviceSize budget = (VkDeviceSize)64 << 10; budget <= (VkDeviceSize)128 << 20; budget = budget * 3 / 2) {
-        virga_context_def def = gpu_context_def(f);
-        const virga_rain_def rain_def = gpu_rain_def();
-        virga_context *context = NULL;
-        virga_rain *rains[3] = {NULL};
-        def.memory_budget = budget;
-        watch.most_bytes = 0;
-        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
-        for (int i = 0; i < 3; i++) {
-            gpu_forget_log(f);
-            const virga_result result = virga_rain_create(context, &rain_def, &rains[i]);
-            refused = refused || result;
-            made = made || !result;
-            if (result) {
-                assert_int_equal(result, VIRGA_ERROR_DEVICE_MEMORY);
-                assert_one_error(f, VIRGA_LOG_DEVICE_MEMORY);
-            }
-        }
-        const VkDeviceSize most = watch.most_bytes;
-        for (int i = 0; i < 3; i++)
-            virga_rain_destroy(&rains[i]);
-        virga_context_destroy(&context);
-        if (most > budget)
-            fail_msg("%llu bytes were taken, of a budget of %llu", (unsigned long long)most,
-                     (unsigned long long)budget);
-    }
-    assert_true(refused && made);
-}
-
-/* A budget that holds the rain and a few per cent is enough: it is not eaten by a page of which little is used. */
-static void budget_is_for_what_is_used(void **state)
-{
-    gpu_fixture *f = *state;
-    virga_context *context = gpu_context(f);
-    const virga_rain_def rain_def = virga_default_rain_def();
-    virga_rain *rain = NULL;
-    virga_memory_stats stats;
-    REQUIRE(virga_rain_create(context, &rain_def, &rain) == VIRGA_OK);
-    virga_memory_get(context, &stats);
-    virga_rain_destroy(&rain);
-    virga_context_destroy(&context);
-
-    virga_context_def def = gpu_context_def(f);
-    def.memory_budget = stats.device_used + stats.device_used / 16;
-    REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
-    const virga_result result = virga_rain_create(context, &rain_def, &rain);
-    virga_rain_destroy(&rain);
-    virga_context_destroy(&context);
-    if (result)
-        fail_msg("%llu bytes are used, and a budget of %llu was not enough: %s", (unsigned long long)stats.device_used,
-                 (unsigned long long)def.memory_budget, f->last);
-}
-
 /* ---- what a device sets a limit to */
 
 static void lie_small_storage(VkPhysicalDeviceProperties *properties)
@@ -543,8 +485,6 @@ int main(void)
         gpu_test(few_blocks_hold_many_buffers),
         gpu_test(few_blocks_hold_default_rain),
         gpu_test(memory_is_used_again),
-        gpu_test(budget_is_never_passed),
-        gpu_test(budget_is_for_what_is_used),
         gpu_test(what_is_too_large_for_the_device_is_refused),
         gpu_test(device_memory_of_a_host_is_used_and_given_back),
         gpu_test(device_memory_that_a_host_refuses_is_an_error),

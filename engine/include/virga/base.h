@@ -76,6 +76,7 @@ typedef enum virga_log_id {
     VIRGA_LOG_FRAME_ORDER = 13,      /* frame indices went backwards, or completed passed frame */
     VIRGA_LOG_TICKS_DROPPED = 14,    /* a step asked for more time than max_ticks_per_step covers */
     VIRGA_LOG_IMPACTS_DROPPED = 15,  /* more impacts in a step than the buffer holds */
+    VIRGA_LOG_SHRUNK = 16,           /* an effect was made smaller for the memory budget: which pools, and how small */
 } virga_log_id;
 
 /* Short stable name of a log id, e.g. "argument". Never NULL. Thread-safety: any thread. */

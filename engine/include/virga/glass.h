@@ -242,7 +242,9 @@ VIRGA_API void virga_glass_settings_of(virga_glass_kind kind, virga_glass_settin
 
 /* ---- life ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates, builds pipelines. Errors as virga_context_create. */
+/* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools
+ * (max_drops, max_texels) to fit the context's memory_budget; the log says how small. Errors as
+ * virga_context_create; *glass is NULL then. */
 VIRGA_API virga_result virga_glass_create(virga_context *context, const virga_glass_def *def, virga_glass **glass);
 
 /* Destroys it and sets *glass to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they

@@ -86,7 +86,9 @@ typedef struct virga_ground_settings {
 /* Defaults of materials with their sources: engine/ground/materials.c. */
 VIRGA_API virga_ground_settings virga_default_ground_settings(void);
 
-/* Allocates, builds pipelines. Errors as virga_context_create. */
+/* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools
+ * (cells, kept_tiles, ripple_texels) to fit the context's memory_budget; the log says how small. Errors as
+ * virga_context_create; *ground is NULL then. */
 VIRGA_API virga_result virga_ground_create(virga_context *context, const virga_ground_def *def, virga_ground **ground);
 
 /* Destroys it and sets *ground to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they

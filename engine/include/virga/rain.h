@@ -94,7 +94,9 @@ typedef struct virga_rain_settings {
 
 VIRGA_API virga_rain_settings virga_default_rain_settings(void);
 
-/* Creates a field. Allocates, builds pipelines (see virga_target_create). Errors as virga_context_create. */
+/* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools
+ * (max_drops, max_streaks, max_impacts, occlusion_size) to fit the context's memory_budget; the log says how small.
+ * Errors as virga_context_create; *rain is NULL then. */
 VIRGA_API virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain);
 
 /* Destroys it and sets *rain to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they

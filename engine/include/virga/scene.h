@@ -37,7 +37,13 @@ typedef struct virga_scene_def {
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
 
-/* Creates all effects of the definition. Errors as virga_context_create; *scene is NULL then. */
+/* Device memory in bytes that virga_scene_create will take at most: the sum of its effects' estimates. 0 for a definition
+ * that it would refuse. Thread-safety: any thread. */
+VIRGA_API VkDeviceSize virga_scene_estimate(const virga_scene_def *def);
+
+/* Creates all effects of the definition: rain, ground, splash, panes. VIRGA_DEGRADED where the context's memory_budget
+ * made them smaller, each in proportion, see the log. Errors as virga_context_create;
+ * *scene is NULL then. */
 VIRGA_API virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene);
 
 /* Destroys the scene and its effects, sets *scene to NULL; accepts NULL. */

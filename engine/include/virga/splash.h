@@ -108,7 +108,9 @@ typedef struct virga_splash_settings {
 
 VIRGA_API virga_splash_settings virga_default_splash_settings(void);
 
-/* Allocates, builds pipelines. Errors as virga_context_create. */
+/* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools
+ * (max_splashes, max_droplets) to fit the context's memory_budget; the log says how small. Errors as
+ * virga_context_create; *splash is NULL then. */
 VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_splash_def *def, virga_splash **splash);
 
 /* Destroys it and sets *splash to NULL; accepts NULL. Frames in flight may still use it: what they need goes when they

@@ -110,8 +110,10 @@ typedef struct virga_context_def {
 
     virga_host_memory host_memory;     /* (optional) */
     virga_device_memory device_memory; /* (optional) */
-    VkDeviceSize memory_budget;        /* (optional) most device memory in bytes; over it creating fails with
-                                        * VIRGA_ERROR_DEVICE_MEMORY. 0 means no limit */
+    VkDeviceSize memory_budget;        /* (optional) most device memory in bytes, never passed. An effect that does not
+                                        * fit into what is left is made with smaller pools, says which, and its create
+                                        * returns VIRGA_DEGRADED; VIRGA_ERROR_DEVICE_MEMORY where the smallest does not
+                                        * fit. 0 means no limit */
 
     virga_log_fn log; /* (optional) */
     void *log_user;

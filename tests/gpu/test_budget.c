@@ -1,0 +1,137 @@
+/* test_budget.c - the memory budget of a context: never passed, not wasted, and what gives way for it. */
+#include "gpu_fixture.h"
+
+/* Whatever the budget, no more is taken than it, and a failure takes nothing. */
+static void budget_is_never_passed(void **state)
+{
+    gpu_fixture *f = *state;
+    bool refused = false, made = false, smaller = false;
+    for (VkDeviceSize budget = (VkDeviceSize)64 << 10; budget <= (VkDeviceSize)128 << 20; budget = budget * 3 / 2) {
+        virga_context_def def = gpu_context_def(f);
+        virga_rain_def rain_def = gpu_rain_def();
+        virga_context *context = NULL;
+        virga_rain *rains[3] = {NULL};
+        rain_def.max_drops = 16384; /* so that there is something to shrink */
+        def.memory_budget = budget;
+        watch.most_bytes = 0;
+        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+        for (int i = 0; i < 3; i++) {
+            gpu_forget_log(f);
+            const virga_result result = virga_rain_create(context, &rain_def, &rains[i]);
+            refused = refused || result < 0;
+            made = made || !result;
+            smaller = smaller || result == VIRGA_DEGRADED;
+            if (result < 0) {
+                assert_int_equal(result, VIRGA_ERROR_DEVICE_MEMORY);
+                assert_one_error(f, VIRGA_LOG_DEVICE_MEMORY);
+            }
+            assert_int_equal(f->lines[VIRGA_LOG_SHRUNK], result == VIRGA_DEGRADED);
+        }
+        const VkDeviceSize most = watch.most_bytes;
+        for (int i = 0; i < 3; i++)
+            virga_rain_destroy(&rains[i]);
+        virga_context_destroy(&context);
+        if (most > budget)
+            fail_msg("%llu bytes were taken, of a budget of %llu", (unsigned long long)most,
+                     (unsigned long long)budget);
+    }
+    assert_true(refused && made && smaller);
+}
+
+/* A budget that holds the rain and a few per cent is enough: it is not eaten by a page of which little is used. */
+static void budget_is_for_what_is_used(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context *context = gpu_context(f);
+    const virga_rain_def rain_def = virga_default_rain_def();
+    virga_rain *rain = NULL;
+    virga_memory_stats stats;
+    REQUIRE(virga_rain_create(context, &rain_def, &rain) == VIRGA_OK);
+    virga_memory_get(context, &stats);
+    virga_rain_destroy(&rain);
+    virga_context_destroy(&context);
+
+    virga_context_def def = gpu_context_def(f);
+    def.memory_budget = stats.device_used + stats.device_used / 16;
+    REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+    const virga_result result = virga_rain_create(context, &rain_def, &rain);
+    virga_rain_destroy(&rain);
+    virga_context_destroy(&context);
+    if (result)
+        fail_msg("%llu bytes are used, and a budget of %llu was not enough: %s", (unsigned long long)stats.device_used,
+                 (unsigned long long)def.memory_budget, f->last);
+}
+
+/* Rain for half the memory that it asks for: it is made smaller, says so once, and falls. */
+static void rain_over_the_budget_is_smaller_and_falls(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context_def def = gpu_context_def(f);
+    const virga_rain_def rain_def = virga_default_rain_def();
+    virga_context *context = NULL;
+    virga_rain *rain = NULL;
+    virga_rain_stats stats;
+    const virga_rain_step_info step = {.dt_s = 1.0 / 30, .camera_m = {0, 1.7, 0}};
+    def.memory_budget = virga_rain_estimate(&rain_def) / 2;
+    REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+    /* A frame under way must not keep what was tried in vain. */
+    VkCommandBuffer cmd = gpu_begin_frame(f, context);
+    gpu_forget_log(f);
+    assert_int_equal(virga_rain_create(context, &rain_def, &rain), VIRGA_DEGRADED);
+    assert_int_equal(f->lines[VIRGA_LOG_SHRUNK], 1);
+    assert_int_equal(f->errors, 0);
+    assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_OK);
+    gpu_submit(f);
+    gpu_wait(f);
+    virga_rain_stats_get(rain, &stats);
+    assert_in_range(stats.slots, rain_def.max_drops / 8, rain_def.max_drops * 7 / 8);
+    assert_true(watch.most_bytes <= def.memory_budget);
+    virga_rain_destroy(&rain);
+    virga_context_destroy(&context);
+}
+
+/* Each effect of a scene gives way for those that follow only as far as it must; a scene in any budget that holds the
+ * smallest of all works, and none is passed. */
+static void scene_fits_into_any_budget(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_glass_def pane = virga_default_glass_def();
+    virga_scene_def scene_def = virga_default_scene_def();
+    scene_def.rain.max_drops = 32768;
+    scene_def.ground.cells = 512;
+    scene_def.with_ground = scene_def.with_splash = true;
+    scene_def.panes = &pane;
+    scene_def.pane_count = 1;
+    const VkDeviceSize whole = virga_scene_estimate(&scene_def);
+    bool refused = false, smaller = false, made = false;
+    for (VkDeviceSize budget = whole / 64; budget < 2 * whole; budget *= 2) {
+        virga_context_def def = gpu_context_def(f);
+        virga_context *context = NULL;
+        virga_scene *scene = NULL;
+        def.memory_budget = budget;
+        def.pipelines = VIRGA_PIPELINES_IN_STEPS; /* none of which are built */
+        watch.most_bytes = 0;
+        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+        const virga_result result = virga_scene_create(context, &scene_def, &scene);
+        assert_true(result == VIRGA_OK || result == VIRGA_DEGRADED || result == VIRGA_ERROR_DEVICE_MEMORY);
+        assert_true(watch.most_bytes <= budget);
+        refused = refused || result < 0;
+        smaller = smaller || result == VIRGA_DEGRADED;
+        made = made || result == VIRGA_OK;
+        virga_scene_destroy(&scene);
+        virga_context_destroy(&context);
+        assert_int_equal(watch_sum(watch.live), 0);
+    }
+    assert_true(refused && smaller && made);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        gpu_test(budget_is_never_passed),
+        gpu_test(budget_is_for_what_is_used),
+        gpu_test(rain_over_the_budget_is_smaller_and_falls),
+        gpu_test(scene_fits_into_any_budget),
+    };
+    return cmocka_run_group_tests_name("budget", tests, NULL, NULL);
+}
