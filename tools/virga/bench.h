@@ -24,6 +24,12 @@ typedef struct bench {
     char error[512];
 } bench;
 
+/* A device, what there is to rain on and into, and a context with those caches; *b is all zero before. */
+bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipelines_when when);
+
+/* All zero again. */
+void bench_close(bench *b);
+
 bool bench_fail(bench *b, const char *what);
 
 /* Begins a frame, for the host and for Virga. */
@@ -34,6 +40,9 @@ bool bench_submit(bench *b, double *milliseconds);
 
 /* Time of a pass of the newest frame; 0 if it was not recorded. */
 double bench_pass_ms(const bench *b, const char *name);
+
+/* A camera at eye level, with one of bench_sizes. */
+void bench_view(virga_view *view, uint32_t size);
 
 /* What bench_splash measures. */
 typedef struct bench_splash_choice {
@@ -47,6 +56,7 @@ typedef struct bench_splash_choice {
 bool bench_rain(bench *b, uint32_t only);
 bool bench_ground(bench *b);
 bool bench_glass(bench *b);
+bool bench_frames(bench *b, const char *device); /* opens *b anew several times */
 bool bench_splash(bench *b, const bench_splash_choice *choice);
 
 #endif

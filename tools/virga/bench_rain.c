@@ -50,23 +50,13 @@ static bool measure_step(bench *b, bench_result *result)
     return true;
 }
 
-static void fill_view(virga_view *view, uint32_t size)
-{
-    static const host_camera_key key = {.position_m = {0, 1.7, 0}, .look_at_m = {0, 2.2, -10}};
-    const host_camera_path path = {&key, 1, 50, 0.1, 1000};
-    host_camera camera;
-    host_camera_at(&path, 0, bench_sizes[size][0], bench_sizes[size][1], NULL, &camera);
-    *view = virga_default_view();
-    host_camera_view(&camera, &camera, 1.0 / 48, view);
-}
-
 /* Drawing is timed by whole submissions, with and without the draw: timestamps inside rendering mean little on
  * software Vulkan. */
 static bool measure_draw(bench *b, uint32_t size, bench_result *result)
 {
     double draw[BENCH_RUNS], prepare[BENCH_RUNS];
     virga_view view;
-    fill_view(&view, size);
+    bench_view(&view, size);
     for (int i = -1; i < BENCH_RUNS; i++) {
         double with[2];
         for (int pass = 0; pass < 2; pass++) {

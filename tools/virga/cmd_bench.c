@@ -19,11 +19,12 @@ static const option_row rows[] = {
 void bench_help(void)
 {
     printf(
-        "virga bench rain|ground|splash|glass [options]\n\n"
+        "virga bench rain|ground|splash|glass|frames [options]\n\n"
         "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
         "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
         "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's\n"
-        "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with two wipers\n\n"
+        "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with two wipers\n"
+        "frames  start of a scene of all effects, cold and warm, and how even 2000 frames of steady rain are\n\n"
         "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a dispatch and\n"
         "a full fill of the picture in the same run. Absolute times are noisy: compare ratios inside one run.\n\n",
         BENCH_RUNS);
@@ -37,7 +38,7 @@ bool bench_fail(bench *b, const char *what)
     return options_complain("bench", "%s: %s", what, b->error);
 }
 
-static bool open_context(bench *b)
+static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipelines_when when)
 {
     virga_context_def def = virga_default_context_def();
     def.instance = b->instance.instance;
@@ -45,10 +46,13 @@ static bool open_context(bench *b)
     def.device = b->device.device;
     def.queue_family = b->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.pipeline_cache = blob;
+    def.pipeline_cache_size = blob_size;
+    def.pipelines = when;
     return virga_context_create(&def, &b->context) == VIRGA_OK || options_complain("bench", "the device was refused");
 }
 
-static bool open_bench(bench *b, const char *device)
+bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipelines_when when)
 {
     host_device_info infos[HOST_MAX_DEVICES];
     uint32_t index;
@@ -77,10 +81,10 @@ static bool open_bench(bench *b, const char *device)
     for (int i = 0; i < 3; i++)
         if (!host_target_create(&b->device, bench_sizes[i][0], bench_sizes[i][1], &b->targets[i], error, size))
             return bench_fail(b, "picture");
-    return open_context(b);
+    return open_context(b, blob, blob_size, when);
 }
 
-static void close_bench(bench *b)
+void bench_close(bench *b)
 {
     virga_target_destroy(&b->layer);
     virga_rain_destroy(&b->rain);
@@ -95,6 +99,17 @@ static void close_bench(bench *b)
     }
     if (b->instance.instance)
         host_instance_destroy(&b->instance);
+    memset(b, 0, sizeof *b);
+}
+
+void bench_view(virga_view *view, uint32_t size)
+{
+    static const host_camera_key key = {.position_m = {0, 1.7, 0}, .look_at_m = {0, 2.2, -10}};
+    const host_camera_path path = {&key, 1, 50, 0.1, 1000};
+    host_camera camera;
+    host_camera_at(&path, 0, bench_sizes[size][0], bench_sizes[size][1], NULL, &camera);
+    *view = virga_default_view();
+    host_camera_view(&camera, &camera, 1.0 / 48, view);
 }
 
 double bench_pass_ms(const bench *b, const char *name)
@@ -145,6 +160,15 @@ static bool parse_splash(const options *parsed, bench_splash_choice *choice)
     return true;
 }
 
+static bool is_bench(const char *what)
+{
+    static const char *const all[] = {"rain", "ground", "splash", "glass", "frames"};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (!strcmp(what, all[i]))
+            return true;
+    return false;
+}
+
 int bench_run(int argc, char **argv)
 {
     options parsed;
@@ -154,24 +178,25 @@ int bench_run(int argc, char **argv)
         !options_uint(&parsed, "--drops", 1024, 4194304, &only) || !parse_splash(&parsed, &splashes))
         return EXIT_USAGE;
     const char *what = parsed.argument_count == 1 ? parsed.arguments[0] : "";
-    if (strcmp(what, "rain") && strcmp(what, "ground") && strcmp(what, "splash") && strcmp(what, "glass")) {
-        options_complain("bench", "expected what to measure: rain, ground, splash or glass");
+    if (!is_bench(what)) {
+        options_complain("bench", "expected what to measure: rain, ground, splash, glass or frames");
         return EXIT_USAGE;
     }
     bench *b = calloc(1, sizeof *b);
     if (!b)
         return EXIT_FAILED;
-    bool good = open_bench(b, options_value(&parsed, "--device"));
+    bool good = bench_open(b, options_value(&parsed, "--device"), NULL, 0, VIRGA_PIPELINES_AT_ONCE);
     if (good)
         printf("virga %s on %s (%s), medians of %d\n", virga_version(), b->info.name, b->info.driver, BENCH_RUNS);
     if (good)
         good = !strcmp(what, "rain")     ? bench_rain(b, only)
                : !strcmp(what, "ground") ? bench_ground(b)
                : !strcmp(what, "glass")  ? bench_glass(b)
+               : !strcmp(what, "frames") ? bench_frames(b, options_value(&parsed, "--device"))
                                          : bench_splash(b, &splashes);
     if (b->instance.messages)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
-    close_bench(b);
+    bench_close(b);
     free(b);
     return !good ? EXIT_FAILED : interrupt_asked() ? EXIT_INTERRUPTED : EXIT_OK;
 }

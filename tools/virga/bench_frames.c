@@ -1,0 +1,226 @@
+/* bench_frames.c - `virga bench frames`: what a player would feel - how long a scene takes to start, with and without
+ * what drivers remember, and how even its frames are. */
+#include "bench.h"
+#include "options.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define FRAMES  2000
+#define WARM_UP 240 /* frames: rings, splashes and drops have come to a level */
+
+/* ---- a scene of all effects */
+
+static bool make_scene(bench *b, virga_scene **scene)
+{
+    virga_glass_def pane = virga_default_glass_def();
+    virga_scene_def def = virga_default_scene_def();
+    pane.max_texels = 256;
+    pane.max_drops = 4096;
+    def.rain.max_drops = 32768;
+    def.rain.max_panes = 1;
+    def.ground.cells = 256;
+    def.ground.ripple_texels = 256;
+    def.splash.max_splashes = 4096;
+    def.splash.max_droplets = 16384;
+    def.with_ground = def.with_splash = true;
+    def.panes = &pane;
+    def.pane_count = 1;
+    virga_target_def target = virga_default_target_def();
+    host_target_describe_layer(&b->targets[0], &target);
+    return (virga_scene_create(b->context, &def, scene) >= 0 &&
+            virga_target_create(b->context, &target, &b->layer) == VIRGA_OK &&
+            virga_scene_attach(*scene, b->layer) == VIRGA_OK) ||
+           options_complain("bench", "no scene could be made");
+}
+
+static void drop_scene(bench *b, virga_scene **scene)
+{
+    virga_target_destroy(&b->layer);
+    virga_scene_destroy(scene);
+}
+
+/* Steady rain on a street that has been wet for long. */
+static bool set_rain(virga_scene *scene)
+{
+    virga_rain_settings rain = virga_default_rain_settings();
+    virga_ground_settings ground = virga_default_ground_settings();
+    rain.rate_mm_h = 25;
+    rain.transition_s = 0;
+    ground.start_wetness = 1;
+    ground.start_water_mm = 2;
+    return virga_rain_set(virga_scene_rain(scene), &rain) == VIRGA_OK &&
+           virga_ground_set(virga_scene_ground(scene), &ground) == VIRGA_OK;
+}
+
+/* One frame of it: what recording takes, and all of it. */
+static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, double *record, double *whole)
+{
+    VkCommandBuffer cmd;
+    const virga_scene_pane pane = {.pose = {.position_m = {0, 1.7, -1}}};
+    const virga_scene_frame frame = {.dt_s = 1.0 / 60,
+                                     .camera_m = {0, 1.7, 0},
+                                     .occluders = &b->floor,
+                                     .occluder_count = 1,
+                                     .view = view,
+                                     .panes = &pane};
+    const double start = progress_now();
+    if (!bench_begin(b, &cmd))
+        return false;
+    const double begun = progress_now();
+    if (virga_scene_record(scene, cmd, &frame) < 0)
+        return options_complain("bench", "a frame failed");
+    host_target_begin_layer(&b->targets[0], cmd);
+    const bool drawn = virga_scene_draw(scene, cmd, b->layer) >= 0;
+    host_target_end_layer(&b->targets[0], cmd);
+    *record = (progress_now() - begun) * 1e3;
+    double submitted;
+    if (!drawn || !bench_submit(b, &submitted))
+        return options_complain("bench", "a frame failed");
+    *whole = (progress_now() - start) * 1e3;
+    return true;
+}
+
+/* ---- starting */
+
+typedef struct start_case {
+    const char *name;
+    bool driver_cache, blob;
+} start_case;
+
+static void *blob;
+static size_t blob_size;
+
+static bool keep_blob(bench *b)
+{
+    free(blob);
+    blob = NULL;
+    if (virga_pipeline_cache_get(b->context, &blob_size, NULL) != VIRGA_OK)
+        return false;
+    blob = malloc(blob_size);
+    return blob && virga_pipeline_cache_get(b->context, &blob_size, blob) == VIRGA_OK;
+}
+
+/* A process of its own would be the same: the device is opened anew, and drivers read these then. */
+static bool reopen(bench *b, const char *device, const start_case *one)
+{
+    setenv("MESA_SHADER_CACHE_DISABLE", one->driver_cache ? "false" : "true", 1);
+    setenv("__GL_SHADER_DISK_CACHE", one->driver_cache ? "1" : "0", 1);
+    bench_close(b);
+    return bench_open(b, device, one->blob ? blob : NULL, one->blob ? blob_size : 0, VIRGA_PIPELINES_AT_ONCE);
+}
+
+static bool measure_start(bench *b, const char *device, const start_case *one)
+{
+    virga_scene *scene = NULL;
+    if (!reopen(b, device, one))
+        return false;
+    double record, first = 0, second = 0;
+    virga_view view;
+    const double start = progress_now();
+    bool good = make_scene(b, &scene);
+    const double create = (progress_now() - start) * 1e3;
+    bench_view(&view, 0);
+    good = good && run_frame(b, scene, &view, &record, &first) && run_frame(b, scene, &view, &record, &second);
+    if (good && one->name)
+        printf("  %-42s create and attach %8.1f ms, first frame %8.1f, second %8.1f\n", one->name, create, first,
+               second);
+    fflush(stdout);
+    const bool kept = good && (one->blob || keep_blob(b));
+    drop_scene(b, &scene);
+    return kept;
+}
+
+/* In steps: what create and attach take without pipelines, and the longest of them. */
+static bool measure_steps(bench *b, const char *device)
+{
+    virga_scene *scene = NULL;
+    double longest = 0, create;
+    uint32_t left = 0, count = 0;
+    bench_close(b);
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    setenv("__GL_SHADER_DISK_CACHE", "0", 1);
+    if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_IN_STEPS))
+        return false;
+    const double start = progress_now();
+    bool good = make_scene(b, &scene);
+    create = (progress_now() - start) * 1e3;
+    good = good && virga_pipelines_build(b->context, 0, &left) >= 0;
+    for (count = left; good && left;) {
+        const double before = progress_now();
+        good = virga_pipelines_build(b->context, 1, &left) >= 0;
+        const double ms = (progress_now() - before) * 1e3;
+        longest = ms > longest ? ms : longest;
+    }
+    if (good)
+        printf("  %-42s create and attach %8.1f ms, then %u pipelines one by one, the longest %.1f ms\n",
+               "in steps, nothing remembered", create, count, longest);
+    drop_scene(b, &scene);
+    return good;
+}
+
+static bool measure_starts(bench *b, const char *device)
+{
+    static const start_case cases[] = {
+        {"nothing remembered", false, false},
+        {"Virga's blob (virga_pipeline_cache_get)", false, true},
+        {NULL, true, false}, /* fills it */
+        {"the driver's own cache on disk", true, false},
+        {"the driver's own cache and the blob", true, true},
+    };
+    bool good = true;
+    printf("start of a scene of all effects\n");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0] && good; i++)
+        good = measure_start(b, device, &cases[i]);
+    good = good && measure_steps(b, device);
+    free(blob);
+    blob = NULL;
+    return good;
+}
+
+/* ---- steady frames */
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void print_spread(const char *name, double *times)
+{
+    qsort(times, FRAMES, sizeof *times, by_size);
+    const double median = times[FRAMES / 2];
+    printf("  %-10s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", name, median,
+           times[FRAMES * 99 / 100], times[FRAMES * 999 / 1000], times[FRAMES - 1], times[FRAMES - 1] / median);
+}
+
+static bool measure_frames(bench *b, const char *device)
+{
+    static double record[FRAMES], whole[FRAMES];
+    virga_scene *scene = NULL;
+    virga_view view;
+    virga_memory_stats before, after;
+    const start_case usual = {NULL, true, false};
+    bool good = reopen(b, device, &usual) && make_scene(b, &scene) && set_rain(scene);
+    bench_view(&view, 0);
+    virga_memory_get(b->context, &before);
+    for (int i = -WARM_UP; i < FRAMES && good && !interrupt_asked(); i++)
+        good = run_frame(b, scene, &view, &record[i < 0 ? 0 : i], &whole[i < 0 ? 0 : i]);
+    virga_memory_get(b->context, &after);
+    if (good && !interrupt_asked()) {
+        printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],
+               WARM_UP);
+        print_spread("recording", record);
+        print_spread("frame", whole);
+        printf("  memory: %.1f MB in %u allocations, %+lld bytes since the start\n", (double)after.device_bytes * 1e-6,
+               after.device_allocations, (long long)after.device_bytes - (long long)before.device_bytes);
+    }
+    drop_scene(b, &scene);
+    return good;
+}
+
+bool bench_frames(bench *b, const char *device)
+{
+    return measure_starts(b, device) && measure_frames(b, device);
+}
