@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Somebody else's programs: the library is built as a release, installed below a temporary prefix, and used from outside
-# the tree by C and by C++ through pkg-config; then used as a Meson subproject. No device is needed.
+# the tree by C and by C++, through pkg-config and through CMake; then used as a Meson subproject. No device is needed.
 # Usage: consumer.sh SOURCE_ROOT "CC" "CXX" VERSION
 set -eu
 source=$(cd "$1" && pwd) cc=$2 cxx=$3 version=$4
-for tool in meson pkg-config ninja "${cc%% *}" "${cxx%% *}"; do
+for tool in meson pkg-config cmake ninja "${cc%% *}" "${cxx%% *}"; do
     command -v "$tool" >/dev/null || { echo "skipped: there is no $tool"; exit 77; }
 done
 work=$(mktemp -d "${TMPDIR:-/tmp}/virga-consumer-XXXXXX")
@@ -80,13 +80,43 @@ expect "$(./in_c)" "$version 6.49" "consumer in C"
 expect "$(./in_cpp)" "$version 6.49" "consumer in C++"
 unset LD_LIBRARY_PATH
 
+# By CMake, which finds the library where it was installed and links it by its path.
+mkdir "$work/cmake"
+cp "$work/consumer.c" "$work/consumer.cpp" "$work/cmake/"
+cat >"$work/cmake/CMakeLists.txt" <<SOURCE
+cmake_minimum_required(VERSION 3.16)
+project(host C CXX)
+find_package(virga $version REQUIRED)
+add_executable(in_c consumer.c)
+add_executable(in_cpp consumer.cpp)
+set_target_properties(in_c PROPERTIES C_STANDARD 11 C_EXTENSIONS OFF)
+set_target_properties(in_cpp PROPERTIES CXX_STANDARD 17 CXX_EXTENSIONS OFF)
+foreach(program in_c in_cpp)
+  target_compile_options(\${program} PRIVATE -Wall -Wextra -Wpedantic -Werror)
+  target_link_libraries(\${program} PRIVATE virga::virga)
+endforeach()
+SOURCE
+export CC=$cc CXX=$cxx
+quietly cmake -S "$work/cmake" -B "$work/cmake/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix"
+quietly nice ninja -j2 -C "$work/cmake/build"
+expect "$("$work/cmake/build/in_c")" "$version 6.49" "consumer in C by CMake"
+expect "$("$work/cmake/build/in_cpp")" "$version 6.49" "consumer in C++ by CMake"
+# A version that is not there is refused, not taken for another.
+sed 's/find_package(virga [0-9.]*/find_package(virga 99.0/' "$work/cmake/CMakeLists.txt" >"$work/cmake/other"
+mv "$work/cmake/other" "$work/cmake/CMakeLists.txt"
+if cmake -S "$work/cmake" -B "$work/cmake/other" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/log" 2>&1; then
+    echo "CMake took version $version for 99.0"
+    exit 1
+fi
+unset CC CXX
+
 # Every header is there, none of the internal ones is, and nothing else was installed.
 installed=$(cd "$work/prefix" && find . -type f -o -type l | sort | tr '\n' ' ')
 for header in "$source"/engine/include/virga/*.h; do
     [ -f "$work/prefix/include/virga/${header##*/}" ] || { echo "not installed: ${header##*/}"; exit 1; }
 done
 stray=$(cd "$work/prefix" && find . \( -type f -o -type l \) ! -path './include/virga/*.h' ! -path './include/virga/shared/*.glsl' \
-    ! -path './lib/libvirga.so*' ! -path './lib/pkgconfig/virga.pc')
+    ! -path './lib/libvirga.so*' ! -path './lib/pkgconfig/virga.pc' ! -path './lib/cmake/virga/virgaConfig*.cmake')
 [ -z "$stray" ] || { echo "installed what nobody asked for: $stray"; exit 1; }
 
 # ---- as a subproject

@@ -89,7 +89,7 @@ def check_header(text, number, version):
 
 
 def check_headers(paths):
-    version = open(paths[3]).read().strip()
+    version = open(paths[3]).readline().strip()
     frames = [check_header(open(path).read(), i + 1, version) for i, path in enumerate(paths[:3])]
     if None in frames:
         return

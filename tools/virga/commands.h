@@ -18,4 +18,7 @@ void info_help(void);
 int bench_run(int argc, char **argv);
 void bench_help(void);
 
+/* Version, commit, device and driver; the exit code. */
+int version_print(void);
+
 #endif

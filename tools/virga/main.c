@@ -64,10 +64,8 @@ int main(int argc, char **argv)
         print_overview();
         return EXIT_USAGE;
     }
-    if (!strcmp(argv[1], "--version")) {
-        printf("virga %s\n", virga_version());
-        return EXIT_OK;
-    }
+    if (!strcmp(argv[1], "--version"))
+        return version_print();
     if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
         return print_help(argc > 2 ? argv[2] : NULL);
     const command *found = find_command(argv[1]);
