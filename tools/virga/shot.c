@@ -39,7 +39,8 @@ static bool open_device(shot *s, char *error, size_t error_size)
 {
     host_device_info infos[HOST_MAX_DEVICES];
     uint32_t index = 0;
-    if (!host_instance_create(&s->instance, false, error, error_size))
+    if (!host_instance_create_for_window(&s->instance, false, s->options.window_extensions,
+                                         s->options.window_extension_count, error, error_size))
         return false;
     const uint32_t count = host_devices_list(&s->instance, infos, HOST_MAX_DEVICES);
     if (!host_device_pick(infos, count, s->options.device, &index, error, error_size)) {
@@ -67,13 +68,15 @@ static bool open_device(shot *s, char *error, size_t error_size)
 
 /* ---- opening and closing */
 
-static bool make_target(shot *s, char *error, size_t error_size)
+bool shot_make_target(shot *s, char *error, size_t error_size)
 {
     const uint32_t width = s->options.width, height = s->options.height;
     const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
     const bool made = host_target_create(&s->device, width, height, &s->target, error, error_size);
     s->input_wrong = !made && (width > limit || height > limit);
-    return made && (!s->scene->splash.on || host_target_add_splash(&s->device, &s->target, error, error_size)) &&
+    return made &&
+           ((!s->scene->splash.on && !s->options.live) ||
+            host_target_add_splash(&s->device, &s->target, error, error_size)) &&
            (!s->scene->pane_count || host_target_add_glass(&s->device, &s->target, error, error_size));
 }
 
@@ -106,7 +109,7 @@ static bool open_all(shot *s, char *error, size_t error_size)
         !open_device(s, error, error_size))
         return false;
     if (s->options.draw &&
-        (!make_target(s, error, error_size) ||
+        (!shot_make_target(s, error, error_size) ||
          !host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) ||
          !host_accumulator_create(&s->frame, s->options.width, s->options.height, error, error_size)))
         return false;
@@ -189,17 +192,13 @@ static void place_focus(const shot *s, const host_camera *camera, double time_s,
         focus_m[axis * 2] -= back[axis] / length * ahead_m;
 }
 
-/* Time passes to the frame: occlusion around its camera, and the ticks of one frame. */
-static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
+bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size)
 {
     host_camera camera;
-    const double time_s = shot_time(s, frame);
-    host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, &camera);
-    const bool first = s->frame_index + 1 == s->scene->frames.first;
-    virga_scene_frame info = {.dt_s = first ? 0 : 1 / s->scene->frames.fps,
-                              .occluders = s->occluders,
-                              .occluder_count = s->occluder_count,
-                              .materials = s->materials};
+    const host_camera_path eye = shot_eye(s);
+    host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, &camera);
+    virga_scene_frame info = {
+        .dt_s = dt_s, .occluders = s->occluders, .occluder_count = s->occluder_count, .materials = s->materials};
     memcpy(info.camera_m, camera.position_m, sizeof info.camera_m);
     place_focus(s, &camera, time_s, info.focus_m);
     virga_scene_pane *panes = shot_panes_place(s, time_s);
@@ -208,7 +207,15 @@ static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *erro
         shot_set_weather(s, time_s, error, error_size) &&
         shot_ok(s, virga_scene_record(s->rain_scene, cmd, &info), "stepping the rain", error, error_size);
     free(panes);
-    if (!stepped)
+    s->camera_time_s = time_s;
+    return stepped;
+}
+
+/* Time passes to the frame, by one frame. */
+static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
+{
+    const bool first = s->frame_index + 1 == s->scene->frames.first;
+    if (!shot_record_time(s, cmd, shot_time(s, frame), first ? 0 : 1 / s->scene->frames.fps, error, error_size))
         return false;
     s->frame_index++;
     return !s->options.points || shot_record_points(s, cmd, error, error_size);

@@ -103,36 +103,54 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view,
     if (s->scene->pane_count &&
         !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
-    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
     return true;
 }
 
-/* One sub-frame: its share of the shutter time, seen with its jitter. The shutter closes at the frame's time. */
-static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
+/* The shutter closes at the frame's time. */
+bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size)
 {
+    const host_camera_path eye = shot_eye(s);
     const double shutter_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps;
     const double part_s = shutter_s / s->options.samples;
     const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
-    const double shot_start = host_camera_shot_start(&s->path, time_s);
+    const double shot_start = host_camera_shot_start(&eye, time_s);
     const uint32_t width = s->options.width, height = s->options.height;
     float jitter[2];
     host_camera now, open, frame_ago;
     host_camera_jitter(sample, s->options.samples, jitter);
-    host_camera_at(&s->path, fmax(close_s, shot_start), width, height, jitter, &now);
-    host_camera_at(&s->path, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
-    host_camera_at(&s->path, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
+    host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &now);
+    host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
+    host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
 
-    VkCommandBuffer cmd;
     virga_view view = virga_default_view();
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&now, &open, part_s, &view);
     const moment at = {fmax(close_s, shot_start), time_s - close_s};
-    if (!shot_begin(s, &cmd, error, error_size) ||
-        !record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size) ||
-        !host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
+    return record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size);
+}
+
+static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size))
+        return false;
+    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
+    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
         return false;
     host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
+    return true;
+}
+
+bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size)
+{
+    const host_camera_path eye = shot_eye(s);
+    host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, camera);
+    host_accumulator_reset(&s->frame);
+    for (uint32_t sample = 0; sample < s->options.samples; sample++)
+        if (!draw_sample(s, sample, time_s, error, error_size))
+            return false;
+    host_accumulator_finish(&s->frame);
     return true;
 }
 
@@ -141,12 +159,5 @@ bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t
     if (!shot_step(s, frame, error, error_size) ||
         (s->plate.pattern && !plate_load(&s->plate, frame, error, error_size)))
         return false;
-    const double time_s = shot_time(s, frame);
-    host_camera_at(&s->path, time_s, s->options.width, s->options.height, NULL, camera);
-    host_accumulator_reset(&s->frame);
-    for (uint32_t sample = 0; sample < s->options.samples; sample++)
-        if (!draw_sample(s, sample, time_s, error, error_size))
-            return false;
-    host_accumulator_finish(&s->frame);
-    return true;
+    return shot_draw_samples(s, shot_time(s, frame), camera, error, error_size);
 }

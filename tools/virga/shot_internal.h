@@ -12,8 +12,19 @@ bool shot_ok(const shot *s, virga_result result, const char *what, char *error, 
 /* Notes that what fails here is wrong input. */
 bool shot_blame_input(shot *s, bool right);
 
-/* Begins a frame of the device and of the library. */
-bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size);
+/* Time passes to `time_s`, by `dt_s`: occlusion around its camera, and the ticks of that. */
+bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size);
+
+/* What the picture is drawn into, of the size in s->options. */
+bool shot_make_target(shot *s, char *error, size_t error_size);
+
+/* ---- shot_draw.c: the picture */
+
+/* One sub-frame of s->options.samples: its share of the shutter time, seen with its jitter. */
+bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size);
+
+/* All of them, into s->frame. */
+bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size);
 
 /* ---- shot_load.c: what the scene names */
 
@@ -32,6 +43,13 @@ void shot_load_camera(shot *s);
 
 /* Makes the library's scene, and what it is drawn into where it is drawn. */
 bool shot_open_rain(shot *s, char *error, size_t error_size);
+
+/* Lamps, into the settings of all that shows their light, and into the renderer. */
+void shot_fill_lights(shot *s);
+bool shot_set_ground(shot *s, char *error, size_t error_size);
+
+/* The plane that puddles mirror in. */
+bool shot_set_mirror(shot *s, char *error, size_t error_size);
 
 /* Settings of a time. */
 bool shot_set_weather(shot *s, double time_s, char *error, size_t error_size);

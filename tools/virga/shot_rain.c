@@ -9,7 +9,7 @@
 
 /* ---- settings */
 
-static void fill_lights(shot *s)
+void shot_fill_lights(shot *s)
 {
     s->settings.lighting.light_count = s->scene->light_count;
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
@@ -25,6 +25,8 @@ static void fill_lights(shot *s)
         to->cos_inner = (float)cos(from->inner_deg * M_PI / 180);
         to->cos_outer = (float)cos(from->outer_deg * M_PI / 180);
     }
+    if (s->renderer)
+        host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);
 }
 
 static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error, size_t error_size)
@@ -73,7 +75,7 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     return shot_ok(s, virga_rain_set(s->rain, &s->settings), "setting the rain", error, error_size);
 }
 
-static bool set_ground(shot *s, char *error, size_t error_size)
+bool shot_set_ground(shot *s, char *error, size_t error_size)
 {
     virga_ground_settings settings = virga_default_ground_settings();
     settings.evaporation_mm_h = (float)s->scene->ground.evaporation_mm_h;
@@ -154,7 +156,7 @@ static virga_scene_def define_scene(const shot *s)
 }
 
 /* The mirror's plane: the foot of the widest ground under the place that the camera looks at first. */
-static bool set_mirror(shot *s, char *error, size_t error_size)
+bool shot_set_mirror(shot *s, char *error, size_t error_size)
 {
     const double *at = s->camera_keys[0].look_at_m;
     double widest = 0, height_m = 0;
@@ -192,17 +194,16 @@ bool shot_open_rain(shot *s, char *error, size_t error_size)
     s->ground = virga_scene_ground(s->rain_scene);
     s->splash = virga_scene_splash(s->rain_scene);
     s->settings = virga_default_rain_settings();
-    if (!set_ground(s, error, error_size))
+    if (!shot_set_ground(s, error, error_size))
         return false;
-    fill_lights(s);
+    shot_fill_lights(s);
     if (!shot_panes_open(s, error, error_size))
         return false;
     if (!s->options.draw)
         return true;
     virga_target_def target = virga_default_target_def();
     host_target_describe_layer(&s->target, &target);
-    host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);
-    return set_mirror(s, error, error_size) &&
+    return shot_set_mirror(s, error, error_size) &&
            shot_ok(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
                    error_size) &&
            shot_ok(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
