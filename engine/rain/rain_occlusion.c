@@ -233,6 +233,7 @@ void virga_rain_occlusion_map_get(const virga_rain *rain, virga_rain_occlusion_m
         .size = rain->host_maps ? rain->host_map_image.extent.width : rain->def.occlusion_size,
         .cascades = rain->def.occlusion_cascades,
         .slants = slants,
+        .top_m = rain->maps[0].top_m,
         .height_m = (float)rain->maps[0].height_m};
     for (uint32_t i = 0; i < rain->def.occlusion_cascades; i++)
         map->half_m[i] = (float)rain->maps[i * slants].half_m;

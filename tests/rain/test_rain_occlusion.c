@@ -148,6 +148,7 @@ static void maps_are_told_once_they_are_drawn(void **state)
     assert_int_equal(map.cascades * map.slants, 8);
     assert_true(map.half_m[0] < map.half_m[1]);
     assert_true(map.half_m[1] >= 8);
+    assert_true(map.top_m > 3 && map.top_m - (double)map.height_m < 0); /* the roof and the floor are in it */
     rain_fixture_close(&f);
 }
 

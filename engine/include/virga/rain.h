@@ -142,6 +142,7 @@ typedef struct virga_rain_occlusion_map {
     uint32_t size;             /* texels along a side */
     uint32_t cascades, slants; /* layer cascade x slants + slant; the narrowest cascade comes first */
     float half_m[4];           /* half of the side, by cascade */
+    double top_m;              /* height of depth 0 in the world */
     float height_m;            /* from depth 0 down to depth 1 */
 } virga_rain_occlusion_map;
 

@@ -90,7 +90,9 @@ typedef struct viewer {
     /* What is shown. */
     uint32_t mode, layer;
     bool panel;
-    uint32_t divide;   /* 1, 2 or 4: the picture has that many fewer pixels along each side than the window */
+    uint32_t divide; /* 1, 2 or 4: the picture has that many fewer pixels along each side than the window */
+    char unfold[40]; /* part of the panel to open or close, by its title; and which of both */
+    bool unfold_open;
     char message[512]; /* one line for the user */
     double message_s;  /* until when */
 

@@ -20,7 +20,9 @@ static const view_mode_row rows[VIEW_MODES] = {
     [VIEW_WATER_DEPTH] = {"depth_mm", "Depth of water", "on the ground, from 0 (blue) to 10 mm (red)"},
     [VIEW_CELL_STATE] = {"state", "Cells by state", "what a drop that falls there finds"},
     [VIEW_MATERIAL] = {"material", "Cells by material", "what the ground is made of"},
-    [VIEW_OCCLUSION] = {"occlusion", "Occlusion maps", "what rain falls on, seen along its fall: high is red"},
+    [VIEW_OCCLUSION] =
+        {"occlusion", "Occlusion maps",
+         "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)"},
     [VIEW_PANE] = {"pane", "Pane: affinity, drops", "unevenness of the glass (grey), drops of the mesh, particles"},
     [VIEW_PANE_HEIGHT] = {"height", "Pane: height of water", "the height map: red is 1.5 mm and more"},
 };

@@ -305,29 +305,40 @@ bool has_any(const viewer *v, const char *prefix)
     return begin_of(v, prefix) < v->setting_count;
 }
 
-void section(viewer *v, const char *title, const char *prefix, bool open)
+/* A part of the panel: whether it is open. Scripts open and close them too. */
+bool part(viewer *v, const char *title, bool open)
 {
-    if (has_any(v, prefix) && ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0))
+    const size_t length = std::strlen(v->unfold);
+    if (length && !std::strncmp(title, v->unfold, length)) {
+        ImGui::SetNextItemOpen(v->unfold_open);
+        v->unfold[0] = 0;
+    }
+    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+void section(viewer *v, const char *title, const char *prefix)
+{
+    if (has_any(v, prefix) && part(v, title, false))
         edit_branch(v, prefix);
 }
 
 void sections(viewer *v)
 {
-    section(v, "Rain", "rain.", false);
-    section(v, "Ground", "ground.", false);
-    section(v, "Splashes", "splash.", false);
+    section(v, "Rain", "rain.");
+    section(v, "Ground", "ground.");
+    section(v, "Splashes", "splash.");
     for (uint32_t i = 0; i < v->scene->pane_count; i++) {
         char title[80], prefix[24];
         std::snprintf(title, sizeof title, "Pane: %.40s", v->scene->panes[i].name);
         std::snprintf(prefix, sizeof prefix, "glass.%u.", i);
-        section(v, title, prefix, false);
+        section(v, title, prefix);
     }
-    section(v, "Lamps", "lights.", false);
-    section(v, "Sky", "environment.", false);
-    section(v, "Camera", "camera.", false);
-    section(v, "Frames", "frames.", false);
-    section(v, "Preview", "preview.", false);
-    section(v, "Meshes", "meshes.", false);
+    section(v, "Lamps", "lights.");
+    section(v, "Sky", "environment.");
+    section(v, "Camera", "camera.");
+    section(v, "Frames", "frames.");
+    section(v, "Preview", "preview.");
+    section(v, "Meshes", "meshes.");
 }
 
 /* ---- the parts that are more than a list */
@@ -667,6 +678,12 @@ void head(viewer *v)
     ImGui::PopStyleColor();
 }
 
+void heading(const char *text)
+{
+    ImGui::Spacing();
+    ImGui::TextColored(COLOR_HINT, "%s", text);
+}
+
 void panel(viewer *v)
 {
     const float width = std::min((float)VIEW_PANEL_PX, 0.5f * (float)v->window.width);
@@ -676,28 +693,27 @@ void panel(viewer *v)
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_AlwaysVerticalScrollbar);
     head(v);
-    const ImGuiTreeNodeFlags open = ImGuiTreeNodeFlags_DefaultOpen;
-    if (ImGui::CollapsingHeader("Time", open))
+    if (part(v, "Time", true))
         part_time(v);
-    if (ImGui::CollapsingHeader("Weather", open)) {
+    if (part(v, "Weather", true)) {
         part_presets(v);
         part_weather(v);
     }
-    if (ImGui::CollapsingHeader("View", open)) {
+    if (part(v, "View", true)) {
         part_views(v);
         part_camera(v);
     }
-    if (ImGui::CollapsingHeader("Times", open))
-        part_times(v);
-    if (ImGui::CollapsingHeader("Counts and memory"))
-        part_counts(v);
-    if (ImGui::CollapsingHeader("Water"))
-        part_water(v);
-    if (ImGui::CollapsingHeader("Screenshot and save"))
+    if (part(v, "Screenshot and save", false))
         part_files(v);
-    ImGui::Separator();
-    ImGui::TextColored(COLOR_HINT, "Settings of the scene (* need a restart)");
+    heading("Settings of the scene (* after a restart)");
     sections(v);
+    heading("Measured");
+    if (part(v, "Milliseconds", true))
+        part_times(v);
+    if (part(v, "Counts and memory", false))
+        part_counts(v);
+    if (part(v, "Water", false))
+        part_water(v);
     ImGui::End();
 }
 

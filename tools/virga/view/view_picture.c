@@ -317,13 +317,6 @@ static void fill_pane(const shot *s, const shot_pane *pane, struct view_gpu *out
     out->height_map[2] = now->threshold;
 }
 
-/* What occlusion maps are shown against: the depth of what lies highest; the rain's maps begin a little above the
- * camera, so that the street lies in their middle. */
-static float range_of(const view_shown *shown)
-{
-    return shown->mode == VIEW_VELOCITY ? 20.0f : 0.0f;
-}
-
 static void fill(const shot *s, const host_camera *camera, const view_shown *shown, struct view_gpu *out)
 {
     virga_rain_occlusion_map map;
@@ -335,7 +328,10 @@ static void fill(const shot *s, const host_camera *camera, const view_shown *sho
     out->picture[0] = (float)s->target.width;
     out->picture[1] = (float)s->target.height;
     out->picture[2] = exp2f(shown->exposure_ev);
-    out->picture[3] = range_of(shown);
+    out->picture[3] = 20; /* pixels a frame that show in full */
+    out->heights[0] = (float)map.top_m;
+    out->heights[1] = map.height_m;
+    out->heights[2] = (float)camera->position_m[1] - 4;
     fill_camera(camera, out);
     fill_ground(s, camera, shown->mode, out);
     if (pane) {

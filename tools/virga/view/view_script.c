@@ -181,6 +181,13 @@ static bool do_panel(viewer *v, const script_line *line)
     return take_switch(v, line->words[0], &v->panel);
 }
 
+static bool do_unfold(viewer *v, const script_line *line)
+{
+    v->script->wait = 1;
+    snprintf(v->unfold, sizeof v->unfold, "%s", line->words[0]);
+    return take_switch(v, line->words[1], &v->unfold_open);
+}
+
 static bool do_divide(viewer *v, const script_line *line)
 {
     return take_count(v, line->words[0], 1, 4, &v->divide);
@@ -246,6 +253,7 @@ static const struct {
     {"restart", "", "the rain from the start, with all settings", 0, 0, do_restart},
     {"resize", "W H", "the window, pixels", 2, 2, do_resize},
     {"panel", "on|off", "the panel", 1, 1, do_panel},
+    {"unfold", "TITLE on|off", "a part of the panel, by the first word of its title", 2, 2, do_unfold},
     {"divide", "1|2|4", "as many fewer pixels along each side", 1, 1, do_divide},
     {"await", "STATE", "draw until paused, playing, flying, path, panel or no-panel", 1, 1, do_await},
     {"print", "", "a line about what is shown, on standard output", 0, 0, do_print},

@@ -136,7 +136,8 @@ vec3 occlusion_color(vec2 pixel)
     if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))) || !has(HAS_MAPS))
         return OUTSIDE;
     const float depth = textureLod(occlusion_map, vec3(at, float(view.mode.y)), 0.0).r;
-    return depth >= 1.0 ? vec3(0.03, 0.03, 0.08) : heat(1.0 - clamp((depth - view.picture.w) * 4.0, 0.0, 1.0)) * 0.9;
+    const float height = view.heights.x - depth * view.heights.y; // in the world
+    return depth >= 1.0 ? vec3(0.03, 0.03, 0.08) : heat(0.08 + (height - view.heights.z) / 16.0) * 0.9;
 }
 
 // The pane as seen from outside: u to the right, v up.

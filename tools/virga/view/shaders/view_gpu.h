@@ -56,6 +56,7 @@ struct view_gpu {
     VIEW_UVEC4 pane_cells; /* columns, rows, blades; places for drops */
     VIEW_VEC4 pane_drop; /* water (nl) of a drop with a base of 1 m radius, radius of a particle (m) */
     VIEW_VEC4 blades[VIEW_BLADES]; /* both ends, metres on the pane */
+    VIEW_VEC4 heights;   /* of occlusion maps: top, from there to the bottom; lowest that is told apart (m) */
     VIEW_VEC4 height_map; /* columns and rows in use, threshold */
 };
 
