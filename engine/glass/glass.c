@@ -515,6 +515,17 @@ void virga_glass_drops(const virga_glass *glass, virga_glass_buffer *drops, uint
         *count = glass ? glass->def.max_drops : 0;
 }
 
+void virga_glass_surface(const virga_glass *glass, virga_glass_buffer *surface, uint32_t *columns, uint32_t *rows)
+{
+    if (surface)
+        *surface =
+            glass ? (virga_glass_buffer){glass->surface->buffer, 0, glass->surface->size} : (virga_glass_buffer){0};
+    if (columns)
+        *columns = glass ? glass->columns : 0;
+    if (rows)
+        *rows = glass ? glass->rows : 0;
+}
+
 void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats)
 {
     if (!stats)

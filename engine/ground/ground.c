@@ -416,6 +416,28 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     }
 }
 
+uint32_t ground_nl_per_um(const virga_ground *ground)
+{
+    const double cell_m = (double)ground->def.cell_m;
+    return (uint32_t)floor(cell_m * cell_m * 1e6 + 0.5);
+}
+
+void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cells)
+{
+    if (!cells)
+        return;
+    memset(cells, 0, sizeof *cells);
+    if (!ground)
+        return;
+    const virga_buffer *current = ground->cells[ground->parity];
+    *cells = (virga_ground_cells){.floors = ground->floors->buffer,
+                                  .cells = current->buffer,
+                                  .size = current->size,
+                                  .tiles = ground->window.tiles,
+                                  .low_tile = {ground->window.low[0], ground->window.low[1]},
+                                  .nl_per_um = ground_nl_per_um(ground)};
+}
+
 void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)
 {
     if (buffer)

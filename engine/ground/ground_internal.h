@@ -130,6 +130,9 @@ uint32_t ground_tick_bytes(void);
 uint32_t ground_list_bytes(void);
 
 /* ---- ground.c */
+
+/* Nanolitres that make a micrometre of depth on a cell. */
+uint32_t ground_nl_per_um(const virga_ground *ground);
 void ground_write_sets(virga_ground *ground);
 
 /* ---- ground_step.c */

@@ -117,7 +117,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     }
     out->cell_m = (float)cell;
     out->inv_cell_m = (float)(1 / cell);
-    out->nl_per_um = (int)floor(area * 1e6 + 0.5);
+    out->nl_per_um = (int)ground_nl_per_um(ground);
     out->m_per_nl = (float)(1e-12 / area);
     out->seed = ground->def.seed;
     out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);

@@ -220,3 +220,23 @@ virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, 
     rain->host_map_image = *depth;
     return VIRGA_OK;
 }
+
+void virga_rain_occlusion_map_get(const virga_rain *rain, virga_rain_occlusion_map *map)
+{
+    if (!map)
+        return;
+    memset(map, 0, sizeof *map);
+    if (!rain || !rain->map_count)
+        return;
+    const uint32_t slants = rain->def.occlusion_slants;
+    *map = (virga_rain_occlusion_map){
+        .depth = rain->host_maps ? rain->host_map_image.view : rain->map->depth->view,
+        .layout = rain->host_maps ? rain->host_map_image.before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        .size = rain->host_maps ? rain->host_map_image.extent.width : rain->def.occlusion_size,
+        .cascades = rain->def.occlusion_cascades,
+        .slants = slants,
+        .top_m = rain->maps[0].top_m,
+        .height_m = (float)rain->maps[0].height_m};
+    for (uint32_t i = 0; i < rain->def.occlusion_cascades; i++)
+        map->half_m[i] = (float)rain->maps[i * slants].half_m;
+}

@@ -4,13 +4,12 @@
 #ifndef VIRGA_SHARED_GROUND_GPU_H
 #define VIRGA_SHARED_GROUND_GPU_H
 
+#include "ground_cell.h"
 #include "ground_limits.h"
 #include "types.h"
 
 #ifndef VIRGA_GLSL
 #define uint virga_uint
-typedef struct virga_floor_gpu virga_floor_gpu;
-typedef struct virga_cell_gpu virga_cell_gpu;
 typedef struct virga_arrivals_gpu virga_arrivals_gpu;
 typedef struct virga_soil_gpu virga_soil_gpu;
 typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
@@ -20,18 +19,6 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 #endif
 
 #define VIRGA_GROUND_GROUP 256
-
-/* What a cell is. */
-struct virga_floor_gpu {
-    int height_um;   /* of its middle, in the world, its material's unevenness in it */
-    uint material;   /* [0; 31]; 0xff: there is no ground */
-};
-
-/* What a cell holds. */
-struct virga_cell_gpu {
-    uint free_nl;    /* on it */
-    uint held_nl;    /* in its pores */
-};
 
 /* Water on its way within a tick; zero between ticks. */
 struct virga_arrivals_gpu {
@@ -127,8 +114,6 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_COUNTS      19
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_floor_gpu, 8);
-VIRGA_ASSERT_SIZE(virga_cell_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);

@@ -408,6 +408,21 @@ static void wipers_turn_back_smoothly(void **unused)
     assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 5) < 1e-9);
 }
 
+static void the_surface_is_told_cell_by_cell(void **unused)
+{
+    (void)unused;
+    virga_glass_buffer surface;
+    uint32_t columns, rows;
+    glass_fixture_open(&f, NULL);
+    virga_glass_surface(f.glass, &surface, &columns, &rows);
+    assert_int_equal(columns, 80); /* 0.16 m by 2 mm */
+    assert_int_equal(rows, 60);
+    assert_int_equal(surface.size, 80 * 60 * 4);
+    virga_glass_surface(NULL, &surface, &columns, &rows);
+    assert_int_equal(surface.size + columns + rows, 0);
+    glass_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +438,7 @@ int main(void)
         cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
         cmocka_unit_test(held_particles_become_drops_when_the_way_is_free),
         cmocka_unit_test(wipers_turn_back_smoothly),
+        cmocka_unit_test(the_surface_is_told_cell_by_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

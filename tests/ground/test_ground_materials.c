@@ -49,13 +49,12 @@ static void put_picture(VkFormat format, uint32_t width, uint32_t height, const 
     REQUIRE(host_image_create(&f.gpu.device, &def, &picture, f.gpu.error, sizeof f.gpu.error));
     REQUIRE(host_image_upload(&f.gpu.device, &picture, texels, (VkDeviceSize)width * height * texel, texel, f.gpu.error,
                               sizeof f.gpu.error));
-    f.materials.image = (virga_image){
-        .image = picture.image,
-        .view = picture.view,
-        .format = format,
-        .extent = picture.extent,
-        .before = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_SHADER_READ_BIT}};
+    f.materials.image = (virga_image){.image = picture.image,
+                                      .view = picture.view,
+                                      .format = format,
+                                      .extent = picture.extent,
+                                      .before = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT}};
 }
 
 static void put_corners(double low_x, double low_z, double high_x, double high_z)
@@ -301,6 +300,30 @@ static void test_corners_that_are_no_numbers_are_refused(void **state)
     end();
 }
 
+/* A host that goes by the header alone finds the cell that the test finds, far from the origin and left of it too. */
+static void test_a_host_finds_cells_where_the_header_says(void **state)
+{
+    (void)state;
+    begin(-80.2, 61.7);
+    ground_fixture_step(&f, 0);
+    virga_ground_cells cells;
+    virga_ground_cells_get(f.ground, &cells);
+    assert_int_equal(cells.tiles, 2);
+    assert_int_equal(cells.size, 128 * 128 * sizeof(virga_cell_gpu));
+    assert_int_equal(cells.nl_per_um, 2500); /* 5 cm x 5 cm x 1 um */
+    assert_ptr_equal(cells.cells, f.ground->cells[f.ground->parity]->buffer);
+    assert_ptr_equal(cells.floors, f.ground->floors->buffer);
+    const int x = cells.low_tile[0] * 64 + 70, z = cells.low_tile[1] * 64 + 5;
+    assert_true(x < 0 && z > 0);
+    const int tile_x = (int)floor(x / 64.0), tile_z = (int)floor(z / 64.0);
+    const int column = ((tile_x % 2) + 2) % 2, row = ((tile_z % 2) + 2) % 2;
+    assert_int_equal((row * 2 + column) * 4096 + (z - 64 * tile_z) * 64 + x - 64 * tile_x,
+                     ground_fixture_place(&f, x, z));
+    virga_ground_cells_get(NULL, &cells);
+    assert_int_equal(cells.size, 0);
+    end();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -313,6 +336,7 @@ int main(void)
         cmocka_unit_test(test_a_map_makes_no_ground),
         cmocka_unit_test(test_a_map_without_a_place_is_none),
         cmocka_unit_test(test_corners_that_are_no_numbers_are_refused),
+        cmocka_unit_test(test_a_host_finds_cells_where_the_header_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,12 +133,32 @@ static void no_drop_is_shown_under_the_roof(void **state)
     rain_fixture_close(&f);
 }
 
+static void maps_are_told_once_they_are_drawn(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    virga_rain_occlusion_map map;
+    open_roof(&f, 0);
+    virga_rain_occlusion_map_get(f.rain, &map);
+    assert_true(map.depth == VK_NULL_HANDLE && map.size == 0);
+    rain_fixture_step(&f, 1.0 / 12);
+    virga_rain_occlusion_map_get(f.rain, &map);
+    assert_true(map.depth != VK_NULL_HANDLE);
+    assert_int_equal(map.size, 1024);
+    assert_int_equal(map.cascades * map.slants, 8);
+    assert_true(map.half_m[0] < map.half_m[1]);
+    assert_true(map.half_m[1] >= 8);
+    assert_true(map.top_m > 3 && map.top_m - (double)map.height_m < 0); /* the roof and the floor are in it */
+    rain_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_rain_lands_on_the_first_surface),
         cmocka_unit_test(slanted_rain_does_not_come_through_the_roof),
         cmocka_unit_test(no_drop_is_shown_under_the_roof),
+        cmocka_unit_test(maps_are_told_once_they_are_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 #include <virga/vulkan.h>
 
-#define ANISOTROPY 8.0f
+#define ANISOTROPY          8.0f
 #define ANISOTROPY_SOFTWARE 4.0f /* a plate takes two to three times as long as without, and a road looks like one */
 
 /* What the host takes where it is there; what Virga requires is set by virga_enable_features. */
@@ -32,8 +32,7 @@ static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled
 static bool create_logical(host_device *device, char *error, size_t error_size)
 {
     VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
-                                          .pNext = &features12};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
     virga_result result = virga_enable_features(&features);
     if (result < 0)
         return host_fail(error, error_size, "virga_enable_features gave %s", virga_result_name(result));
@@ -46,11 +45,14 @@ static bool create_logical(host_device *device, char *error, size_t error_size)
         .queueCount = 1,
         .pQueuePriorities = &priority,
     };
+    const char *const extensions[] = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &features,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
+        .enabledExtensionCount = device->instance->presents ? 1 : 0,
+        .ppEnabledExtensionNames = extensions,
     };
     HOST_TRY(vkCreateDevice(device->physical, &info, NULL, &device->device));
     vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
@@ -95,8 +97,7 @@ bool host_device_create(host_device *device, const host_instance *instance, cons
     }
     if (instance->debug_utils) {
         VkInstance vk = instance->instance;
-        device->set_name =
-            (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(vk, "vkSetDebugUtilsObjectNameEXT");
+        device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(vk, "vkSetDebugUtilsObjectNameEXT");
         device->begin_label =
             (PFN_vkCmdBeginDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdBeginDebugUtilsLabelEXT");
         device->end_label = (PFN_vkCmdEndDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdEndDebugUtilsLabelEXT");
@@ -186,17 +187,34 @@ bool host_begin_frame(host_device *device, VkCommandBuffer *cmd, char *error, si
 
 bool host_submit(host_device *device, char *error, size_t error_size)
 {
+    return host_submit_for_window(device, VK_NULL_HANDLE, VK_NULL_HANDLE, error, error_size);
+}
+
+bool host_submit_for_window(host_device *device, VkSemaphore acquired, VkSemaphore drawn, char *error,
+                            size_t error_size)
+{
     host_frame *frame = &device->frames[device->frame % HOST_FRAMES];
     HOST_TRY(vkEndCommandBuffer(frame->cmd));
     HOST_TRY(vkResetFences(device->device, 1, &frame->fence));
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     VkSubmitInfo submit = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+        .waitSemaphoreCount = acquired ? 1 : 0,
+        .pWaitSemaphores = &acquired,
+        .pWaitDstStageMask = &stage,
         .commandBufferCount = 1,
         .pCommandBuffers = &frame->cmd,
+        .signalSemaphoreCount = drawn ? 1 : 0,
+        .pSignalSemaphores = &drawn,
     };
     HOST_TRY(vkQueueSubmit(device->queue, 1, &submit, frame->fence));
     frame->index = device->frame;
     return true;
+}
+
+bool host_wait_frame(host_device *device, uint64_t frame, char *error, size_t error_size)
+{
+    return wait_frame(device, &device->frames[frame % HOST_FRAMES], error, error_size);
 }
 
 bool host_wait(host_device *device, char *error, size_t error_size)

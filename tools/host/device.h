@@ -34,12 +34,17 @@ typedef struct host_instance {
     VkDebugUtilsMessengerEXT messenger;
     bool validation;           /* layer and synchronization validation are on */
     bool debug_utils;          /* names and labels may be set */
+    bool presents;             /* made for a window: devices get VK_KHR_swapchain */
     uint32_t messages;         /* warnings and errors the layer has reported so far */
     char first_message[1024];  /* the first of them */
 } host_instance;
 
 /* `validate`, or VIRGA_VALIDATE=1 in the environment, turns validation on; it is an error if the layer is absent. */
 bool host_instance_create(host_instance *instance, bool validate, char *error, size_t error_size);
+
+/* The same with the extensions that a window needs, at most 8, so that devices of it can present. */
+bool host_instance_create_for_window(host_instance *instance, bool validate, const char *const *extensions,
+                                     uint32_t extension_count, char *error, size_t error_size);
 void host_instance_destroy(host_instance *instance);
 
 /* ---- which device ------------------------------------------------------------------------------------------- */
@@ -118,6 +123,13 @@ bool host_begin_frame(host_device *device, VkCommandBuffer *cmd, char *error, si
 
 /* Ends and submits the command buffer begun last. */
 bool host_submit(host_device *device, char *error, size_t error_size);
+
+/* The same, but drawing waits for a semaphore before it writes colors, and signals another when all is done. */
+bool host_submit_for_window(host_device *device, VkSemaphore acquired, VkSemaphore drawn, char *error,
+                            size_t error_size);
+
+/* Waits until a frame is complete, which must be one of the newest HOST_FRAMES. */
+bool host_wait_frame(host_device *device, uint64_t frame, char *error, size_t error_size);
 
 /* Waits until all that was submitted is complete. */
 bool host_wait(host_device *device, char *error, size_t error_size);

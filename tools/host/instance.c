@@ -8,8 +8,9 @@
 
 #include <virga/vulkan.h>
 
-#define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
-#define MESSAGES_PRINTED 16 /* after that they are counted only */
+#define VALIDATION_LAYER       "VK_LAYER_KHRONOS_validation"
+#define MESSAGES_PRINTED       16 /* after that they are counted only */
+#define MOST_WINDOW_EXTENSIONS 8
 
 bool host_fail(char *error, size_t error_size, const char *format, ...)
 {
@@ -92,7 +93,14 @@ static bool has_extension(const char *layer, const char *name)
 
 bool host_instance_create(host_instance *instance, bool validate, char *error, size_t error_size)
 {
+    return host_instance_create_for_window(instance, validate, NULL, 0, error, error_size);
+}
+
+bool host_instance_create_for_window(host_instance *instance, bool validate, const char *const *window_extensions,
+                                     uint32_t window_extension_count, char *error, size_t error_size)
+{
     memset(instance, 0, sizeof *instance);
+    instance->presents = window_extension_count > 0;
     const char *asked = getenv("VIRGA_VALIDATE");
     validate = validate || (asked && *asked && strcmp(asked, "0") != 0);
 
@@ -106,8 +114,12 @@ bool host_instance_create(host_instance *instance, bool validate, char *error, s
     instance->validation = validate;
     instance->debug_utils = has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const char *layers[] = {VALIDATION_LAYER};
-    const char *extensions[2];
+    const char *extensions[2 + MOST_WINDOW_EXTENSIONS];
     uint32_t extension_count = 0;
+    while (extension_count < window_extension_count && extension_count < MOST_WINDOW_EXTENSIONS) {
+        extensions[extension_count] = window_extensions[extension_count];
+        extension_count++;
+    }
     if (instance->debug_utils)
         extensions[extension_count++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     if (validate && has_extension(VALIDATION_LAYER, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME))
@@ -144,8 +156,8 @@ bool host_instance_create(host_instance *instance, bool validate, char *error, s
     };
     HOST_TRY(vkCreateInstance(&info, NULL, &instance->instance));
 
-    PFN_vkCreateDebugUtilsMessengerEXT create_messenger = (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
-        instance->instance, "vkCreateDebugUtilsMessengerEXT");
+    PFN_vkCreateDebugUtilsMessengerEXT create_messenger =
+        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->instance, "vkCreateDebugUtilsMessengerEXT");
     if (validate && create_messenger)
         HOST_TRY(create_messenger(instance->instance, &messenger, NULL, &instance->messenger));
     return true;
@@ -155,9 +167,8 @@ void host_instance_destroy(host_instance *instance)
 {
     if (!instance->instance)
         return;
-    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger =
-        (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->instance,
-                                                                   "vkDestroyDebugUtilsMessengerEXT");
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger = (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+        instance->instance, "vkDestroyDebugUtilsMessengerEXT");
     if (instance->messenger && destroy_messenger)
         destroy_messenger(instance->instance, instance->messenger, NULL);
     vkDestroyInstance(instance->instance, NULL);

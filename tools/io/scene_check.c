@@ -126,8 +126,7 @@ static const struct {
     {"_lm", "lm"},
 };
 
-/* Copies the name without its unit and returns the unit in words, NULL if it has none. */
-static const char *split_unit(const char *key, char stem[64])
+const char *scene_key_unit(const char *key, char stem[64])
 {
     snprintf(stem, 64, "%s", key);
     size_t length = strlen(stem);
@@ -145,9 +144,9 @@ static const char *split_unit(const char *key, char stem[64])
 static const char *same_but_unit(const char *key, const char *const *keys, size_t count, const char **unit)
 {
     char stem[64], other[64];
-    split_unit(key, stem);
+    scene_key_unit(key, stem);
     for (size_t i = 0; i < count; i++) {
-        *unit = split_unit(keys[i], other);
+        *unit = scene_key_unit(keys[i], other);
         if (*unit && !strcasecmp(stem, other))
             return keys[i];
     }

@@ -7,4 +7,7 @@
 /* Checks keys, types and ranges and fills in every default, so that libcyaml finds a document it cannot refuse. */
 bool scene_check(scene_document *document);
 
+/* Copies a key without its unit ("rate" of "rate_mm_h") and returns the unit in words, NULL if it has none. */
+const char *scene_key_unit(const char *key, char stem[64]);
+
 #endif

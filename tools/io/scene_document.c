@@ -333,14 +333,14 @@ static int copy_tree(scene_document *document, yaml_document_t *from, int node, 
         copy = add_scalar(document, (const char *)source.data.scalar.value, source.data.scalar.length,
                           source.data.scalar.style);
     } else if (source.type == YAML_SEQUENCE_NODE) {
-        copy = yaml_document_add_sequence(&document->yaml, NULL, YAML_ANY_SEQUENCE_STYLE);
+        copy = yaml_document_add_sequence(&document->yaml, NULL, source.data.sequence.style);
         for (yaml_node_item_t *item = source.data.sequence.items.start;
              ok && copy && item < source.data.sequence.items.top; item++) {
             int child = copy_tree(document, from, *item, mark);
             ok = child && yaml_document_append_sequence_item(&document->yaml, copy, child);
         }
     } else {
-        copy = yaml_document_add_mapping(&document->yaml, NULL, YAML_ANY_MAPPING_STYLE);
+        copy = yaml_document_add_mapping(&document->yaml, NULL, source.data.mapping.style);
         for (yaml_node_pair_t *pair = source.data.mapping.pairs.start;
              ok && copy && pair < source.data.mapping.pairs.top; pair++) {
             int key = copy_tree(document, from, pair->key, mark);

@@ -2,6 +2,8 @@
 #ifndef VIRGA_IO_SCENE_SCHEMA_H
 #define VIRGA_IO_SCENE_SCHEMA_H
 
+#include <stdbool.h>
+
 #include <cyaml/cyaml.h>
 
 /* What libcyaml's schema cannot say of a key. */
@@ -9,6 +11,8 @@ typedef struct scene_rule {
     const char *path;  /* "rain.rate_mm_h"; entries of lists as in "lights[].range_m" */
     double low, high;  /* (numbers, and each number of a vector) */
     const char *value; /* default, as YAML; "@path" takes the value of another key; NULL: none */
+    bool restarts;     /* a change counts from the next start of the rain on: it sizes pools or is loaded */
+    const char *help;  /* one line on what it is, for people */
 } scene_rule;
 
 extern const cyaml_schema_value_t scene_schema;

@@ -11,6 +11,8 @@ typedef struct command {
 
 int render_run(int argc, char **argv);
 void render_help(void);
+int view_run(int argc, char **argv);
+void view_help(void);
 int check_run(int argc, char **argv);
 void check_help(void);
 int info_run(int argc, char **argv);

@@ -256,8 +256,8 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
     return n;
 }
 
-bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
-                     char *error, size_t error_size)
+bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32_t frame, uint32_t layers, char *error,
+                    size_t error_size)
 {
     const size_t pixels = (size_t)s->frame.width * s->frame.height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty), *distance = malloc(pixels * sizeof *distance);
@@ -271,7 +271,7 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
         distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
     exr_parts parts = {.count = 0};
     exr_attribute attributes[10];
-    char path[4096], hash[32], digits[EXR_UINT_DIGITS];
+    char hash[32], digits[EXR_UINT_DIGITS];
     collect(s, layers, beauty, distance, &parts);
     const exr_frame file = {.width = s->frame.width,
                             .height = s->frame.height,
@@ -279,16 +279,23 @@ bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, 
                             .channel_count = parts.count,
                             .attributes = attributes,
                             .attribute_count = fill_attributes(s, camera, frame, attributes, hash, digits)};
-    snprintf(path, sizeof path, "%s/frame.%04u.exr", directory, frame);
     const bool written = exr_write(path, &file, error, error_size);
     free(beauty);
     free(distance);
     return written;
 }
 
+bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
+                     char *error, size_t error_size)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/frame.%04u.exr", directory, frame);
+    return frame_save_exr(s, camera, path, frame, layers, error, error_size);
+}
+
 /* ---- the rest */
 
-bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+bool frame_save_preview(shot *s, const char *path, char *error, size_t error_size)
 {
     const size_t pixels = (size_t)s->frame.width * s->frame.height;
     float *beauty = malloc(pixels * 4 * sizeof *beauty);
@@ -297,15 +304,20 @@ bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *e
     if (!written)
         host_fail(error, error_size, "no memory for a preview of %u x %u", s->frame.width, s->frame.height);
     if (written) {
-        char path[4096];
         compose(s, beauty);
         png_from_linear(beauty, pixels, (float)s->scene->preview.exposure_ev, rgb);
-        snprintf(path, sizeof path, "%s/preview.%04u.png", directory, frame);
         written = png_write(path, s->frame.width, s->frame.height, 3, rgb, error, error_size);
     }
     free(beauty);
     free(rgb);
     return written;
+}
+
+bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/preview.%04u.png", directory, frame);
+    return frame_save_preview(s, path, error, error_size);
 }
 
 /* ---- points */

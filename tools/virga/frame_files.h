@@ -23,6 +23,11 @@ void frame_layers_help(void);
 bool frame_write_exr(shot *s, const host_camera *camera, const char *directory, uint32_t frame, uint32_t layers,
                      char *error, size_t error_size);
 
+/* The same under any name. */
+bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32_t frame, uint32_t layers, char *error,
+                    size_t error_size);
+bool frame_save_preview(shot *s, const char *path, char *error, size_t error_size);
+
 /* Writes DIR/preview.%04u.png. */
 bool frame_write_preview(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 

@@ -22,6 +22,10 @@ typedef struct shot_options {
     bool points;      /* drops and droplets of each stepped frame are read back */
     const char *plate; /* pictures in place of the opaque scene, see plate.h; NULL: the scene is drawn */
     uint32_t frames[2]; /* (plate) first and last to be drawn */
+    bool live;          /* for shot_live_record */
+    bool height_maps;   /* panes make what virga_glass_map_get tells of */
+    const char *const *window_extensions; /* (live) of the instance, so that the device can present */
+    uint32_t window_extension_count;
 } shot_options;
 
 /* Points of the newest step, on their way to the host. */
@@ -71,10 +75,12 @@ typedef struct shot {
     virga_rain_settings settings;
     shot_read drops_read, droplets_read;
     shot_pane *panes; /* as many as the scene has; NULL before they are made */
-    plate plate;
+    struct plate plate; /* so called as in C++ too */
     host_buffer plate_buffer; /* its pixels on their way to the device */
     uint32_t frame_index; /* scene frame that the simulation stands at; first - 1 before any */
     double camera_time_s; /* of the frame that the simulation stands at */
+    host_camera_key eye_keys[2]; /* (live) a camera of its own in place of the path: a frame ago, and now */
+    bool eye_free;               /* it is in use */
     char warning[512];    /* newest line that the library logged as warning or error */
     bool input_wrong;     /* shot_open failed because of what was asked for, not because of the machine */
 } shot;
@@ -128,6 +134,28 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
 
 /* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size);
+
+/* ---- live: time goes on as the caller wants, and settings of the scene may change between frames. s->camera_time_s is
+ * where time is. Panes that go with the camera go with its path, also where the eye is free. */
+
+/* Begins a frame of the device and of the library. */
+bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size);
+
+/* Records that `dt_s` of time (0: none) passes, and the picture, into s->target. The outputs but color and depth are in
+ * VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL then. Begun by shot_begin, submitted by the caller. */
+bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *camera, char *error, size_t error_size);
+
+/* Draws the moment that time stands at into s->frame, as shot_draw does a frame. Waits for the device. */
+bool shot_live_draw(shot *s, uint32_t samples, host_camera *camera, char *error, size_t error_size);
+
+/* Rain, ground, panes and all that the scene names, anew, at time 0. Waits for the device. */
+bool shot_live_restart(shot *s, char *error, size_t error_size);
+
+/* Another size of the picture. Waits for the device. */
+bool shot_live_resize(shot *s, uint32_t width, uint32_t height, char *error, size_t error_size);
+
+/* The path of the eye: the scene's, or of the free one. */
+host_camera_path shot_eye(const shot *s);
 
 /* The drops of the frame that the simulation stands at, under the open sky, in the world: an array to free(). Needs
  * options.points. */

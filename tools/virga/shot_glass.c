@@ -323,6 +323,7 @@ virga_glass_def *shot_panes_define(const shot *s)
         defs[i].max_drops = from->max_drops;
         defs[i].affinity_m = (float)from->affinity_m;
         defs[i].max_texels = from->max_texels;
+        defs[i].height_map = s->options.height_maps;
     }
     return defs;
 }

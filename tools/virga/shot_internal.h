@@ -1,4 +1,4 @@
-/* shot_internal.h - what shot.c, shot_glass.c and shot_wipers.c share. */
+/* shot_internal.h - what the files of a shot share. */
 #ifndef VIRGA_TOOL_SHOT_INTERNAL_H
 #define VIRGA_TOOL_SHOT_INTERNAL_H
 
@@ -12,12 +12,59 @@ bool shot_ok(const shot *s, virga_result result, const char *what, char *error, 
 /* Notes that what fails here is wrong input. */
 bool shot_blame_input(shot *s, bool right);
 
+/* Time passes to `time_s`, by `dt_s`: occlusion around its camera, and the ticks of that. */
+bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, char *error, size_t error_size);
+
+/* What the picture is drawn into, of the size in s->options. */
+bool shot_make_target(shot *s, char *error, size_t error_size);
+
+/* ---- shot_draw.c: the picture */
+
+/* One sub-frame of s->options.samples: its share of the shutter time, seen with its jitter. */
+bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size);
+
+/* All of them, into s->frame. */
+bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size);
+
+/* ---- shot_load.c: what the scene names */
+
 /* Where a mesh of the scene lies in the world; row-major 3 x 4. */
 void shot_place_mesh(const scene_mesh *mesh, float out[12]);
+
+/* Into s->meshes and s->occluders; into the renderer, where there is one. */
+bool shot_load_meshes(shot *s, char *error, size_t error_size);
+bool shot_load_material_map(shot *s, char *error, size_t error_size);
+bool shot_load_environment(shot *s, char *error, size_t error_size);
+
+/* The path, into s->camera_keys and s->path. */
+void shot_load_camera(shot *s);
+
+/* ---- shot_rain.c: the rain and what it does */
+
+/* Makes the library's scene, and what it is drawn into where it is drawn. */
+bool shot_open_rain(shot *s, char *error, size_t error_size);
+
+/* Lamps, into the settings of all that shows their light, and into the renderer. */
+void shot_fill_lights(shot *s);
+bool shot_set_ground(shot *s, char *error, size_t error_size);
+
+/* The plane that puddles mirror in. */
+bool shot_set_mirror(shot *s, char *error, size_t error_size);
+
+/* Settings of a time. */
+bool shot_set_weather(shot *s, double time_s, char *error, size_t error_size);
+
+/* How far ahead the middle of the map of ripples lies. */
+double shot_ripples_ahead(const shot *s, double time_s);
+
+/* ---- shot_points.c: what is read back */
 
 /* Copies points that the step just recorded has left ready for it to where the host reads them. */
 bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
                       shot_read *read, char *error, size_t error_size);
+
+/* All points of the newest step. */
+bool shot_record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size);
 
 /* ---- shot_glass.c: the panes of the scene */
 

@@ -304,6 +304,13 @@ typedef struct virga_glass_buffer {
  * transfers and compute. */
 VIRGA_API void virga_glass_drops(const virga_glass *glass, virga_glass_buffer *drops, uint32_t *count);
 
+/* What the glass is like, for whoever shows or checks it: *columns x *rows words of 32 bits, row by row from v = 0 up,
+ * each a square of def.cell_m: bits 0 to 7 the logarithm of its affinity in standard deviations, times 32, plus 128;
+ * bits 8 to 15 and 16 to 23 the bump map's normal along u and v, times 128, plus 128; bit 24: there is glass. There
+ * from the first step on; ready to be read by compute after a step. All zero for NULL. Costs nothing. */
+VIRGA_API void virga_glass_surface(const virga_glass *glass, virga_glass_buffer *surface, uint32_t *columns,
+                                   uint32_t *rows);
+
 /* ---- pictures -------------------------------------------------------------------------------------------------- */
 
 /* Where the pane is in the world when it is drawn. */

@@ -24,6 +24,7 @@
 
 #include <virga/material.h>
 #include <virga/mesh.h>
+#include <virga/shared/ground_cell.h>
 #include <virga/shared/ground_limits.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/landing.h>
@@ -160,6 +161,24 @@ typedef struct virga_ground_maps {
 } virga_ground_maps;
 
 VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps);
+
+/* The cells themselves (virga/shared/ground_cell.h), for whoever shows or checks them. Each buffer has an entry for each
+ * cell of the window, tile by tile: the cell (x, z), counted from the world's origin, lies at
+ *     ((z / 64 mod tiles) x tiles + (x / 64 mod tiles)) x 4096 + (z mod 64) x 64 + x mod 64
+ * with divisions and remainders rounded down, also of negative numbers. */
+typedef struct virga_ground_cells {
+    VkBuffer floors;      /* virga_floor_gpu: material and height */
+    VkBuffer cells;       /* virga_cell_gpu: water. May be another buffer after each step */
+    VkDeviceSize size;    /* bytes of each, from its start */
+    uint32_t tiles;       /* of 64 x 64 cells along the window's side, a power of two */
+    int32_t low_tile[2];  /* in x and z: the window begins with it */
+    uint32_t nl_per_um;   /* nanolitres that make a micrometre of depth on a cell */
+} virga_ground_cells;
+
+/* Tells where the cells of the newest step are; all zero for NULL. virga_ground_step leaves them to compute shaders,
+ * which wrote them: for readers in other stages the host records a barrier, from the stage of compute shaders and their
+ * writes. Not to be written. Costs nothing. Thread-safety: as the ground. */
+VIRGA_API void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cells);
 
 /* What the impacts of the newest step met: virga_landing_gpu by index of impact. */
 VIRGA_API void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);

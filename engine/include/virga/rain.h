@@ -141,6 +141,21 @@ VIRGA_API uint32_t virga_rain_occlusion_views(virga_rain *rain, const double cam
  * the slope of the depth. */
 VIRGA_API virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth);
 
+/* The maps in use, for whoever shows or checks them. */
+typedef struct virga_rain_occlusion_map {
+    VkImageView depth;         /* 2D array: 0 on top, 1 at the bottom or where nothing is; VK_NULL_HANDLE: no maps yet */
+    VkImageLayout layout;      /* for sampling */
+    uint32_t size;             /* texels along a side */
+    uint32_t cascades, slants; /* layer cascade x slants + slant; the narrowest cascade comes first */
+    float half_m[4];           /* half of the side, by cascade */
+    double top_m;              /* height of depth 0 in the world */
+    float height_m;            /* from depth 0 down to depth 1 */
+} virga_rain_occlusion_map;
+
+/* Tells the maps that virga_rain_occlusion drew last, or that a host gave. Those of the rain are left ready to be read
+ * by compute shaders; for other stages the host records a barrier. Costs nothing. Thread-safety: as the rain. */
+VIRGA_API void virga_rain_occlusion_map_get(const virga_rain *rain, virga_rain_occlusion_map *map);
+
 /* ---- time ----------------------------------------------------------------------------------------------------- */
 
 typedef struct virga_rain_step_info {

@@ -1,0 +1,207 @@
+#!/usr/bin/env bash
+# The window, driven by a script on a display that nobody sees: pictures with the panel, screenshots, the tuned scene as
+# a file that renders, real keys, and one line about what is wrong.
+# Usage: view.sh VIRGA
+set -u
+virga=$(realpath "$1")
+device=${VIRGA_TEST_DEVICE:-cpu}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+}
+
+# What a picture's pixels are on average, 0 to 255, inside x y width height.
+mean() { # FILE GEOMETRY
+    oiiotool "$1" --crop "$2" --ch R,G,B -d float --stats | awk '/Stats Avg/ { print int(255 * ($3 + $4 + $5) / 3) }'
+}
+
+has() { # TEXT FILE
+    grep -qF -- "$1" "$2" || { cat "$2"; fail "no '$1'"; }
+}
+
+for need in xvfb-run oiiotool; do
+    command -v "$need" >/dev/null || { echo "skipped: $need is not installed"; exit 77; }
+done
+"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+
+# A floor with a lamp, and a pane with a wiper: small, so that frames are quick.
+cat >"$work/floor.obj" <<'END'
+v -20 0 -20
+v 20 0 -20
+v 20 0 20
+v -20 0 20
+f 1 4 3 2
+END
+cat >"$work/scene.yaml" <<'END'
+virga: 1
+meshes: [{file: floor.obj}]
+lights: [{position_m: [0, 3, -3], intensity_w_sr: 6}]
+camera: {keys: [{time_s: 0, position_m: [0, 1.5, 4], look_at_m: [0, 1, 0]}, {time_s: 2, position_m: [0, 1.5, 3], look_at_m: [0, 1, 0]}]}
+frames: {size: [320, 180]}
+rain: {rate_mm_h: 40, max_drops: 8192, range_m: 8, occlusion_size: 128}
+ground: {on: true, cells: 128}
+splash: {max_splashes: 4096, max_droplets: 4096}
+glass:
+  - {name: pane, width_m: 0.6, height_m: 0.3, follow: camera, position_m: [0, -0.2, 0.8], max_drops: 1024, max_texels: 128,
+     wipers: [{pivot_m: [0.3, -0.05], reach_m: 0.3, blade_m: 0.2, low_deg: 160, high_deg: 20}]}
+END
+
+# view NAME OPTION...: a script from standard input.
+view() {
+    local name=$1
+    shift
+    cat >"$work/$name.txt"
+    (cd "$work" && timeout 200 xvfb-run -a -s "-screen 0 1280x720x24" "$virga" view scene.yaml --window 900x500 \
+        --script "$name.txt" --device "$device" "$@") >"$work/$name.out" 2>"$work/$name.err"
+    local code=$?
+    ! grep '^validation: ' "$work/$name.err" || fail "$name: validation"
+    return $code
+}
+
+if ! "$virga" help view | grep -q -- --script; then
+    "$virga" view "$work/scene.yaml" 2>"$work/err" && fail "a build without a window opens one"
+    has 'this build has no window: install libglfw3-dev and libimgui-dev' "$work/err"
+    [ "$failures" = 0 ] && { echo "skipped: built without a window"; exit 77; }
+    exit 1
+fi
+
+# ---- what the window shows, and what comes out of it
+
+view tour <<'END' || { cat "$work/tour.err"; fail "tour"; }
+divide 2
+wait 3
+window first.png
+set rain.rate_mm_h 90            # what the saved scene must have
+set glass.*.wipers.*.sweep_s 1.5
+set splash.style paper
+set glass.0.film_um 9
+view state
+window state.png
+view material
+wait 1
+view occlusion 1
+wait 1
+view pane
+window pane.png
+view height
+wait 1
+view refraction
+wait 1
+view velocity
+wait 1
+view picture
+preset storm
+step 2
+shot still.png
+shot still.exr
+set rain.rate_mm_h 90
+set ground.start_wetness 0.5
+restart
+panel off
+camera 1 2 5 10 -15
+resize 700 400
+wait 2
+shot flown.png
+print
+window bare.png
+save tuned.yaml
+quit
+END
+grep -q '^time .* s, paused, 90 mm/h, view picture, camera free, 3[0-9][0-9] x ' "$work/tour.out" ||
+    { cat "$work/tour.out"; fail "what print says"; }
+for picture in first.png still.png flown.png bare.png pane.png; do
+    [ -s "$work/$picture" ] || { fail "no $picture"; continue; }
+    [ "$(mean "$work/$picture" 200x100+100+150)" -gt 8 ] || fail "$picture is black"
+done
+# The panel: on the right, with buttons and text on its dark ground.
+[ "$(oiiotool "$work/first.png" --crop 420x480+475+10 --ch R,G,B -d float --stats |
+    awk '/Stats StdDev/ { print ($3 + $4 + $5 > 0.15) }')" = 1 ] || fail "the window has no panel"
+oiiotool --info "$work/bare.png" | grep -q '700 x *400' || fail "the window was not resized"
+oiiotool --info -v "$work/still.exr" >"$work/header" && grep -q 'rain.R' "$work/header" &&
+    grep -q 'glass.R' "$work/header" || { cat "$work/header"; fail "layers of the screenshot"; }
+
+# ---- the tuned scene is a scene
+
+"$virga" check "$work/tuned.yaml" >"$work/check" 2>&1 || { cat "$work/check"; fail "virga check of the saved scene"; }
+has '90 mm/h' "$work/check"
+for line in 'sweep_s: 1.5' 'style: paper' 'film_um: 9' 'drive: continuous' 'start_wetness: 0.5'; do
+    has "$line" "$work/tuned.yaml"
+done
+# It renders what the same settings, given by hand, render.
+render() {
+    timeout 100 "$virga" render "$1" -o "$work/$2" --frames 2 --device "$device" --layers beauty,rain,glass "${@:3}" \
+        2>"$work/err" || { cat "$work/err"; fail "render $1"; }
+}
+cat >"$work/save.txt" <<'END'
+set rain.rate_mm_h 90
+set glass.*.kind coated
+save plain.yaml
+quit
+END
+view save <"$work/save.txt" || { cat "$work/save.err"; fail "save"; }
+render "$work/plain.yaml" by_view
+render "$work/scene.yaml" by_hand --set rain.rate_mm_h=90 --set glass.0.kind=coated
+oiiotool "$work/by_view/frame.0002.exr" "$work/by_hand/frame.0002.exr" --fail 0 --diff >"$work/diff" 2>&1 ||
+    { cat "$work/diff"; fail "the saved scene renders another picture"; }
+
+# ---- real keys
+
+if command -v xdotool >/dev/null; then
+    cat >"$work/keys.txt" <<'END'
+divide 4
+wait 2
+await paused
+await no-panel
+await flying
+quit
+END
+    (cd "$work" && timeout 150 xvfb-run -a -s "-screen 0 1280x720x24" bash -c '
+        "$0" view scene.yaml --window 640x360 --script keys.txt --device "$1" &
+        viewer=$!
+        pressed=""
+        for try in $(seq 600); do
+            kill -0 $viewer 2>/dev/null || break
+            sleep 0.2
+            xdotool search --name "virga view" windowfocus 2>/dev/null || continue
+            # Each once: space and tab turn something over.
+            case $try in
+            *0) [ "${pressed#*s}" != "$pressed" ] || { xdotool key space && pressed=s$pressed; } ;;
+            *5) [ "${pressed#*t}" != "$pressed" ] || { xdotool key Tab && pressed=t$pressed; } ;;
+            *) xdotool keydown w sleep 0.15 keyup w ;;
+            esac
+        done
+        wait $viewer' "$virga" "$device") >"$work/out" 2>"$work/err" || { cat "$work/err"; fail "keys of a user"; }
+fi
+
+# ---- what is wrong
+
+refuses() { # TEXT, and a script from standard input
+    view wrong && fail "accepted: $1"
+    has "$1" "$work/wrong.err"
+}
+refuses "wrong.txt:2: no command 'wiat'; did you mean 'wait'?" <<'END'
+play
+wiat 3
+END
+refuses 'wrong.txt:1: expected resize W H' <<'END'
+resize 3
+END
+refuses 'script, line 1: rain.rate_mm_h: expected a number from 0 to 200' <<'END'
+set rain.rate_mm_h 900
+END
+refuses "no preset 'hail'" <<'END'
+preset hail
+END
+(cd "$work" && env -u DISPLAY -u WAYLAND_DISPLAY timeout 60 "$virga" view scene.yaml) 2>"$work/err" &&
+    fail "a window without a display"
+has 'virga view: no display to open a window on' "$work/err"
+[ "$(wc -l <"$work/err")" = 1 ] || { cat "$work/err"; fail "more than a line about a missing display"; }
+(cd "$work" && timeout 60 "$virga" view scene.yaml --divide 9) 2>"$work/err" && fail "--divide 9"
+has '--divide: expected' "$work/err"
+
+[ "$failures" = 0 ] && echo "the window is as it should be"
+[ "$failures" = 0 ]

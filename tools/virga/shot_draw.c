@@ -1,0 +1,163 @@
+/* shot_draw.c - the picture of a shot: the plate, splashes, rain and panes, and a frame as an average of sub-frames. */
+#include "shot_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Splashes and rain as a view sees them: each into a layer of its own. The worse of the results. */
+static virga_result prepare(shot *s, VkCommandBuffer cmd, const virga_view *view, double time_s)
+{
+    const virga_result splash = s->splash ? virga_splash_prepare(s->splash, cmd, view, time_s) : VIRGA_OK;
+    return splash < 0 ? splash : virga_rain_prepare(s->rain, cmd, view, time_s);
+}
+
+static virga_result draw_layers(shot *s, VkCommandBuffer cmd)
+{
+    virga_result result = VIRGA_OK;
+    if (s->splash) {
+        host_target_begin_splash(&s->target, cmd);
+        result = virga_splash_draw(s->splash, cmd, s->layer);
+        host_target_end_layer(&s->target, cmd);
+    }
+    host_target_begin_layer(&s->target, cmd);
+    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return result < 0 ? result : rain;
+}
+
+/* Panes show what is behind them: the plate with splashes and rain in it, which are drawn a second time for that. */
+static virga_result draw_behind(shot *s, VkCommandBuffer cmd)
+{
+    host_target_begin_behind(&s->target, cmd);
+    const virga_result splash = s->splash ? virga_splash_draw(s->splash, cmd, s->layer) : VIRGA_OK;
+    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return splash < 0 ? splash : rain;
+}
+
+/* All panes of a kind of draw, far ones first. */
+static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd,
+                                   virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++)
+        result = draw(s->panes[i].glass, cmd, s->layer);
+    host_target_end_layer(&s->target, cmd);
+    return result;
+}
+
+/* `camera_s` is where the camera is on its path, `late_s` how long before the newest tick the picture is taken. */
+static virga_result draw_panes(shot *s, VkCommandBuffer cmd, virga_view view, double camera_s, double late_s)
+{
+    virga_result result = draw_behind(s, cmd);
+    view.color = host_target_behind(&s->target);
+    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++) {
+        virga_glass_pose pose;
+        const shot_pane *pane = &s->panes[i];
+        shot_pane_pose(s, pane->from, camera_s, &pose);
+        result = virga_glass_prepare(pane->glass, cmd, &view, &pose, virga_glass_time(pane->glass) - late_s);
+    }
+    if (result < 0)
+        return result;
+    host_target_begin_glass(&s->target, cmd);
+    result = draw_each_pane(s, cmd, virga_glass_draw);
+    host_target_begin_refraction(&s->target, cmd);
+    const virga_result refraction = draw_each_pane(s, cmd, virga_glass_draw_refraction);
+    return result < 0 ? result : refraction;
+}
+
+/* The opaque scene, or footage in its place. */
+static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const host_camera *now,
+                         const host_camera *frame_ago, char *error, size_t error_size)
+{
+    if (s->plate.pattern) {
+        memcpy(s->plate_buffer.mapped, s->plate.rgba, s->plate_buffer.size);
+        host_target_fill_plate(&s->target, cmd, &s->plate_buffer);
+        return true;
+    }
+    if (!shot_panes_move_meshes(s, cmd, camera_s, error, error_size))
+        return false;
+    if (s->ground) {
+        virga_ground_maps maps;
+        virga_ground_maps_get(s->ground, &maps);
+        host_renderer_set_ground(s->renderer, &maps);
+    }
+    host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
+    return true;
+}
+
+/* When a picture is taken. */
+typedef struct moment {
+    double camera_s; /* on the camera's path */
+    double late_s;   /* before the newest tick */
+} moment;
+
+static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view, moment at, const host_camera *now,
+                           const host_camera *frame_ago, char *error, size_t error_size)
+{
+    if (!shot_ok(s, prepare(s, cmd, view, virga_rain_time(s->rain) - at.late_s), "preparing the rain", error,
+                 error_size) ||
+        !record_plate(s, cmd, at.camera_s, now, frame_ago, error, error_size) ||
+        !shot_ok(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
+        return false;
+    if (s->scene->pane_count &&
+        !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
+        return false;
+    return true;
+}
+
+/* The shutter closes at the frame's time. */
+bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size)
+{
+    const host_camera_path eye = shot_eye(s);
+    const double shutter_s = s->scene->frames.shutter_deg / 360 / s->scene->frames.fps;
+    const double part_s = shutter_s / s->options.samples;
+    const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
+    const double shot_start = host_camera_shot_start(&eye, time_s);
+    const uint32_t width = s->options.width, height = s->options.height;
+    float jitter[2];
+    host_camera now, open, frame_ago;
+    host_camera_jitter(sample, s->options.samples, jitter);
+    host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &now);
+    host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
+    host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
+
+    virga_view view = virga_default_view();
+    view.depth = host_target_depth(&s->target);
+    view.color = host_target_color(&s->target);
+    host_camera_view(&now, &open, part_s, &view);
+    const moment at = {fmax(close_s, shot_start), time_s - close_s};
+    return record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size);
+}
+
+static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    if (!shot_begin(s, &cmd, error, error_size) || !shot_record_sample(s, cmd, sample, time_s, error, error_size))
+        return false;
+    host_target_copy_out(&s->target, cmd, (1u << HOST_OUTPUT_COUNT) - 1);
+    if (!host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
+        return false;
+    host_accumulator_add(&s->frame, &s->device, &s->target, sample == s->options.samples / 2);
+    return true;
+}
+
+bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error, size_t error_size)
+{
+    const host_camera_path eye = shot_eye(s);
+    host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, camera);
+    host_accumulator_reset(&s->frame);
+    for (uint32_t sample = 0; sample < s->options.samples; sample++)
+        if (!draw_sample(s, sample, time_s, error, error_size))
+            return false;
+    host_accumulator_finish(&s->frame);
+    return true;
+}
+
+bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)
+{
+    if (!shot_step(s, frame, error, error_size) ||
+        (s->plate.pattern && !plate_load(&s->plate, frame, error, error_size)))
+        return false;
+    return shot_draw_samples(s, shot_time(s, frame), camera, error, error_size);
+}

@@ -1,0 +1,131 @@
+/* shot_points.c - drops, droplets and what is on panes, read back for point caches. */
+#include "shot_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <virga/shared/random.h>
+
+/* Copies points that the step just recorded has left ready for it to where the host reads them. */
+bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
+                      shot_read *read, char *error, size_t error_size)
+{
+    if (!read->buffer.buffer &&
+        !host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "points read",
+                            &read->buffer, error, error_size))
+        return false;
+    const VkBufferCopy copy = {offset, 0, size};
+    const VkMemoryBarrier before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                    .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkMemoryBarrier after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0,
+                         NULL);
+    vkCmdCopyBuffer(cmd, from, read->buffer.buffer, 1, &copy);
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0,
+                         NULL);
+    return true;
+}
+
+/* What is on the panes. */
+static bool record_panes(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+        virga_glass_buffer drops;
+        shot_read *read = &s->panes[i].read;
+        virga_glass_drops(s->panes[i].glass, &drops, &read->count);
+        if (!shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
+            return false;
+    }
+    return true;
+}
+
+bool shot_record_points(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    virga_rain_buffer drops;
+    virga_splash_buffer droplets;
+    shot_read *read = &s->drops_read;
+    if (!shot_ok(s, virga_rain_points(s->rain, cmd, &drops, &read->count, read->origin_m), "reading drops", error,
+                 error_size) ||
+        !shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, read, error, error_size))
+        return false;
+    read = &s->droplets_read;
+    virga_splash_droplets(s->splash, &droplets, &read->count, read->origin_m);
+    return (!s->splash ||
+            shot_record_read(s, cmd, droplets.buffer, droplets.offset, droplets.size, read, error, error_size)) &&
+           record_panes(s, cmd, error, error_size);
+}
+
+/* What was read back, and room for as many points of `size` bytes. */
+static const void *open_read(shot *s, shot_read *read, size_t size, void **room, char *error, size_t error_size)
+{
+    *room = NULL;
+    if (!read->buffer.buffer || !host_wait(&s->device, error, error_size)) {
+        host_fail(error, error_size, "no points were read back");
+        return NULL;
+    }
+    host_buffer_invalidate(&s->device, &read->buffer);
+    *room = malloc(read->count * size + 1);
+    if (*room)
+        return read->buffer.mapped;
+    host_fail(error, error_size, "no memory for %u points", read->count);
+    return NULL;
+}
+
+/* To the world. */
+static void place_point(const shot_read *read, const float position[3], float out[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        out[axis] = (float)((double)position[axis] + read->origin_m[axis]);
+}
+
+bool shot_points(shot *s, shot_point **points, uint32_t *count, char *error, size_t error_size)
+{
+    void *room;
+    const virga_point_gpu *from = open_read(s, &s->drops_read, sizeof **points, &room, error, error_size);
+    *points = room;
+    *count = 0;
+    if (!from)
+        return false;
+    for (uint32_t i = 0; i < s->drops_read.count; i++) {
+        if (from[i].weight <= 0)
+            continue;
+        shot_point *to = &(*points)[(*count)++];
+        place_point(&s->drops_read, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->id = from[i].id;
+        to->age_s = from[i].age_s;
+        to->weight = from[i].weight;
+    }
+    return true;
+}
+
+bool shot_droplets(shot *s, shot_droplet **droplets, uint32_t *count, char *error, size_t error_size)
+{
+    void *room;
+    const virga_droplet_gpu *from = open_read(s, &s->droplets_read, sizeof **droplets, &room, error, error_size);
+    *droplets = room;
+    *count = 0;
+    if (!from)
+        return false;
+    for (uint32_t i = 0; i < s->droplets_read.count; i++) {
+        if (!(from[i].kind & VIRGA_DROPLET_ALIVE) || from[i].age_s < 0)
+            continue;
+        shot_droplet *to = &(*droplets)[(*count)++];
+        place_point(&s->droplets_read, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->age_s = from[i].age_s;
+        to->model = VIRGA_DROPLET_MODEL(from[i].kind);
+        to->material = VIRGA_DROPLET_MATERIAL(from[i].kind);
+        to->state = VIRGA_DROPLET_STATE(from[i].kind);
+        to->parent = from[i].id;
+        to->index = VIRGA_DROPLET_NUMBER(from[i].kind);
+        to->id = virga_hash2(to->parent, to->index);
+        to->water_ul = (float)(from[i].water_nl * 1e-3);
+    }
+    return true;
+}

@@ -1,0 +1,173 @@
+/* view.h - a scene in a window, played with: what the files of `virga view` share.
+ *
+ *   cmd_view.c       the command: options, opening, the loop
+ *   view_frame.c     one frame: time, picture, panel, screenshots
+ *   view_actions.c   what keys, buttons and scripts do
+ *   view_camera.c    the camera that flies
+ *   view_script.c    lines that drive it
+ *   view_panel.cpp   the panel; C++ as Dear ImGui is
+ *   view_picture.c   what is shown beside it
+ *   view_modes.c     the list of what can be shown
+ *   view_presets.c   the list of presets
+ *   view_window.c    window and swapchain
+ */
+#ifndef VIRGA_VIEW_H
+#define VIRGA_VIEW_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "../shot.h"
+#include "scene_settings.h"
+#include "view_picture.h"
+#include "view_presets.h"
+#include "view_window.h"
+
+#define VIEW_HISTORY      180 /* frames that graphs go back */
+#define VIEW_MOST_TIMES   64
+#define VIEW_MOST_CHANGES 512
+#define VIEW_PANEL_PX     430
+
+/* The newest VIEW_HISTORY values of something, the oldest first from `next` on. */
+typedef struct view_graph {
+    float values[VIEW_HISTORY];
+    uint32_t next;
+} view_graph;
+
+typedef struct view_pass {
+    const char *name;
+    view_graph milliseconds;
+    double newest;
+} view_pass;
+
+/* What graphs and numbers show, taken from the library after each frame. */
+typedef struct view_numbers {
+    view_pass passes[VIEW_MOST_TIMES];
+    uint32_t pass_count;
+    view_graph frame_ms, device_ms, drops, impacts, droplets, on_glass, memory_mib;
+    double frame_now_ms, device_now_ms;
+    virga_rain_stats rain;
+    virga_ground_stats ground;
+    virga_splash_stats splash;
+    virga_memory_stats memory;
+} view_numbers;
+
+/* The camera that flies. */
+typedef struct view_camera {
+    bool free; /* else on the scene's path */
+    double position_m[3];
+    double yaw, pitch; /* rad: 0 looks along -Z, to the left, up */
+    double speed_m_s;
+    host_camera_key last; /* where it was a frame ago */
+    bool looking;         /* the mouse turns it */
+    double mouse[2];
+} view_camera;
+
+typedef struct view_script view_script;
+
+typedef struct viewer {
+    scene_file *scene, *loaded; /* as tuned, and as the file and the command line have it */
+    const char *path;           /* of the file */
+    const char *const *overrides;
+    size_t override_count;
+    scene_setting *settings; /* of `scene` */
+    size_t setting_count;
+
+    shot shot;
+    view_window window;
+    view_picture picture;
+    view_numbers numbers;
+    view_camera camera;
+    host_camera seen; /* of the newest frame */
+
+    /* Time. */
+    bool paused;
+    uint32_t steps; /* frames to go on for, while paused */
+    double speed;   /* [0.05; 1] of real time */
+    double wall_s;  /* when the last frame began */
+
+    /* What is shown. */
+    uint32_t mode, layer;
+    bool panel;
+    uint32_t divide; /* 1, 2 or 4: the picture has that many fewer pixels along each side than the window */
+    char unfold[40]; /* part of the panel to open or close, by its title; and which of both */
+    bool unfold_open;
+    char message[512]; /* one line for the user */
+    double message_s;  /* until when */
+
+    /* What is to be done between frames. */
+    bool restart, quit;
+    bool needs_restart;     /* something was changed that counts from the next start on */
+    char window_shot[1024]; /* name for a picture of the window, or empty */
+    char shot_file[1024];   /* for one of the scene */
+    uint32_t shots;         /* taken by key, for their names */
+    uint32_t samples;       /* of screenshots */
+
+    view_script *script; /* NULL: none */
+    uint64_t frame;      /* drawn so far */
+    char error[1024];
+    bool failed;
+} viewer;
+
+/* ---- view_actions.c: each says what it did, or why not, in v->message; false where it could not */
+
+void view_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool view_assign(viewer *v, const char *assignment);
+bool view_preset_take(viewer *v, const char *name);
+bool view_show(viewer *v, const char *mode, uint32_t layer);
+void view_show_next(viewer *v, int step);
+bool view_save(viewer *v, const char *path);
+
+/* Takes a picture of the scene at the next opportunity: "name.png" or "name.exr". */
+bool view_shoot(viewer *v, const char *path);
+
+/* A key, by its GLFW number. */
+void view_key(viewer *v, int key, bool shift);
+
+/* The keyboard help, a line each; NULL behind the last. */
+const char *view_key_help(uint32_t line);
+
+/* The list of settings anew, after lists of the scene have changed. */
+bool view_list_settings(viewer *v);
+
+/* ---- view_frame.c */
+
+/* One turn of the loop. False: v->error says why there is no going on. */
+bool view_frame(viewer *v);
+
+/* ---- view_camera.c */
+
+void view_camera_to_path(viewer *v);
+void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, double pitch_deg);
+
+/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time goes on by `dt_s`. */
+void view_camera_move(viewer *v, double wall_s, double dt_s);
+
+/* ---- view_script.c */
+
+/* Reads a script; false with one line in `error`. */
+bool view_script_load(const char *path, view_script **script, char *error, size_t error_size);
+void view_script_free(view_script *script);
+
+/* Does what is next, before a frame is drawn. False: v->error says which line failed. */
+bool view_script_run(viewer *v);
+void view_script_help(void);
+
+/* ---- view_panel.cpp */
+
+bool view_panel_open(viewer *v, char *error, size_t error_size);
+void view_panel_close(viewer *v);
+
+/* Lays out the panel of this frame; what the user did in it is done. */
+void view_panel_build(viewer *v);
+void view_panel_draw(VkCommandBuffer cmd);
+
+/* Whether the panel takes the mouse and the keyboard now. */
+bool view_panel_has_mouse(void);
+bool view_panel_has_keys(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,480 @@
+/* view_picture.c - one full-screen pass over the outputs of the shot, and drops on the flat map of a pane. */
+#include "view_picture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "view_pane_drops_frag.spv.h"
+#include "view_pane_drops_vert.spv.h"
+#include "view_view_frag.spv.h"
+#include "view_view_vert.spv.h"
+
+/* In the order of view_common.glsl. */
+enum {
+    AT_VIEW,
+    AT_COLOR,
+    AT_SPLASH,
+    AT_RAIN,
+    AT_GLASS,
+    AT_REFRACTION,
+    AT_NORMAL,
+    AT_VELOCITY,
+    AT_WATER,
+    AT_ID,
+    AT_DEPTH,
+    AT_OCCLUSION,
+    AT_HEIGHTS,
+    AT_FLOORS,
+    AT_CELLS,
+    AT_SURFACE,
+    AT_DROPS,
+    BINDINGS,
+};
+
+static const host_output output_at[] = {
+    [AT_COLOR] = HOST_COLOR,       [AT_SPLASH] = HOST_SPLASH,         [AT_RAIN] = HOST_LAYER,
+    [AT_GLASS] = HOST_GLASS,       [AT_REFRACTION] = HOST_REFRACTION, [AT_NORMAL] = HOST_NORMAL,
+    [AT_VELOCITY] = HOST_VELOCITY, [AT_WATER] = HOST_WATER,           [AT_ID] = HOST_ID,
+    [AT_DEPTH] = HOST_DEPTH};
+
+/* ---- pipelines */
+
+static bool create_layouts(view_picture *p, char *error, size_t error_size)
+{
+    VkDescriptorSetLayoutBinding bindings[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; i++) {
+        const bool image = i >= AT_COLOR && i <= AT_HEIGHTS;
+        bindings[i] =
+            (VkDescriptorSetLayoutBinding){.binding = i,
+                                           .descriptorType = i == AT_VIEW ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                                             : image      ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                           .descriptorCount = 1,
+                                           .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_VERTEX_BIT};
+    }
+    const VkDescriptorSetLayoutCreateInfo set = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = BINDINGS, .pBindings = bindings};
+    HOST_TRY(vkCreateDescriptorSetLayout(p->device->device, &set, NULL, &p->set_layout));
+    const VkPushConstantRange window = {VK_SHADER_STAGE_VERTEX_BIT, 0, 8};
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 1,
+                                               .pSetLayouts = &p->set_layout,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &window};
+    HOST_TRY(vkCreatePipelineLayout(p->device->device, &layout, NULL, &p->layout));
+    return true;
+}
+
+static bool create_sets(view_picture *p, char *error, size_t error_size)
+{
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_FRAMES},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, HOST_FRAMES * (AT_HEIGHTS - AT_COLOR + 1)},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, HOST_FRAMES * (AT_DROPS - AT_FLOORS + 1)}};
+    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = HOST_FRAMES,
+                                             .poolSizeCount = 3,
+                                             .pPoolSizes = sizes};
+    HOST_TRY(vkCreateDescriptorPool(p->device->device, &pool, NULL, &p->pool));
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
+        const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                      .descriptorPool = p->pool,
+                                                      .descriptorSetCount = 1,
+                                                      .pSetLayouts = &p->set_layout};
+        HOST_TRY(vkAllocateDescriptorSets(p->device->device, &allocate, &p->sets[i]));
+        if (!host_buffer_create(p->device, sizeof(struct view_gpu), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                HOST_BUFFER_UPLOAD, "view", &p->uniforms[i], error, error_size))
+            return false;
+    }
+    return true;
+}
+
+static bool create_samplers(view_picture *p, char *error, size_t error_size)
+{
+    VkFormatProperties about;
+    VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
+    HOST_TRY(vkCreateSampler(p->device->device, &info, NULL, &p->nearest));
+    vkGetPhysicalDeviceFormatProperties(p->device->physical, VK_FORMAT_R32G32B32A32_SFLOAT, &about);
+    if (about.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT)
+        info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    HOST_TRY(vkCreateSampler(p->device->device, &info, NULL, &p->linear));
+    return true;
+}
+
+/* What stands for outputs that a scene has not. */
+static bool create_blanks(view_picture *p, char *error, size_t error_size)
+{
+    const uint8_t zero[64] = {0};
+    host_image_def def = {.format = VK_FORMAT_R8G8B8A8_UNORM,
+                          .extent = {1, 1, 1},
+                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                          .name = "blank"};
+    if (!host_image_create(p->device, &def, &p->blank, error, error_size) ||
+        !host_image_upload(p->device, &p->blank, zero, 4, 4, error, error_size))
+        return false;
+    /* An array of one layer cannot be told from a plain image by its definition; its view is made here. */
+    const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                        .image = p->blank.image,
+                                        .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                                        .format = def.format,
+                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    HOST_TRY(vkCreateImageView(p->device->device, &view, NULL, &p->blank_array.view));
+    return host_buffer_create_with(p->device, zero, sizeof zero, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "blank",
+                                   &p->blank_buffer, error, error_size);
+}
+
+static bool create_module(const view_picture *p, const uint32_t *code, size_t size, VkShaderModule *module, char *error,
+                          size_t error_size)
+{
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
+    HOST_TRY(vkCreateShaderModule(p->device->device, &info, NULL, module));
+    return true;
+}
+
+/* Triangles without vertex buffers, into one color, as they are. */
+static bool build(const view_picture *p, VkRenderPass pass, VkShaderModule vert, VkShaderModule frag,
+                  VkPipeline *pipeline, char *error, size_t error_size)
+{
+    const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                       .stage = VK_SHADER_STAGE_VERTEX_BIT,
+                                                       .module = vert,
+                                                       .pName = "main"},
+                                                      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                       .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                                       .module = frag,
+                                                       .pName = "main"}};
+    const VkPipelineVertexInputStateCreateInfo none = {.sType =
+                                                           VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkPipelineInputAssemblyStateCreateInfo triangles = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo viewport = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo raster = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo samples = {.sType =
+                                                              VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+                                                          .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineColorBlendAttachmentState write = {.colorWriteMask = 15};
+    const VkPipelineColorBlendStateCreateInfo blend = {.sType =
+                                                           VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+                                                       .attachmentCount = 1,
+                                                       .pAttachments = &write};
+    const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkPipelineDynamicStateCreateInfo dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                      .dynamicStateCount = 2,
+                                                      .pDynamicStates = states};
+    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                               .stageCount = 2,
+                                               .pStages = stages,
+                                               .pVertexInputState = &none,
+                                               .pInputAssemblyState = &triangles,
+                                               .pViewportState = &viewport,
+                                               .pRasterizationState = &raster,
+                                               .pMultisampleState = &samples,
+                                               .pColorBlendState = &blend,
+                                               .pDynamicState = &dynamic,
+                                               .layout = p->layout,
+                                               .renderPass = pass};
+    HOST_TRY(vkCreateGraphicsPipelines(p->device->device, VK_NULL_HANDLE, 1, &info, NULL, pipeline));
+    return true;
+}
+
+static bool build_pair(const view_picture *p, VkRenderPass pass, const uint32_t *vert, size_t vert_size,
+                       const uint32_t *frag, size_t frag_size, VkPipeline *pipeline, char *error, size_t error_size)
+{
+    VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
+    const bool built = create_module(p, vert, vert_size, &modules[0], error, error_size) &&
+                       create_module(p, frag, frag_size, &modules[1], error, error_size) &&
+                       build(p, pass, modules[0], modules[1], pipeline, error, error_size);
+    for (int i = 0; i < 2; i++)
+        vkDestroyShaderModule(p->device->device, modules[i], NULL);
+    return built;
+}
+
+bool view_picture_create(host_device *device, const view_window *window, view_picture *p, char *error,
+                         size_t error_size)
+{
+    memset(p, 0, sizeof *p);
+    p->device = device;
+    return create_samplers(p, error, error_size) && create_blanks(p, error, error_size) &&
+           create_layouts(p, error, error_size) && create_sets(p, error, error_size) &&
+           build_pair(p, window->pass, view_view_vert_spv, sizeof view_view_vert_spv, view_view_frag_spv,
+                      sizeof view_view_frag_spv, &p->picture, error, error_size) &&
+           build_pair(p, window->pass, view_pane_drops_vert_spv, sizeof view_pane_drops_vert_spv,
+                      view_pane_drops_frag_spv, sizeof view_pane_drops_frag_spv, &p->drops, error, error_size);
+}
+
+void view_picture_destroy(view_picture *p)
+{
+    if (!p->device)
+        return;
+    const VkDevice device = p->device->device;
+    vkDestroyPipeline(device, p->drops, NULL);
+    vkDestroyPipeline(device, p->picture, NULL);
+    vkDestroyPipelineLayout(device, p->layout, NULL);
+    vkDestroyDescriptorPool(device, p->pool, NULL);
+    vkDestroyDescriptorSetLayout(device, p->set_layout, NULL);
+    vkDestroySampler(device, p->nearest, NULL);
+    vkDestroySampler(device, p->linear, NULL);
+    vkDestroyImageView(device, p->blank_array.view, NULL);
+    host_image_destroy(p->device, &p->blank);
+    host_buffer_destroy(p->device, &p->blank_buffer);
+    for (uint32_t i = 0; i < HOST_FRAMES; i++)
+        host_buffer_destroy(p->device, &p->uniforms[i]);
+    memset(p, 0, sizeof *p);
+}
+
+/* ---- what the shaders are told */
+
+static const shot_pane *pane_of(const shot *s, const view_shown *shown)
+{
+    const bool flat = shown->mode == VIEW_PANE || shown->mode == VIEW_PANE_HEIGHT;
+    if (!s->scene->pane_count)
+        return NULL;
+    return &s->panes[flat && shown->layer < s->scene->pane_count ? shown->layer : 0];
+}
+
+static void fill_camera(const host_camera *camera, struct view_gpu *out)
+{
+    const float *p = camera->clip_from_view, *v = camera->view_from_world;
+    out->projection[0] = p[0];
+    out->projection[1] = p[5];
+    out->projection[2] = p[10];
+    out->projection[3] = p[14];
+    out->jitter[0] = p[8];
+    out->jitter[1] = p[9];
+    out->jitter[2] = (float)camera->position_m[1];
+    for (int axis = 0; axis < 3; axis++) {
+        out->right[axis] = v[4 * axis];
+        out->up[axis] = v[4 * axis + 1];
+        out->back[axis] = v[4 * axis + 2];
+    }
+}
+
+static void fill_ground(const shot *s, const host_camera *camera, uint32_t mode, struct view_gpu *out)
+{
+    virga_ground_cells cells;
+    virga_ground_maps maps;
+    virga_ground_cells_get(s->ground, &cells);
+    virga_ground_maps_get(s->ground, &maps);
+    for (uint32_t i = 0; i < VIEW_PALETTE; i++)
+        view_mode_legend(mode, i, out->palette[i]);
+    if (!s->ground)
+        return;
+    const virga_ground_settings settings = virga_default_ground_settings(); /* as the shot has them */
+    const double area = (double)maps.cell_m * (double)maps.cell_m;
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
+        out->capacity[i / 4][i % 4] = (uint32_t)floor((double)settings.materials[i].capacity_mm * area * 1e9 + 0.5);
+    out->ground[0] = (float)(maps.low_m[0] - camera->position_m[0]);
+    out->ground[1] = (float)(maps.low_m[1] - camera->position_m[2]);
+    out->ground[2] = 1 / maps.cell_m;
+    out->ground[3] = (float)maps.cells;
+    out->cells[0] = cells.low_tile[0];
+    out->cells[1] = cells.low_tile[1];
+    out->cells[2] = (int32_t)cells.tiles;
+    out->cells[3] = (int32_t)cells.nl_per_um;
+}
+
+/* Both ends of a blade at a time, as the library places it. */
+static void place_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
+{
+    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_file_wiper_deg(from, time_s)
+                                                           : virga_glass_wiper_deg(wiper, fmax(time_s, 0));
+    const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
+    const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
+    for (int end = 0; end < 2; end++) {
+        const double way = (end - 0.5) * from->blade_m;
+        ends[2 * end] = (float)(from->pivot_m[0] + hub * cos(arm) + way * cos(blade));
+        ends[2 * end + 1] = (float)(from->pivot_m[1] + hub * sin(arm) + way * sin(blade));
+    }
+}
+
+static void fill_pane(const shot *s, const shot_pane *pane, struct view_gpu *out)
+{
+    const scene_pane *from = pane->from;
+    const virga_glass_settings *now = &pane->settings;
+    const double angle = 0.5 * ((double)now->advancing_deg + (double)now->receding_deg) * M_PI / 180, c = cos(angle);
+    virga_glass_map heights;
+    virga_glass_surface(pane->glass, NULL, &out->pane_cells[0], &out->pane_cells[1]);
+    virga_glass_map_get(pane->glass, &heights);
+    out->pane[0] = (float)from->width_m;
+    out->pane[1] = (float)from->height_m;
+    out->pane[2] = (float)from->width_m / (float)out->pane_cells[0];
+    out->pane[3] = (float)(from->band * 2 * from->particle_mm * 1e-3);
+    /* Water of a cap on a base with a radius of 1 m, by its contact angle. */
+    out->pane_drop[0] = (float)(1e12 * M_PI * (2 - 3 * c + c * c * c) / (3 * pow(sin(angle), 3)));
+    out->pane_drop[1] = (float)(from->particle_mm * 1e-3);
+    out->pane_cells[2] = from->wiper_count;
+    for (uint32_t i = 0; i < from->wiper_count && i < VIEW_BLADES; i++)
+        place_blade(&from->wipers[i], &now->wipers[i], s->camera_time_s, out->blades[i]);
+    out->height_map[0] = (float)heights.columns;
+    out->height_map[1] = (float)heights.rows;
+    out->height_map[2] = now->threshold;
+}
+
+static void fill(const shot *s, const host_camera *camera, const view_shown *shown, struct view_gpu *out)
+{
+    virga_rain_occlusion_map map;
+    virga_glass_map heights = {0};
+    const shot_pane *pane = pane_of(s, shown);
+    memset(out, 0, sizeof *out);
+    virga_rain_occlusion_map_get(s->rain, &map);
+    memcpy(out->area, shown->area, sizeof out->area);
+    out->picture[0] = (float)s->target.width;
+    out->picture[1] = (float)s->target.height;
+    out->picture[2] = exp2f(shown->exposure_ev);
+    out->picture[3] = 20; /* pixels a frame that show in full */
+    out->heights[0] = (float)map.top_m;
+    out->heights[1] = map.height_m;
+    out->heights[2] = (float)camera->position_m[1] - 4;
+    fill_camera(camera, out);
+    fill_ground(s, camera, shown->mode, out);
+    if (pane) {
+        fill_pane(s, pane, out);
+        virga_glass_map_get(pane->glass, &heights);
+    }
+    out->mode[0] = shown->mode;
+    out->mode[1] = shown->layer;
+    out->mode[2] = (s->splash ? 1u : 0u) | (pane ? 2u : 0u) | (s->ground ? 4u : 0u) | (map.depth ? 8u : 0u) |
+                   (heights.view ? 16u : 0u);
+}
+
+/* ---- descriptors */
+
+typedef struct writes {
+    VkWriteDescriptorSet all[BINDINGS];
+    VkDescriptorImageInfo images[BINDINGS];
+    VkDescriptorBufferInfo buffers[BINDINGS];
+    uint32_t count;
+} writes;
+
+static VkWriteDescriptorSet *add(writes *w, VkDescriptorSet set, uint32_t binding, VkDescriptorType type)
+{
+    VkWriteDescriptorSet *write = &w->all[w->count++];
+    *write = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                    .dstSet = set,
+                                    .dstBinding = binding,
+                                    .descriptorCount = 1,
+                                    .descriptorType = type,
+                                    .pImageInfo = &w->images[binding],
+                                    .pBufferInfo = &w->buffers[binding]};
+    return write;
+}
+
+static void add_image(writes *w, VkDescriptorSet set, uint32_t binding, VkSampler sampler, VkImageView view,
+                      VkImageLayout layout)
+{
+    w->images[binding] = (VkDescriptorImageInfo){sampler, view, layout};
+    add(w, set, binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+}
+
+static void add_buffer(writes *w, VkDescriptorSet set, uint32_t binding, VkBuffer buffer, VkBuffer blank)
+{
+    w->buffers[binding] = (VkDescriptorBufferInfo){buffer ? buffer : blank, 0, VK_WHOLE_SIZE};
+    add(w, set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+}
+
+static void add_outputs(const view_picture *p, const shot *s, VkDescriptorSet set, writes *w)
+{
+    for (uint32_t i = AT_COLOR; i <= AT_DEPTH; i++) {
+        const host_image *image = &s->target.images[output_at[i]];
+        const bool smooth = i <= AT_GLASS;
+        add_image(w, set, i, smooth ? p->linear : p->nearest, image->image ? image->view : p->blank.view,
+                  i == AT_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
+                                : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+}
+
+static void write_set(const view_picture *p, const shot *s, const view_shown *shown, VkDescriptorSet set,
+                      const host_buffer *uniforms)
+{
+    writes w = {.count = 0};
+    const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const shot_pane *pane = pane_of(s, shown);
+    virga_rain_occlusion_map map;
+    virga_ground_cells cells;
+    virga_glass_map heights = {0};
+    virga_glass_buffer surface = {0}, drops = {0};
+    virga_rain_occlusion_map_get(s->rain, &map);
+    virga_ground_cells_get(s->ground, &cells);
+    if (pane) {
+        virga_glass_map_get(pane->glass, &heights);
+        virga_glass_surface(pane->glass, &surface, NULL, NULL);
+        virga_glass_drops(pane->glass, &drops, NULL);
+    }
+    w.buffers[AT_VIEW] = (VkDescriptorBufferInfo){uniforms->buffer, 0, VK_WHOLE_SIZE};
+    add(&w, set, AT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    add_outputs(p, s, set, &w);
+    add_image(&w, set, AT_OCCLUSION, p->nearest, map.depth ? map.depth : p->blank_array.view,
+              map.depth ? map.layout : read);
+    add_image(&w, set, AT_HEIGHTS, p->nearest, heights.view ? heights.view : p->blank.view,
+              heights.view ? VK_IMAGE_LAYOUT_GENERAL : read);
+    add_buffer(&w, set, AT_FLOORS, cells.floors, p->blank_buffer.buffer);
+    add_buffer(&w, set, AT_CELLS, cells.cells, p->blank_buffer.buffer);
+    add_buffer(&w, set, AT_SURFACE, surface.buffer, p->blank_buffer.buffer);
+    add_buffer(&w, set, AT_DROPS, drops.buffer, p->blank_buffer.buffer);
+    vkUpdateDescriptorSets(p->device->device, w.count, w.all, 0, NULL);
+}
+
+/* ---- recording */
+
+/* Outputs that the plate and layer passes left to be copied. */
+static void make_readable(VkCommandBuffer cmd, const shot *s)
+{
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    for (int i = 0; i < HOST_OUTPUT_COUNT; i++)
+        if (i != HOST_COLOR && i != HOST_DEPTH && s->target.images[i].image)
+            host_image_barrier(cmd, &s->target.images[i], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, drawing, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+}
+
+void view_picture_begin(VkCommandBuffer cmd)
+{
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                         VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+                             VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                             VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         0, 0, NULL, 0, NULL, 0, NULL);
+}
+
+void view_picture_prepare(view_picture *p, VkCommandBuffer cmd, const shot *s, const host_camera *camera,
+                          const view_shown *shown)
+{
+    const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
+    const VkMemoryBarrier buffers = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+                                                      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT};
+    fill(s, camera, shown, p->uniforms[slot].mapped);
+    write_set(p, s, shown, p->sets[slot], &p->uniforms[slot]);
+    make_readable(cmd, s);
+    vkCmdPipelineBarrier(cmd,
+                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                             VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT,
+                         VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &buffers, 0,
+                         NULL, 0, NULL);
+}
+
+void view_picture_draw(const view_picture *p, VkCommandBuffer cmd, const shot *s, const view_window *window,
+                       const view_shown *shown)
+{
+    const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
+    const shot_pane *pane = pane_of(s, shown);
+    const float size[2] = {(float)window->width, (float)window->height};
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->layout, 0, 1, &p->sets[slot], 0, NULL);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->picture);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    if (shown->mode != VIEW_PANE || !pane)
+        return;
+    uint32_t places;
+    virga_glass_drops(pane->glass, NULL, &places);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->drops);
+    vkCmdPushConstants(cmd, p->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof size, size);
+    vkCmdDraw(cmd, 6 * places, 1, 0, 0);
+}
