@@ -76,6 +76,7 @@ static const cyaml_schema_field_t frames_fields[] = {
     WHOLE(scene_frames, last),
     NUMBER(scene_frames, shutter_deg),
     CYAML_FIELD_SEQUENCE_FIXED("size", D, scene_frames, size, &whole, 2),
+    NUMBER(scene_frames, preroll_s),
     CYAML_FIELD_END,
 };
 
@@ -378,6 +379,7 @@ static const scene_rule rules[] = {
     {"frames.last", 0, 1000000, "48"},
     {"frames.shutter_deg", 0, 360, "180"},
     {"frames.size", 16, 16384, "[1280, 720]"},
+    {"frames.preroll_s", 0, 3600, "0"},
 
     {"preview", 0, 0, "{}"},
     {"preview.exposure_ev", -30, 30, "0"},
