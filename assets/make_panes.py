@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what the scenes of panes need: environments/night.exr, scenes/panel.glb and scenes/panel_bumps.png. Python 3
-standard library only. The same source always gives the same bytes.
+"""Writes what the scenes of panes need: environments/night.exr, scenes/panel.glb and scenes/leaf.glb, and of both the
+bump maps, scenes/panel_bumps.png and scenes/leaf_bumps.png. Python 3 standard library only. The same source always gives
+the same bytes.
 
 The night is a street in rain as a lens sees it that is focused on a window: lamps, signs and cars as discs of light.
-The panel is 30 x 22 cm of car paint on hammered sheet metal; its bump map is the height of the same surface.
+The panel is 30 x 22 cm of car paint on hammered sheet metal; its bump map is the height of the same surface. The leaf is
+18 x 13 cm of a broad leaf's upper side, its tip downwards: veins lie in furrows, and what is between them bulges.
 """
 import array
 import math
@@ -13,7 +15,7 @@ import struct
 import zlib
 
 from gltf_writer import Group, Scene
-from make_sky import attribute
+from make_sky import attribute, cloud_noise
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -137,19 +139,28 @@ def height_at(u, v):
     return min(low * low, 1.0)
 
 
-def make_bumps(path):
+def write_png(path, width, height, pixel, colour_type):
+    """`pixel` gives the bytes of a column and a row, rows from above."""
     raw = bytearray()
-    for row in range(BUMPS[1]):
+    for row in range(height):
         raw.append(0)
-        v = TILE[1] * (BUMPS[1] - 1 - row) / BUMPS[1]
-        raw += bytes(int(round(255 * height_at(TILE[0] * column / BUMPS[0], v))) for column in range(BUMPS[0]))
+        for column in range(width):
+            raw += pixel(column, row)
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    header = struct.pack(">IIBBBBB", BUMPS[0], BUMPS[1], 8, 0, 0, 0, 0)
-    write(path, b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(raw), 9))
-          + chunk(b"IEND", b""))
+    header = struct.pack(">IIBBBBB", width, height, 8, colour_type, 0, 0, 0)
+    data = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(raw), 9))
+            + chunk(b"IEND", b""))
+    if path:
+        write(path, data)
+    return data
+
+
+def make_bumps(path):
+    write_png(path, BUMPS[0], BUMPS[1], lambda column, row: bytes([int(round(
+        255 * height_at(TILE[0] * column / BUMPS[0], TILE[1] * (BUMPS[1] - 1 - row) / BUMPS[1])))]), 0)
 
 
 def make_panel(path):
@@ -160,6 +171,73 @@ def make_panel(path):
                                 DEPTH * (height_at(PANEL[0] * i / columns, PANEL[1] * j / rows) - 1.0))
                                for i in range(columns + 1)] for j in range(rows + 1)], planar=True)
     scene = Scene([{"name": "metal_paint", "colour": (0.16, 0.012, 0.014), "rough": 0.3, "metal": 0.3}], {})
+    scene.place(g)
+    scene.write(path)
+
+
+# ---- the leaf
+
+LEAF = (0.18, 0.13)  # m
+LEAF_DEPTH = 0.0011  # m from the lowest furrow to the highest bulge
+LEAF_BUMPS = (360, 260)  # pixels
+LEAF_COLOURS = (576, 416)  # pixels
+SPACING = 0.0165  # m between side veins along the midrib
+
+
+def furrow(distance, width):
+    """0 in a vein's middle, 1 beside it."""
+    return 1.0 - math.exp(-(distance / width) ** 2)
+
+
+def leaf_veins(u, v):
+    """Distances (m) to the midrib, the nearest side vein and the nearest of the fine ones that cross between them."""
+    wobble = 0.0022 * (cloud_noise(40 * u, 40 * v, 3) - 0.5)
+    across = u - 0.086 - 0.09 * (v - 0.05) - 0.25 * (v - 0.06) ** 2 + wobble
+    side = abs(across)
+    # Side veins leave the midrib towards the tip and bend on towards it; left and right ones alternate.
+    along = (v + 0.62 * side + 1.9 * side * side + wobble) / SPACING + (0.5 if across > 0 else 0.0)
+    to_side = abs(along - math.floor(along) - 0.5) * SPACING * 0.8
+    ladder = (side + 0.16 * (v + wobble) + 0.0035 * (cloud_noise(90 * u + 7, 90 * v, 2) - 0.5)) / 0.0042
+    to_fine = abs(ladder - math.floor(ladder) - 0.5) * 0.0042
+    return side, to_side, to_fine
+
+
+def leaf_height(u, v):
+    """[0; 1] by place in metres."""
+    side, to_side, to_fine = leaf_veins(u, v)
+    between = 0.62 * furrow(to_side, 0.0034) + 0.23 * furrow(to_side, 0.0010) + 0.15 * furrow(to_fine, 0.0008)
+    return max(between * (0.25 + 0.75 * furrow(side, 0.0042)) * (0.55 + 0.45 * furrow(side, 0.0011)), 0.0)
+
+
+def leaf_colour(u, v):
+    """In sRGB, bytes: veins are paler, thin ones less so, and the blade is uneven."""
+    side, to_side, to_fine = leaf_veins(u, v)
+    vein = max(1.0 - furrow(side, 0.0011), 0.75 * (1.0 - furrow(to_side, 0.0006)), 0.30 * (1.0 - furrow(to_fine, 0.0004)))
+    uneven = cloud_noise(35 * u + 3, 35 * v + 5, 5)
+    fine = cloud_noise(400 * u, 400 * v, 3)
+    warm = 0.5 + 0.9 * (uneven - 0.5)
+    light = 0.72 + 0.40 * uneven + 0.16 * (fine - 0.5) + 0.10 * leaf_height(u, v)
+    blade = (light * (0.016 + 0.030 * warm), light * (0.085 + 0.055 * warm), light * 0.012)
+    pale = (0.17, 0.31, 0.065)
+    linear = [b + (p - b) * vein for b, p in zip(blade, pale)]
+    return bytes(int(round(255 * (1.055 * max(c, 0.0031) ** (1 / 2.4) - 0.055))) for c in linear)
+
+
+def make_leaf_bumps(path):
+    write_png(path, LEAF_BUMPS[0], LEAF_BUMPS[1], lambda column, row: bytes([int(round(255 * leaf_height(
+        LEAF[0] * (column + 0.5) / LEAF_BUMPS[0], LEAF[1] * (LEAF_BUMPS[1] - 0.5 - row) / LEAF_BUMPS[1])))]), 0)
+
+
+def make_leaf(path):
+    """As the panel."""
+    colours = write_png(None, LEAF_COLOURS[0], LEAF_COLOURS[1], lambda column, row: leaf_colour(
+        LEAF[0] * (column + 0.5) / LEAF_COLOURS[0], LEAF[1] * (LEAF_COLOURS[1] - 0.5 - row) / LEAF_COLOURS[1]), 2)
+    g = Group("leaf", {})
+    columns, rows = 180, 130
+    g.surface("leaf_blade", [[(LEAF[0] * (i / columns - 0.5), LEAF[1] * j / rows, LEAF_DEPTH * (
+        leaf_height(LEAF[0] * i / columns, LEAF[1] * j / rows) - 1.0)) for i in range(columns + 1)]
+        for j in range(rows + 1)], uv_box=(0.0, 1.0, 1.0, 0.0))
+    scene = Scene([{"name": "leaf_blade", "image": "colours", "rough": 0.42}], {"colours": colours})
     scene.place(g)
     scene.write(path)
 
@@ -175,6 +253,8 @@ def main():
     make_night(os.path.join(HERE, "environments", "night.exr"))
     make_bumps(os.path.join(HERE, "scenes", "panel_bumps.png"))
     make_panel(os.path.join(HERE, "scenes", "panel.glb"))
+    make_leaf_bumps(os.path.join(HERE, "scenes", "leaf_bumps.png"))
+    make_leaf(os.path.join(HERE, "scenes", "leaf.glb"))
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ void leave_trail(uint place, uint entry, uint cell, inout virga_glass_drop_gpu d
     drop.tail_m = 0.0;
     drop.water_nl -= water;
     const vec2 shift = vec2(virga_unit(virga_hash2(hash, 1u)), virga_unit(virga_hash2(hash, 2u))) - 0.5;
-    seeds[seed] = virga_glass_seed_gpu(to_array(cell_middle(cell) + 0.6 * shift * tick.pane.cell_m), float[2](0.0, 0.0), water, 0u,
+    seeds[seed] = virga_glass_seed_gpu(to_array(to_pane(cell_middle(cell) + 0.6 * shift * tick.pane.cell_m)), float[2](0.0, 0.0), water, 0u,
                                        0u, cell, virga_hash2(drop.id, tick.tick), VIRGA_GLASS_DROP | VIRGA_GLASS_TAIL);
 }
 

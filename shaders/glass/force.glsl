@@ -30,18 +30,18 @@ float holding(float a, uint cell, uint word)
 }
 
 // The velocity after a tick. m dv/dt = F - H v/|v| - C v, with C = drag a; C / m may be large against 1 / tick, so the
-// solution of the linear equation is taken whole: v goes to (F - H) / C with the time constant m / C. A drop at rest
-// stays there while F is below H; one that runs feels a part of H.
+// solution of the linear equation is taken whole: without H, v goes to F / C with the time constant m / C, which gives
+// w. What holds then acts against the velocity that comes out, not the one before: v = w - H s / C v/|v|, so v lies
+// along w and is shorter by H s / C. Against the one before, slow drops would swing from side to side, ever more where
+// H s is more than F - H. A drop at rest stays there while F is below H; one that runs feels a part of H, which can stop
+// it but not push it back.
 vec2 next_velocity(vec2 velocity, vec2 force, float hold, float mass, float a)
 {
-    const float speed = length(velocity), pulled = length(force);
-    const bool runs = speed > 1e-4;
+    const bool runs = length(velocity) > 1e-4;
     const float held = runs ? tick.run_hold * hold : hold;
-    if (!runs && pulled <= held)
+    if (!runs && length(force) <= held)
         return vec2(0.0);
-    const vec2 way = runs ? velocity / speed : force / max(pulled, 1e-12);
     const float drag = max(tick.drag * a, 1e-12), share = 1.0 - exp(-drag * tick.tick_s / mass);
-    const vec2 next = mix(velocity, (force - held * way) / drag, share);
-    // What holds can stop it, but not push it back.
-    return runs && dot(next, way) <= 0.0 && pulled <= held ? vec2(0.0) : next;
+    const vec2 w = mix(velocity, force / drag, share);
+    return w * max(1.0 - held * share / drag / max(length(w), 1e-12), 0.0);
 }

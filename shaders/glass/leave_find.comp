@@ -35,7 +35,7 @@ void main()
     drops[place].position = to_array(at);
     const ivec2 cell = cell_at(at);
     const bool beside = in_band(at);
-    if (!on_pane(cell)) {
+    if (!has_glass(at)) {
         const bool wiped = beside || (drops[place].kind & VIRGA_GLASS_PUSHED) != 0u;
         count(wiped ? VIRGA_GLASS_WIPED : VIRGA_GLASS_RUN_OFF, drops[place].water_nl + drops[place].merged_nl);
         drops[place].kind = VIRGA_GLASS_FREE;

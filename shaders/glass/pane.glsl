@@ -35,9 +35,13 @@ bool on_pane(ivec2 cell)
     return (surface[uint(cell.x) + uint(cell.y) * tick.pane.columns] & 0x1000000u) != 0u;
 }
 
+// The last cells may reach beyond the pane's edge; what is on it may not.
+vec2 to_pane(vec2 place) { return clamp(place, vec2(0.0), vec2(tick.pane.width_m, tick.pane.height_m)); }
+bool has_glass(vec2 place) { return place == to_pane(place) && on_pane(cell_at(place)); }
+
 uint cell_number(ivec2 cell) { return uint(cell.x) + uint(cell.y) * tick.pane.columns; }
 ivec2 cell_place(uint cell) { return ivec2(cell % tick.pane.columns, cell / tick.pane.columns); }
-vec2 cell_middle(uint cell) { return (vec2(cell_place(cell)) + 0.5) * tick.pane.cell_m; }
+vec2 cell_middle(uint cell) { return to_pane((vec2(cell_place(cell)) + 0.5) * tick.pane.cell_m); }
 
 // ---- what a cell's word holds: affinity, slopes of the bump map, glass or not
 

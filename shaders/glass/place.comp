@@ -49,7 +49,7 @@ void start_particles(uint i, virga_glass_seed_gpu seed)
         const float turn = 6.2831853 * virga_unit(hash), far = tick.particle_m * (0.2 + 0.8 * virga_unit(virga_hash1(hash)));
         const vec2 at = to_vec2(seed.position) + far * vec2(cos(turn), sin(turn));
         const uint water = seed.water_nl + (k < seed.extra_nl ? 1u : 0u);
-        if (!on_pane(cell_at(at)))
+        if (!has_glass(at))
             count(VIRGA_GLASS_WIPED, water); // pushed over the edge at once; its place stays free
         else if (rank < state.free)
             start(listed[state.alive + rank], seed, at, water, hash);

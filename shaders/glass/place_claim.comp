@@ -62,7 +62,7 @@ bool on_blade(vec2 at)
 void land(inout virga_glass_seed_gpu seed)
 {
     const ivec2 cell = cell_at(to_vec2(seed.position));
-    if (seed.water_nl == 0u || !on_pane(cell)) {
+    if (seed.water_nl == 0u || !has_glass(to_vec2(seed.position))) {
         seed.water_nl = 0u;
         return;
     }

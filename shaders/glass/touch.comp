@@ -1,6 +1,6 @@
 // touch.comp - drops that a blade meets become particles (Goto et al. 2009, section 4.4): as many as their water gives,
 // the first in the drop's place, the others beside it by seeds. Those too small for a particle are gathered in the
-// blade's bins.
+// blade's bins, and one that the blade pushes over the edge is gone.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,6 +21,11 @@ void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
     if (parts == 0u) {
         end_drop(place);
         atomicAdd(state.bins_nl[bin_at(blade, now_in_blade(blade, to_vec2(drop.position)).y)], water);
+        return;
+    }
+    if (!has_glass(to_vec2(drop.position))) {
+        end_drop(place);
+        count(VIRGA_GLASS_WIPED, water);
         return;
     }
     const uint each = water / parts, extra = water % parts;

@@ -38,6 +38,8 @@ typedef struct shot {
     host_buffer upload, download;
     const float *map, *relief; /* RGBA of the newest frame, `columns` to a row */
     uint32_t columns, rows;
+    const virga_glass_ball_gpu *balls; /* of the newest frame, in any order */
+    uint32_t ball_count, cut_count;
 } shot;
 
 #define REQUIRE(condition)                      \
@@ -88,6 +90,11 @@ static inline void shot_step(shot *s, uint32_t ticks)
     shot_submit(s);
 }
 
+static inline VkDeviceSize shot_map_bytes(const shot *s)
+{
+    return 32ull * s->glass->picture->max_columns * s->glass->picture->max_rows;
+}
+
 static inline void shot_buffers(shot *s)
 {
     const virga_glass *g = s->glass;
@@ -96,7 +103,7 @@ static inline void shot_buffers(shot *s)
     REQUIRE(host_buffer_create(&s->gpu.device, g->drops->size + g->film->size + g->passed->size,
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "pane up", &s->upload, error,
                                size));
-    REQUIRE(host_buffer_create(&s->gpu.device, (VkDeviceSize)g->picture->max_columns * g->picture->max_rows * 32,
+    REQUIRE(host_buffer_create(&s->gpu.device, shot_map_bytes(s) + g->picture->balls->size + g->picture->counts->size,
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "map down", &s->download, error,
                                size));
     memset(s->upload.mapped, 0, s->upload.size);
@@ -253,6 +260,11 @@ static inline void shot_copy_map(shot *s, VkCommandBuffer cmd)
     relief.bufferOffset = 16ull * map.columns * map.rows;
     vkCmdCopyImageToBuffer(cmd, s->glass->picture->relief->image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1,
                            &relief);
+    const struct glass_picture *picture = s->glass->picture;
+    const VkBufferCopy balls = {0, shot_map_bytes(s), picture->balls->size};
+    const VkBufferCopy counts = {0, shot_map_bytes(s) + picture->balls->size, picture->counts->size};
+    vkCmdCopyBuffer(cmd, picture->balls->buffer, s->download.buffer, 1, &balls);
+    vkCmdCopyBuffer(cmd, picture->counts->buffer, s->download.buffer, 1, &counts);
     shot_memory(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                 VK_ACCESS_HOST_READ_BIT);
 }
@@ -276,6 +288,10 @@ static inline const float *shot_draw(shot *s, bool refraction)
     host_buffer_invalidate(&s->gpu.device, &s->download);
     s->map = s->download.mapped;
     s->relief = s->map + 4ull * s->columns * s->rows;
+    s->balls = (const void *)((const char *)s->download.mapped + shot_map_bytes(s));
+    const uint32_t *counts = (const void *)((const char *)s->balls + s->glass->picture->balls->size);
+    s->ball_count = counts[0];
+    s->cut_count = counts[1];
     return host_target_floats(&s->gpu.device, &s->picture, HOST_LAYER);
 }
 

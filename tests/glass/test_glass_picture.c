@@ -256,12 +256,78 @@ static void merged_drops_have_no_crease(void **state)
             worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
             crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
         }
-        print_message("CREASE %d %d: %g of %g = %g\n", i / 2, i % 2, worst, crease, worst / crease);
+
         const double limit =
             i % 2 ? 0.55 : 0.12; /* weights end with a kink; a profile cut off at the rims' is above 1 */
         if (worst > limit * crease)
             fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
     }
+    shot_close(&s);
+}
+
+/* ---- balls */
+
+/* What has just landed is a main ball and three around it, which come nearer as (1 - t)^2 and are gone at t = 1, after
+ * impact_s; all are caps, so water goes with the cube of the radius: its sum is the drop's (to 1e-5) all the time. */
+static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.impact_s = 0.4f;
+    for (int i = 0; i <= 10; i++) {
+        const double t = 0.1 * i, left = (1 - t) * (1 - t);
+        shot_forget(&s);
+        virga_glass_drop_gpu *drop = shot_drop(&s, 0.05, 0.03, shot_water(&s, 6e-3));
+        drop->age_s = s.settings.impact_s * (float)t;
+        const ball whole = ball_of(&s, drop);
+        shot_draw(&s, false);
+        REQUIRE(s.ball_count == (i < 10 ? 4 : 1));
+        double cubes = 0, most = 0;
+        for (uint32_t k = 0; k < s.ball_count; k++) {
+            cubes += pow((double)s.balls[k].radius_m / whole.radius, 3);
+            most = fmax(most, (double)s.balls[k].radius_m);
+        }
+        assert_float_equal(cubes, 1, 1e-5);
+        for (uint32_t k = 0; k < s.ball_count; k++) {
+            const bool main_one = (double)s.balls[k].radius_m >= most;
+            const double apart = hypot((double)s.balls[k].middle[0] - 0.05, (double)s.balls[k].middle[1] - 0.03);
+            assert_float_equal(apart, main_one ? 0 : 1.15 * left * whole.radius, 1e-7);
+            assert_float_equal(pow((double)s.balls[k].radius_m / whole.radius, 3),
+                               main_one ? 1 - (i < 10 ? 0.27 * left : 0) : 0.09 * left, 1e-5);
+        }
+    }
+    shot_close(&s);
+}
+
+/* Lists of tiles that do not fit are left out whole and counted: with 200 drops over each of T tiles in order, the ones
+ * from the floor of room / 200 on. They show nothing; those before show all. */
+static void tiles_without_room_are_counted_and_empty(void **state)
+{
+    (void)state;
+    enum { MANY = 200, TILE = 14 };
+    shot s;
+    virga_glass_def def = shot_def();
+    def.max_drops = 256;
+    shot_open(&s, &def, WIDTH, HEIGHT, false);
+    shot_face(&s, 1, 30);
+    for (int i = 0; i < MANY; i++)
+        shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.06));
+    shot_draw(&s, false);
+    const uint32_t across = s.columns / TILE, tiles = across * (s.rows / TILE);
+    const uint32_t fit = s.glass->picture->max_entries / MANY;
+    REQUIRE(s.columns % TILE == 0 && s.rows % TILE == 0 && fit > across && fit < tiles);
+    assert_int_equal(s.ball_count, MANY);
+    assert_int_equal(s.cut_count, (tiles - fit) * MANY);
+    for (uint32_t i = 0; i < tiles; i++) {
+        const float *middle = texel(&s, i % across * TILE + TILE / 2, i / across * TILE + TILE / 2);
+        REQUIRE(i < fit ? middle[0] > 0.5f : middle[0] == 0);
+    }
+    shot_step(&s, 1); /* which takes the counts of completed frames in */
+    virga_glass_stats stats;
+    virga_glass_stats_get(s.glass, &stats);
+    assert_int_equal(stats.balls, MANY);
+    assert_int_equal(stats.balls_cut, s.cut_count);
     shot_close(&s);
 }
 
@@ -582,6 +648,8 @@ int main(void)
         cmocka_unit_test(a_drop_alone_is_a_cap),
         cmocka_unit_test(weights_sum_to_one),
         cmocka_unit_test(merged_drops_have_no_crease),
+        cmocka_unit_test(sub_balls_flow_into_their_drop_and_keep_its_water),
+        cmocka_unit_test(tiles_without_room_are_counted_and_empty),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # The same seed gives the same files: two runs, any number of threads, two vector widths, and frames rendered alone.
-# Usage: same_bytes.sh VIRGA SCENE
+# Usage: same_bytes.sh VIRGA SCENE "SYSTEM..." [OPTION...] with the systems whose point caches there are, and what else the program is told.
 set -eu
-virga=$1 scene=$2
+virga=$1 scene=$2 systems=$3
+shift 3
+options=("$@")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -10,7 +12,7 @@ render() { # folder frames [environment...]
     local folder=$work/$1 frames=$2
     shift 2
     env "$@" "$virga" render "$scene" -o "$folder" --frames "$frames" --size 160x90 --points --device cpu \
-        --set rain.max_drops=16384 2>"$folder.log" || { cat "$folder.log"; exit 1; }
+        --set rain.max_drops=16384 "${options[@]}" 2>"$folder.log" || { cat "$folder.log"; exit 1; }
 }
 
 same() { # folder file...
@@ -21,12 +23,16 @@ same() { # folder file...
     done
 }
 
-points="rain.0001.ply rain.0002.ply rain.0003.ply splash.0001.ply splash.0002.ply splash.0003.ply"
+points="" last="frame.0003.exr"
+for system in $systems; do
+    points+=" $system.0001.ply $system.0002.ply $system.0003.ply"
+    last+=" $system.0003.ply"
+done
 frames="frame.0001.exr frame.0002.exr frame.0003.exr $points"
 render once 1-3 LP_NUM_THREADS=2
 render again 1-3 LP_NUM_THREADS=2
 same again $frames
-for threads in 1 4; do
+for threads in 1 3; do
     render threads$threads 1-3 LP_NUM_THREADS=$threads
     same threads$threads $frames
 done
@@ -34,5 +40,5 @@ done
 render narrow 1-3 LP_NATIVE_VECTOR_WIDTH=128 MESA_SHADER_CACHE_DISABLE=true
 same narrow $points
 render alone 3
-same alone frame.0003.exr rain.0003.ply splash.0003.ply
+same alone $last
 echo "same bytes"

@@ -136,6 +136,32 @@ render soft --frames 12 --samples 2 --layers beauty,glass
 render visor --frames 2 --layers glass \
     --set 'glass.2={name: visor, shape: mesh, mesh: visor, width_m: 0.4, height_m: 0.3, position_m: [0, 0, 0]}'
 
+# ---- wet from the first frame on
+
+# A shot that stands and has rained for 9 frames begins with what one without shows in its tenth. Wipers, which keep to
+# the scene's time, are left out.
+still="camera.keys=[{position_m: [0, 1.2, 6], look_at_m: [0, 1.2, 0]}]"
+render later --frames 10-11 --points --layers beauty,glass --set "$still" --set 'glass.1.wipers=[]'
+render wet --frames 1-2 --points --layers beauty,glass --set "$still" --set 'glass.1.wipers=[]' \
+    --set frames.preroll_s=0.375
+for frame in 1 2; do
+    idiff -q -fail 0 "$work/later/frame.00$((frame + 9)).exr" "$work/wet/frame.000$frame.exr" >"$work/log" 2>&1 ||
+        { cat "$work/log"; fail "frame $frame after a pre-roll is another"; }
+    cmp "$work/later/glass.00$((frame + 9)).ply" "$work/wet/glass.000$frame.ply" ||
+        fail "drops of frame $frame after a pre-roll are others"
+done
+# Wipers begin where the scene says, however long it has rained; and a frame alone is as in the whole.
+render swept --frames 1-3 --points --set frames.preroll_s=1.2
+render last --frames 3 --points --set frames.preroll_s=1.2
+cmp "$work/swept/frame.0003.exr" "$work/last/frame.0003.exr" || fail "a frame alone after a pre-roll is another"
+render begin --frames 1 --layers beauty --set rain.rate_mm_h=0
+render begun --frames 1 --layers beauty --set rain.rate_mm_h=0 --set frames.preroll_s=1.25
+idiff -q -fail 0 "$work/begin/frame.0001.exr" "$work/begun/frame.0001.exr" >"$work/log" 2>&1 ||
+    fail "wipers begin elsewhere after a pre-roll"
+render moved --frames 1 --layers beauty --set rain.rate_mm_h=0 --set glass.1.wipers.0.phase_s=0.1
+idiff -q -fail 0 "$work/begin/frame.0001.exr" "$work/moved/frame.0001.exr" >"$work/log" 2>&1 &&
+    fail "wipers are not seen"
+
 # ---- footage
 
 oiiotool --pattern constant:color=0.2,0.4,0.6 96x54 3 -d half -o "$work/plate.0003.exr" &&
@@ -175,6 +201,7 @@ refuses "glass.0.mesh: no UVs of 'floor' lie on a pane of 1.4 x 0.75 m" --set gl
 refuses "glass.0.bumps.file: cannot read" --set "glass.0.bumps.file=$work/room.obj"
 refuses "glass.1.mask: cannot read" --set "glass.1.mask=$work/room.obj"
 refuses "--layers: the scene has no panes; expected a list of them, glass" --set 'glass=[]' --layers glass,refraction
+refuses "frames.preroll_s: expected a number from 0 to 3600" --set frames.preroll_s=-1
 refuses "expected one of paper, clean" --set glass.0.kind=wet
 
 "$virga" check "$work/scene.yaml" >"$work/stdout" 2>&1 || { cat "$work/stdout"; fail "check"; }

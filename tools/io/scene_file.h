@@ -66,6 +66,7 @@ typedef struct scene_frames {
     uint32_t first, last; /* frame `first` is at time 0 */
     double shutter_deg;
     uint32_t size[2];
+    double preroll_s; /* it rains for so long before the first frame, in whole frames */
 } scene_frames;
 
 typedef struct scene_preview {

@@ -149,6 +149,8 @@ int check_run(int argc, char **argv)
     printf("%s\n", parsed.arguments[0]);
     printf("  frames       %u to %u at %g a second, %u x %u\n", scene->frames.first, scene->frames.last,
            scene->frames.fps, scene->frames.size[0], scene->frames.size[1]);
+    if (scene->frames.preroll_s > 0)
+        printf("  pre-roll     %g s of rain before frame %u\n", scene->frames.preroll_s, scene->frames.first);
     printf("  rain         %g mm/h, %u drops, seed %u\n", scene->rain.rate_mm_h, scene->rain.max_drops,
            scene->rain.seed);
     print_ground(scene);

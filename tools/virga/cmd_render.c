@@ -18,7 +18,8 @@ static const option_row rows[] = {
     {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
     {"--frames", 0, "A-B",
      "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
-     "with camera and weather as at their last keys. Default: the scene's",
+     "with camera and weather as at their last keys; frames.preroll_s of the scene rain before the first. "
+     "Default: the scene's",
      false},
     {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
     {"--samples", 0, "N",
@@ -59,6 +60,7 @@ void render_help(void)
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
            "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n"
+           "  virga render assets/scenes/window.yaml -o out --set frames.preroll_s=60\n"
            "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr --layers "
            "glass,refraction\n\n"
            "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk full,\n"
@@ -260,9 +262,34 @@ static int stop_interrupted(const render_job *job, uint32_t frame)
     return EXIT_INTERRUPTED;
 }
 
+static bool all_there(const render_job *job)
+{
+    for (uint32_t i = 0; i <= job->frames[1] - job->frames[0]; i++)
+        if (!job->there || !job->there[i])
+            return false;
+    return true;
+}
+
+/* Through the pre-roll, with a bar of its own, as it may be long and Ctrl-C is to be heard on it. */
+static bool step_preroll(render_job *job)
+{
+    shot *s = &job->shot;
+    progress bar;
+    progress_begin(&bar, "pre-roll", s->preroll);
+    while (s->preroll && !interrupt_asked()) {
+        if (!shot_step_preroll(s, job->error, sizeof job->error))
+            break;
+        progress_step(&bar, NULL);
+    }
+    progress_end(&bar);
+    return !s->preroll;
+}
+
 static int render_frames(render_job *job)
 {
     progress bar;
+    if (!all_there(job) && !step_preroll(job))
+        return interrupt_asked() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
     progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
     for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
         if (job->there && job->there[frame - job->frames[0]]) {

@@ -125,6 +125,8 @@ bool shot_open(shot *s, const scene_file *scene, const shot_options *options, ch
     s->options = *options;
     s->options.samples = options->samples ? options->samples : 1;
     s->frame_index = scene->frames.first - 1;
+    s->preroll = (uint32_t)lround(shot_preroll_s(s) * scene->frames.fps);
+    s->camera_time_s = -shot_preroll_s(s);
     if (open_all(s, error, error_size))
         return true;
     const bool input_wrong = s->input_wrong;
@@ -172,6 +174,11 @@ double shot_time(const shot *s, uint32_t frame)
     return (double)(frame - s->scene->frames.first) / s->scene->frames.fps;
 }
 
+double shot_preroll_s(const shot *s)
+{
+    return round(s->scene->frames.preroll_s * s->scene->frames.fps) / s->scene->frames.fps;
+}
+
 bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size)
 {
     return host_begin_frame(&s->device, cmd, error, error_size) &&
@@ -211,23 +218,41 @@ bool shot_record_time(shot *s, VkCommandBuffer cmd, double time_s, double dt_s, 
     return stepped;
 }
 
-/* Time passes to the frame, by one frame. */
-static bool record_step(shot *s, VkCommandBuffer cmd, uint32_t frame, char *error, size_t error_size)
+/* Time passes to `time_s`, by one frame. */
+static bool record_step(shot *s, VkCommandBuffer cmd, double time_s, char *error, size_t error_size)
 {
-    const bool first = s->frame_index + 1 == s->scene->frames.first;
-    if (!shot_record_time(s, cmd, shot_time(s, frame), first ? 0 : 1 / s->scene->frames.fps, error, error_size))
+    if (!shot_record_time(s, cmd, time_s, s->began ? 1 / s->scene->frames.fps : 0, error, error_size))
         return false;
-    s->frame_index++;
+    s->began = true;
     return !s->options.points || shot_record_points(s, cmd, error, error_size);
+}
+
+static bool step_to(shot *s, double time_s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    return shot_begin(s, &cmd, error, error_size) && record_step(s, cmd, time_s, error, error_size) &&
+           host_submit(&s->device, error, error_size);
+}
+
+/* Frame by frame as those that are drawn, so that a shot whose rain has begun earlier shows what one shows that is
+ * looked at later. */
+bool shot_step_preroll(shot *s, char *error, size_t error_size)
+{
+    if (!step_to(s, -(double)s->preroll / s->scene->frames.fps, error, error_size))
+        return false;
+    s->preroll--;
+    return true;
 }
 
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
 {
-    while (s->frame_index < frame || s->frame_index + 1 == s->scene->frames.first) {
-        VkCommandBuffer cmd;
-        if (!shot_begin(s, &cmd, error, error_size) || !record_step(s, cmd, s->frame_index + 1, error, error_size) ||
-            !host_submit(&s->device, error, error_size))
+    while (s->preroll)
+        if (!shot_step_preroll(s, error, error_size))
             return false;
+    while (s->frame_index < frame || s->frame_index + 1 == s->scene->frames.first) {
+        if (!step_to(s, shot_time(s, s->frame_index + 1), error, error_size))
+            return false;
+        s->frame_index++;
         if (s->frame_index >= frame)
             break;
     }

@@ -78,6 +78,8 @@ typedef struct shot {
     struct plate plate; /* so called as in C++ too */
     host_buffer plate_buffer; /* its pixels on their way to the device */
     uint32_t frame_index; /* scene frame that the simulation stands at; first - 1 before any */
+    uint32_t preroll;     /* frames of the scene's pre-roll that are still to come */
+    bool began;           /* time has begun, with the first step */
     double camera_time_s; /* of the frame that the simulation stands at */
     host_camera_key eye_keys[2]; /* (live) a camera of its own in place of the path: a frame ago, and now */
     bool eye_free;               /* it is in use */
@@ -129,7 +131,14 @@ void shot_close(shot *s);
 /* Time of a scene frame: the first is 0. The shutter closes then. */
 double shot_time(const shot *s, uint32_t frame);
 
-/* Steps the simulation to a frame, which must not lie behind; draws nothing. */
+/* How long it rains before the first frame: whole frames. */
+double shot_preroll_s(const shot *s);
+
+/* One frame of the pre-roll, while s->preroll is not 0. */
+bool shot_step_preroll(shot *s, char *error, size_t error_size);
+
+/* Steps the simulation to a frame, which must not lie behind; draws nothing. Before the first one through what is left
+ * of the pre-roll. */
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
 
 /* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */

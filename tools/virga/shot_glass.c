@@ -14,7 +14,15 @@
 
 /* ---- settings */
 
-static void fill_wiper(const scene_wiper *from, double time_s, virga_glass_wiper *to)
+/* The library's time begins with the pre-roll, and the scene's with the first frame. */
+static double phase_of(const scene_wiper *from, double preroll_s)
+{
+    const double pause_s = from->drive == SCENE_WIPER_INTERMITTENT ? from->pause_s : 0;
+    const double cycle_s = 2 * from->sweep_s + pause_s, phase_s = fmod(from->phase_s - preroll_s, cycle_s);
+    return preroll_s == 0 ? from->phase_s : phase_s < 0 ? phase_s + cycle_s : phase_s;
+}
+
+static void fill_wiper(const scene_wiper *from, double preroll_s, double time_s, virga_glass_wiper *to)
 {
     *to = virga_default_glass_wiper();
     for (int axis = 0; axis < 2; axis++)
@@ -29,7 +37,7 @@ static void fill_wiper(const scene_wiper *from, double time_s, virga_glass_wiper
     to->drive = (virga_glass_drive)from->drive;
     to->sweep_s = (float)from->sweep_s;
     to->pause_s = (float)from->pause_s;
-    to->phase_s = (float)from->phase_s;
+    to->phase_s = (float)phase_of(from, preroll_s);
     to->film_mm = (float)from->film_mm;
     to->wear = (float)from->wear;
     to->host_deg = (float)scene_file_wiper_deg(from, time_s);
@@ -104,7 +112,7 @@ bool shot_panes_set(shot *s, double time_s, char *error, size_t error_size)
         fill_look(pane->from, to);
         to->wiper_count = pane->from->wiper_count;
         for (uint32_t w = 0; w < to->wiper_count; w++)
-            fill_wiper(&pane->from->wipers[w], time_s, &to->wipers[w]);
+            fill_wiper(&pane->from->wipers[w], shot_preroll_s(s), time_s, &to->wipers[w]);
         to->lighting = s->settings.lighting;
         if (!shot_ok(s, virga_glass_set(pane->glass, to), "setting a pane", error, error_size))
             return false;
@@ -458,13 +466,15 @@ static void move_along_path(const shot *s, const scene_pane *pane, double time_s
     double velocity[3], turn[3], before[3], after[3], ignored[3], span[2];
     if (pane->follow != SCENE_PANE_CAMERA)
         return;
-    velocity_at(s, pane, time_s, velocity, turn);
-    const bool moves = moving_span(s, time_s, 1 / s->scene->frames.fps, span);
+    /* Before the path begins, as through a pre-roll, it drives evenly as it will then. */
+    const bool ahead = time_s < s->path.keys[0].time_s;
+    velocity_at(s, pane, ahead ? s->path.keys[0].time_s : time_s, velocity, turn);
+    const bool moves = !ahead && moving_span(s, time_s, 1 / s->scene->frames.fps, span);
     velocity_at(s, pane, span[0], before, ignored);
     velocity_at(s, pane, span[1], after, ignored);
     for (int axis = 0; axis < 3; axis++) {
         out->velocity_m_s[axis] = (float)velocity[axis];
-        out->turn_rad_s[axis] = (float)turn[axis];
+        out->turn_rad_s[axis] = ahead ? 0 : (float)turn[axis];
         out->acceleration_m_s2[axis] = moves ? (float)((after[axis] - before[axis]) / (span[1] - span[0])) : 0;
     }
 }

@@ -1,6 +1,7 @@
 /* shot_live.c - a shot whose time, camera and settings somebody plays with. */
 #include "shot_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,12 +27,13 @@ static bool take_settings(shot *s, char *error, size_t error_size)
 
 bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *camera, char *error, size_t error_size)
 {
-    const bool first = s->frame_index + 1 == s->scene->frames.first; /* the state is filled, no time passes */
+    const bool first = !s->began; /* the state is filled, no time passes */
     const double time_s = s->camera_time_s + (first ? 0 : dt_s);
     if (!take_settings(s, error, error_size) || !shot_record_time(s, cmd, time_s, first ? 0 : dt_s, error, error_size) ||
         !shot_record_sample(s, cmd, 0, time_s, error, error_size))
         return false;
-    s->frame_index = s->scene->frames.first + (uint32_t)(time_s * s->scene->frames.fps + 0.5);
+    s->began = true;
+    s->frame_index = s->scene->frames.first + (uint32_t)(fmax(time_s, 0) * s->scene->frames.fps + 0.5);
     const host_camera_path eye = shot_eye(s);
     host_camera_at(&eye, time_s, s->options.width, s->options.height, NULL, camera);
     return true;
@@ -74,7 +76,8 @@ bool shot_live_restart(shot *s, char *error, size_t error_size)
         return false;
     close_scene(s);
     s->frame_index = s->scene->frames.first - 1;
-    s->camera_time_s = 0;
+    s->camera_time_s = -shot_preroll_s(s);
+    s->began = false;
     s->warning[0] = 0;
     return host_renderer_create(&s->device, &s->target, &s->renderer, error, error_size) &&
            shot_load_meshes(s, error, error_size) && shot_load_material_map(s, error, error_size) &&

@@ -114,10 +114,11 @@ static void put_bar(maker *m, const double from[2], const double to[2], double w
 }
 
 /* Arm from its axis to the blade's middle, and the blade; where the library has them at that time. */
-static void put_wiper(maker *m, const scene_wiper *from, const virga_glass_wiper *wiper, double time_s)
+static void put_wiper(maker *m, const scene_wiper *from, const virga_glass_wiper *wiper, double preroll_s,
+                      double time_s)
 {
     const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_file_wiper_deg(from, time_s)
-                                                           : virga_glass_wiper_deg(wiper, fmax(time_s, 0));
+                                                           : virga_glass_wiper_deg(wiper, fmax(time_s + preroll_s, 0));
     const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
     const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
     const double middle[2] = {from->pivot_m[0] + hub * cos(arm), from->pivot_m[1] + hub * sin(arm)};
@@ -168,7 +169,7 @@ static void put_all(const shot *s, const shot_pane *pane, double time_s, host_ve
     shot_pane_pose(s, pane->from, time_s, &m.pose);
     for (uint32_t i = 0; i < pane->from->wiper_count; i++)
         if (pane->from->wipers[i].drawn)
-            put_wiper(&m, &pane->from->wipers[i], &pane->settings.wipers[i], time_s);
+            put_wiper(&m, &pane->from->wipers[i], &pane->settings.wipers[i], shot_preroll_s(s), time_s);
     if (pane->from->frame_m > 0)
         put_frame(&m);
 }

@@ -1,0 +1,135 @@
+/* test_glass_blades.c - where blades are and what they pass over: opposed wipers, arms whose blades turn. */
+#include "glass_fixture.h"
+
+#include <math.h>
+
+static glass_fixture f;
+
+static virga_glass_blade_gpu blade_at(double from_s, double to_s, uint32_t wiper)
+{
+    virga_glass_tick_gpu tick;
+    glass_fill_blades(f.glass, from_s, to_s, 0, 1, &tick);
+    return tick.blades[wiper];
+}
+
+/* Wipers on both sides of a pane with mirrored angles mirror each other at all times, to 1e-6 m. */
+static void opposed_wipers_mirror_each_other(void **unused)
+{
+    (void)unused;
+    glass_fixture_open(&f, NULL);
+    f.settings.wiper_count = 2;
+    for (int i = 0; i < 2; i++) {
+        virga_glass_wiper *wiper = &f.settings.wipers[i];
+        wiper->pivot_m[0] = i ? 0.15f : 0.01f;
+        wiper->reach_m = 0.09f;
+        wiper->blade_m = 0.07f;
+        wiper->blade_deg = i ? -20 : 20;
+        wiper->blade_turn = 0.3f;
+        wiper->low_deg = i ? 175 : 5;
+        wiper->high_deg = i ? 80 : 100;
+    }
+    REQUIRE(virga_glass_set(f.glass, &f.settings) == VIRGA_OK);
+    for (double now = 0; now < 2.4; now += 1 / 60.0) {
+        const virga_glass_blade_gpu left = blade_at(now, now + 1 / 60.0, 0), right = blade_at(now, now + 1 / 60.0, 1);
+        assert_float_equal(left.middle[0] + right.middle[0], 0.16f, 1e-6);
+        assert_float_equal(left.middle[1], right.middle[1], 1e-6);
+        assert_float_equal(left.along[0], -right.along[0], 1e-6);
+        assert_float_equal(left.along[1], right.along[1], 1e-6);
+        assert_true(left.side == -right.side);
+    }
+    glass_fixture_close(&f);
+}
+
+/* On an arm at the angle p that was at p0 at its low end, a blade set at d has the angle p + d - turn (p - p0). */
+static void a_blade_turns_on_its_arm(void **unused)
+{
+    (void)unused;
+    glass_fixture_open(&f, NULL);
+    f.settings.wiper_count = 1;
+    f.settings.wipers[0] = virga_default_glass_wiper();
+    for (int i = 0; i <= 4; i++) {
+        virga_glass_wiper *wiper = &f.settings.wipers[0];
+        wiper->low_deg = 10;
+        wiper->high_deg = 130;
+        wiper->blade_deg = 25;
+        wiper->blade_turn = 0.25f * (float)i;
+        REQUIRE(virga_glass_set(f.glass, &f.settings) == VIRGA_OK);
+        for (double now = 0; now < 1.2; now += 0.05) {
+            const double arm = virga_glass_wiper_deg(wiper, now);
+            const double angle = (arm + 25 - 0.25 * i * (arm - 10)) * M_PI / 180;
+            const virga_glass_blade_gpu blade = blade_at(now, now, 0);
+            assert_float_equal(blade.along[0], cos(angle), 1e-6);
+            assert_float_equal(blade.along[1], sin(angle), 1e-6);
+            assert_float_equal(hypot((double)blade.middle[0], (double)blade.middle[1]), 0.6 - 0.25, 1e-6);
+        }
+    }
+    glass_fixture_close(&f);
+}
+
+/* How far a place is from what a blade of a parallel linkage passes over, negative within: the blade keeps its
+ * direction (up) while its middle goes along a circle about the pivot; looked at every 0.05 degrees. */
+static double from_swept(const virga_glass_wiper *wiper, const double at[2])
+{
+    double least = 1;
+    const double hub = (double)wiper->reach_m - 0.5 * (double)wiper->blade_m;
+    for (double deg = (double)wiper->low_deg; deg <= (double)wiper->high_deg; deg += 0.05) {
+        const double x = fabs(at[0] - (double)wiper->pivot_m[0] - hub * cos(deg * M_PI / 180));
+        const double y = fabs(at[1] - (double)wiper->pivot_m[1] - hub * sin(deg * M_PI / 180));
+        least = fmin(least, fmax(x - 0.5 * (double)wiper->width_m, y - 0.5 * (double)wiper->blade_m));
+    }
+    return least;
+}
+
+/* Drops of half a millimetre, too small for a particle: gone where the blade has been, and there where it has not; none
+ * within 2 mm of its border counts. */
+static void a_parallel_linkage_sweeps_what_its_upright_blade_passes_over(void **unused)
+{
+    (void)unused;
+    enum { COUNT = 15 * 11 };
+    uint32_t ids[COUNT], swept = 0, kept = 0;
+    glass_fixture_open(&f, NULL);
+    f.settings.mist_mm = 0;
+    f.settings.wiper_count = 1;
+    virga_glass_wiper *wiper = &f.settings.wipers[0];
+    *wiper = virga_default_glass_wiper();
+    wiper->pivot_m[0] = 0.08f;
+    wiper->pivot_m[1] = 0.02f;
+    wiper->reach_m = 0.085f;
+    wiper->blade_m = 0.05f;
+    wiper->blade_turn = 1;
+    wiper->low_deg = 30;
+    wiper->blade_deg = 60; /* upright there, and so everywhere */
+    wiper->high_deg = 150;
+    wiper->drive = VIRGA_GLASS_HOST;
+    wiper->host_deg = 30;
+    for (int i = 0; i < COUNT; i++)
+        ids[i] = glass_fixture_land(&f, 0.009 + 0.01 * (i % 15), 0.007 + 0.01 * (double)(i / 15), 200)->id;
+    glass_fixture_step(&f, 1, false);
+    wiper->host_deg = 150;
+    glass_fixture_step(&f, 30, true);
+    for (int i = 0; i < COUNT; i++) {
+        const double at[2] = {0.009 + 0.01 * (i % 15), 0.007 + 0.01 * (double)(i / 15)}, far = from_swept(wiper, at);
+        bool there = false;
+        for (uint32_t k = 0; k < f.glass->def.max_drops; k++)
+            there = there || (f.drops[k].id == ids[i] && glass_fixture_kind(&f.drops[k]) == VIRGA_GLASS_DROP);
+        if (fabs(far) < 2e-3)
+            continue;
+        swept += far < 0;
+        kept += far > 0;
+        if (there != (far > 0))
+            fail_msg("%g, %g, %g m from what is swept, is %s", at[0], at[1], far, there ? "there" : "gone");
+    }
+    print_message("%u swept, %u kept\n", swept, kept);
+    assert_true(swept > 20 && kept > 20);
+    glass_fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(opposed_wipers_mirror_each_other),
+        cmocka_unit_test(a_blade_turns_on_its_arm),
+        cmocka_unit_test(a_parallel_linkage_sweeps_what_its_upright_blade_passes_over),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
