@@ -331,15 +331,18 @@ static void put_both(boxes *b, float x, const taper *t)
     put_taper(b, x, t);
 }
 
-static void put_pillars(boxes *b, float thick, float deep)
+/* `in_m`: how far inside the outline. */
+static void put_pillars(boxes *b, float thick, float deep, float in_m)
 {
     const float feet[3][3] = {{0.755f, 0.84f, -1.18f}, {0.79f, 0.82f, 0.28f}, {0.77f, 0.84f, 1.42f}};
     const float heads[3][3] = {{0.735f, 1.42f, -0.40f}, {0.735f, 1.42f, 0.30f}, {0.70f, 1.42f, 0.98f}};
     const float up[3] = {1, 0, 0};
     for (int i = 0; i < 3; i++)
         for (int side = -1; side <= 1; side += 2) {
-            const float from[3] = {(float)side * feet[i][0], feet[i][1], feet[i][2]};
-            const float to[3] = {(float)side * heads[i][0], heads[i][1], heads[i][2]};
+            const float from[3] = {(float)side * (feet[i][0] - 0.3f * in_m), feet[i][1] - 0.5f * in_m,
+                                   feet[i][2] + in_m};
+            const float to[3] = {(float)side * (heads[i][0] - 0.3f * in_m), heads[i][1] - 0.5f * in_m,
+                                 heads[i][2] + in_m};
             boxes_put_bar(b, from, to, up, i == 2 ? 0.2f : thick, deep);
         }
 }
@@ -352,7 +355,7 @@ static void put_paint(boxes *b)
     put_taper(b, 0, &(taper){1.38f, 0.84f, 0.30f, 0.86f, 2.05f, 0.78f, 0.36f, 0.84f});     /* boot */
     put_taper(b, 0, &(taper){-0.42f, 0.75f, 1.40f, 1.43f, 0.10f, 0.73f, 1.43f, 1.48f});    /* roof */
     put_taper(b, 0, &(taper){0.10f, 0.73f, 1.43f, 1.48f, 1.02f, 0.71f, 1.39f, 1.43f});
-    put_pillars(b, 0.075f, 0.04f);
+    put_pillars(b, 0.07f, 0.04f, 0);
 }
 
 static void put_trim(boxes *b)
@@ -361,7 +364,7 @@ static void put_trim(boxes *b)
     put_taper(b, 0, &(taper){2.02f, 0.80f, 0.26f, 0.56f, 2.16f, 0.74f, 0.28f, 0.50f});
     put_taper(b, 0, &(taper){-1.9f, 0.72f, 0.20f, 0.32f, 1.9f, 0.72f, 0.20f, 0.32f});       /* floor */
     put_taper(b, 0, &(taper){-2.09f, 0.42f, 0.54f, 0.66f, -2.03f, 0.42f, 0.54f, 0.66f});    /* grille */
-    put_both(b, 0.94f, &(taper){-0.86f, 0.08f, 0.90f, 1.00f, -0.76f, 0.09f, 0.89f, 1.02f}); /* mirrors */
+    put_both(b, 0.94f, &(taper){-0.92f, 0.06f, 0.89f, 0.97f, -0.84f, 0.07f, 0.88f, 0.98f}); /* mirrors */
 }
 
 static void put_cabin(boxes *b)
@@ -375,8 +378,8 @@ static void put_cabin(boxes *b)
     put_taper(b, 0.0f, &(taper){-0.60f, 0.09f, 1.335f, 1.38f, -0.57f, 0.09f, 1.335f, 1.38f}); /* mirror */
     put_both(b, 0.36f, &(taper){0.30f, 0.25f, 0.35f, 0.55f, 0.45f, 0.25f, 0.35f, 1.0f});      /* seats */
     put_both(b, 0.36f, &(taper){0.38f, 0.12f, 1.02f, 1.2f, 0.48f, 0.12f, 1.02f, 1.2f});
-    put_pillars(b, 0.1f, 0.05f);   /* over the paint, seen from within */
-    for (int i = 0; i < 24; i++) { /* the wheel, leaning to the driver */
+    put_pillars(b, 0.1f, 0.05f, 0.07f); /* over the paint, seen from within */
+    for (int i = 0; i < 24; i++) {      /* the wheel, leaning to the driver */
         float ends[2][3];
         for (int end = 0; end < 2; end++) {
             const double angle = 2 * M_PI * (i + end) / 24, lean = 0.42;

@@ -239,7 +239,7 @@ static bool create_rain(drive *d)
     virga_glass_def windshield = virga_default_glass_def();
     windshield.width_m = CAR_GLASS_WIDTH_M;
     windshield.height_m = CAR_GLASS_HEIGHT_M;
-    windshield.max_texels = 2048;
+    windshield.max_texels = software ? 1024 : 2048; /* fine enough for one that fills the picture */
 
     virga_scene_def def = virga_default_scene_def();
     def.rain.max_drops = software ? 32768 : 131072;
@@ -293,7 +293,7 @@ static bool set_rain(drive *d)
     virga_splash_settings splash = virga_default_splash_settings();
     splash.gain = 2; /* 1 is what a camera records */
     for (int state = 0; state < VIRGA_GROUND_STATES; state++)
-        splash.rows[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* they stay on the windshield */
+        splash.rows[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* what of the car is to have none */
     return fine(d, virga_ground_set(virga_scene_ground(d->rain), &ground), "ground") &&
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
@@ -364,10 +364,12 @@ static uint32_t fill_occluders(drive *d)
         if (off2 < (double)NEAR_ENOUGH_M * NEAR_ENOUGH_M || d->occluders[i].ground)
             d->occluders[kept++] = d->occluders[i];
     }
+    const bool still =
+        d->car.speed_m_s < 1; /* splashes stay where they were made: a fast car would drive into its own */
     for (int part = CAR_COVER; part <= CAR_SCREEN; part++) {
         virga_occluder *cover = &d->occluders[kept++];
         host_mesh_occluders(&d->parts[part], cover, 1);
-        cover->material = part == CAR_SCREEN ? VIRGA_MATERIAL_GLASS : VIRGA_MATERIAL_STEEL;
+        cover->material = part == CAR_COVER && still ? VIRGA_MATERIAL_STEEL : VIRGA_MATERIAL_GLASS;
         cover->ground = false;
         for (int row = 0; row < 3; row++) {
             for (int column = 0; column < 3; column++)
