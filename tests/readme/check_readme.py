@@ -2,8 +2,8 @@
 """Holds README.md's "Embed it" to the programs that it shows. Usage: check_readme.py SOURCE_ROOT
 
 Each C block there begins with a comment that names a file; what follows must stand in that file line by line, whatever
-its indentation.
-Those files are built and run by the tests, so what README says compiles.
+its indentation. Those files are built and run by the tests, so what README says compiles. The other way round, every call of
+Virga in rain_triangle.c stands in README: following it alone is enough.
 """
 import re
 import sys
@@ -32,4 +32,8 @@ for block in blocks:
     if not any(there[i:i + len(wanted)] == wanted for i in range(len(there))):
         missing = next((line for line in wanted if line not in there), wanted[0])
         sys.exit(f"README.md: a block is no part of {path}; look at '{missing}'")
+shown = {line for block in blocks for line in lines_of(block)}
+for line in lines_of(open(f"{root}/tests/readme/rain_triangle.c").read()):
+    if "virga_" in line and line not in shown:
+        sys.exit(f"README.md does not show '{line}' of tests/readme/rain_triangle.c")
 print(f"{len(blocks)} blocks stand in their files")

@@ -209,13 +209,14 @@ static void create_render_pass(void)
     CHECK(vkCreateFramebuffer(device, &frames, NULL, &framebuffer));
 }
 
-static VkShaderModule create_shader(const uint32_t *code, size_t size)
+static VkPipelineShaderStageCreateInfo shader(VkShaderStageFlagBits stage, const uint32_t *code, size_t size)
 {
-    VkShaderModule module;
+    VkPipelineShaderStageCreateInfo made = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, .stage = stage, .pName = "main"};
     VkShaderModuleCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
-    CHECK(vkCreateShaderModule(device, &info, NULL, &module));
-    return module;
+    CHECK(vkCreateShaderModule(device, &info, NULL, &made.module));
+    return made;
 }
 
 static void create_pipeline(void)
@@ -225,14 +226,9 @@ static void create_pipeline(void)
                                           .pushConstantRangeCount = 1,
                                           .pPushConstantRanges = &camera};
     CHECK(vkCreatePipelineLayout(device, &layouts, NULL, &layout));
-    VkPipelineShaderStageCreateInfo stages[2] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                  .stage = VK_SHADER_STAGE_VERTEX_BIT,
-                                                  .module = create_shader(triangle_vert_spv, sizeof triangle_vert_spv),
-                                                  .pName = "main"},
-                                                 {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                  .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-                                                  .module = create_shader(triangle_frag_spv, sizeof triangle_frag_spv),
-                                                  .pName = "main"}};
+    VkPipelineShaderStageCreateInfo stages[2] = {
+        shader(VK_SHADER_STAGE_VERTEX_BIT, triangle_vert_spv, sizeof triangle_vert_spv),
+        shader(VK_SHADER_STAGE_FRAGMENT_BIT, triangle_frag_spv, sizeof triangle_frag_spv)};
     VkPipelineVertexInputStateCreateInfo input = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     VkPipelineInputAssemblyStateCreateInfo assembly = {.sType =
                                                            VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,

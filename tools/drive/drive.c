@@ -1,6 +1,6 @@
-/* drive.c - a car in the rain: how a renderer takes Virga in. This is the file to read; it has all calls of Virga, in the
- * order that a host comes to them, and README.md walks through it. stage.c is a small renderer and car.c a car: any
- * others would do, and neither knows of rain.
+/* drive.c - a car in the rain: how a renderer takes Virga in. This is the file to read; it has all calls of Virga, in
+ * the order that a host comes to them, and README.md walks through it. stage.c is a small renderer and car.c a car: any
+ * others would do. They make no call of Virga; of it the renderer sees only the maps and lamps that its material reads.
  *
  *     drive [MODEL.glb] [--track FILE] [--outside] [--rain MM_H] [--wipers off|intermittent|slow|fast] [--start M]
  *           [--frames N --out FILE.png [--fps N]] [--size WxH] [--device N|gpu|cpu|NAME] [--pipelines FILE]
@@ -479,7 +479,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     return fine(d, drawn, "draw");
 }
 
-/* ---- 6. the end of it --------------------------------------------------------------------------------------------- */
+/* ---- 6. the end of it -------------------------------------------------------------------------------------------- */
 
 static void tell_cost(const drive *d)
 {

@@ -1,5 +1,5 @@
 /* stage.h - the sample's small renderer: a window's swapchain or a picture for a file, the passes, one material. It
- * knows nothing of rain. What is drawn goes through four stations of a frame:
+ * makes no call of Virga. What is drawn goes through four stations of a frame:
  *
  *     stage_begin            a command buffer, and an image to show
  *     stage_world_begin/end  sky and meshes into `color` and `depth`; then `behind` is a copy of `color`
