@@ -167,10 +167,10 @@ void car_place(car *c, const track *t, double way_m)
     stand(c, t);
 }
 
-/* Steers for a point ahead; slows down for the bends that come, so that they pull with less than 3 m/s^2. */
+/* Steers for a point ahead; slows down for the bends that come, so that they pull with about 2 m/s^2. */
 static void steer_by_itself(const car *c, const track *t, double *gas, double *steer)
 {
-    const double look_m = 2.5 + 0.5 * c->speed_m_s;
+    const double look_m = 2 + 0.4 * c->speed_m_s;
     const double off = turned(heading_to(c, ahead(t, c->nearest, look_m)) - c->heading);
     double least = t->speed_m_s;
     for (double way = 0; way < 5 + c->speed_m_s * c->speed_m_s / 5; way += 2) {
@@ -179,7 +179,7 @@ static void steer_by_itself(const car *c, const track *t, double *gas, double *s
         const double first = atan2((double)b[0] - (double)a[0], (double)b[2] - (double)a[2]);
         const double second = atan2((double)d[0] - (double)b[0], (double)d[2] - (double)b[2]);
         const double bend = fabs(turned(second - first)) / 3;
-        const double there = sqrt(3 / fmax(bend, 1e-3)), now = sqrt(there * there + 2 * 2.5 * way);
+        const double there = sqrt(2.2 / fmax(bend, 1e-3)), now = sqrt(there * there + 2 * 2.5 * way);
         least = fmin(least, now);
     }
     *steer = atan(2 * WHEELBASE_M * sin(off) / look_m);
@@ -217,7 +217,7 @@ void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
         steer_by_itself(c, t, &gas, &steer);
     else
         steer_by_keys(c, keys, &gas, &steer);
-    c->steer += (fmin(fmax(steer, -STEER_MOST), STEER_MOST) - c->steer) * fmin(6 * dt_s, 1);
+    c->steer += (fmin(fmax(steer, -STEER_MOST), STEER_MOST) - c->steer) * fmin(10 * dt_s, 1);
     c->speed_m_s = fmin(fmax(c->speed_m_s + gas * dt_s, 0), 60);
     c->heading = turned(c->heading + c->speed_m_s / WHEELBASE_M * tan(c->steer) * dt_s);
     c->position_m[0] -= sin(c->heading) * c->speed_m_s * dt_s;
