@@ -377,10 +377,10 @@ static void put_cabin(boxes *b)
     put_taper(b, 0, &(taper){-0.43f, 0.73f, 1.375f, 1.40f, -0.36f, 0.73f, 1.365f, 1.40f});
     put_taper(b, 0.0f, &(taper){-0.60f, 0.09f, 1.335f, 1.38f, -0.57f, 0.09f, 1.335f, 1.38f}); /* mirror */
     put_taper(b, 0, &(taper){-0.59f, 0.012f, 1.37f, 1.42f, -0.57f, 0.012f, 1.37f, 1.42f});
-    put_both(b, 0.36f, &(taper){0.30f, 0.25f, 0.35f, 0.55f, 0.45f, 0.25f, 0.35f, 1.0f});      /* seats */
+    put_both(b, 0.36f, &(taper){0.30f, 0.25f, 0.35f, 0.55f, 0.45f, 0.25f, 0.35f, 1.0f}); /* seats */
     put_both(b, 0.36f, &(taper){0.38f, 0.12f, 1.02f, 1.2f, 0.48f, 0.12f, 1.02f, 1.2f});
     put_pillars(b, 0.095f, 0.05f, 0.12f); /* over the paint, seen from within */
-    for (int i = 0; i < 24; i++) {      /* the wheel, leaning to the driver */
+    for (int i = 0; i < 24; i++) {        /* the wheel, leaning to the driver */
         float ends[2][3];
         for (int end = 0; end < 2; end++) {
             const double angle = 2 * M_PI * (i + end) / 24, lean = 0.42;

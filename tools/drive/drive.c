@@ -27,7 +27,6 @@
 #define MOST_OCCLUDERS 4096
 #define NEAR_ENOUGH_M  60 /* what is farther keeps no rain off that could be seen */
 #define WIPERS         2
-#define HALF_VIEW      0.87 /* cosine of half the head lamps' outer angle */
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 static const char *const wiper_names[WIPER_SPEEDS] = {"off", "intermittent", "slow", "fast"};
@@ -345,7 +344,7 @@ static void light_up(drive *d)
             lamp->direction[axis] = -d->car.axes[6 + axis] - 0.07f * d->car.axes[3 + axis];
         lamp->range_m = 45;
         lamp->cos_inner = 0.985f;
-        lamp->cos_outer = (float)HALF_VIEW;
+        lamp->cos_outer = 0.87f;
     }
 }
 
@@ -364,8 +363,8 @@ static uint32_t fill_occluders(drive *d)
         if (off2 < (double)NEAR_ENOUGH_M * NEAR_ENOUGH_M || d->occluders[i].ground)
             d->occluders[kept++] = d->occluders[i];
     }
-    const bool still =
-        d->car.speed_m_s < 1; /* splashes stay where they were made: a fast car would drive into its own */
+    /* Splashes stay where they were made: a car that moves would drive into its own. */
+    const bool still = d->car.speed_m_s < 1;
     for (int part = CAR_COVER; part <= CAR_SCREEN; part++) {
         virga_occluder *cover = &d->occluders[kept++];
         host_mesh_occluders(&d->parts[part], cover, 1);
@@ -452,7 +451,7 @@ static void draw_world(drive *d, VkCommandBuffer cmd)
     stage_world_end(&d->stage, cmd);
 }
 
-/* The frame that the rest of this section is for. */
+/* All of a frame; what is above makes what it needs. */
 static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 {
     const virga_view view = look(d, dt_s);

@@ -153,6 +153,20 @@ bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, siz
     return host_submit(s->device, error, error_size) && stage_images_again(s, resized, error, error_size);
 }
 
+/* At the start and after a cut the material finds nothing mirrored there: 1 / distance is 0. */
+static void clear_behind(const stage *s, VkCommandBuffer cmd)
+{
+    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    const VkClearColorValue nothing = {.float32 = {0, 0, 0, 0}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers, 0,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdClearColorImage(cmd, s->behind.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &nothing, 1, &all);
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, readers,
+                       VK_ACCESS_SHADER_READ_BIT);
+}
+
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
                        const virga_lighting *lighting)
 {
@@ -162,10 +176,8 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
     tell_ground(camera, maps, to);
     tell_lights(camera, lighting, to);
     tell_sky(lighting->environment_sh, to);
-    if (!s->has_last) /* the material samples `behind`: nothing is there yet */
-        host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                           VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                           VK_ACCESS_SHADER_READ_BIT);
+    if (!s->has_last)
+        clear_behind(s, cmd);
     begin_pass(cmd, s->world_pass, s->world_framebuffer, s);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 0, 1, &s->frame_sets[slot(s)], 0,
                             NULL);
