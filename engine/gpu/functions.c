@@ -58,6 +58,11 @@ virga_result virga_functions_load_instance(virga_functions *functions, const vir
         return missing(log, #name);
     VIRGA_INSTANCE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
+    /* They belong to an extension of the instance, and only here is NULL what the host has not enabled: loaders give
+     * them for any device. */
+#define VIRGA_LOAD(name) functions->name = (PFN_vk##name)get(instance, "vk" #name);
+    VIRGA_OPTIONAL_FUNCTIONS(VIRGA_LOAD)
+#undef VIRGA_LOAD
     return VIRGA_OK;
 }
 
@@ -70,7 +75,9 @@ virga_result virga_functions_load_device(virga_functions *functions, const virga
         return missing(log, #name);
     VIRGA_DEVICE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
-#define VIRGA_LOAD(name) functions->name = (PFN_vk##name)find(from_device, &lookup, #name);
+#define VIRGA_LOAD(name) \
+    if (functions->name) \
+        functions->name = (PFN_vk##name)from_device(&lookup, "vk" #name);
     VIRGA_OPTIONAL_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
     return VIRGA_OK;

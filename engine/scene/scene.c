@@ -210,6 +210,29 @@ virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
     return scene && index < scene->pane_count ? scene->panes[index] : NULL;
 }
 
+virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting)
+{
+    if (!scene || !lighting)
+        return VIRGA_ERROR_INVALID;
+    virga_rain_settings rain;
+    virga_rain_get(scene->rain, &rain);
+    rain.lighting = *lighting;
+    virga_result result = virga_rain_set(scene->rain, &rain);
+    if (scene->splash && result >= 0) {
+        virga_splash_settings splash;
+        virga_splash_get(scene->splash, &splash);
+        splash.lighting = *lighting;
+        result = worst(result, virga_splash_set(scene->splash, &splash));
+    }
+    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++) {
+        virga_glass_settings glass;
+        virga_glass_get(scene->panes[i], &glass);
+        glass.lighting = *lighting;
+        result = worst(result, virga_glass_set(scene->panes[i], &glass));
+    }
+    return result;
+}
+
 static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_rain_buffer impacts;
@@ -316,12 +339,18 @@ static virga_result step_panes(virga_scene *scene, VkCommandBuffer cmd, const vi
 }
 
 /* At the panes' own time: what rain has left over of a tick they do not know of. */
-static virga_result prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
+                                       const virga_scene_pane *panes)
 {
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    if (scene->pane_count && (!view || !panes))
+        return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
+                                    view ? "panes" : "view");
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
-        result = worst(result, virga_glass_prepare(scene->panes[i], cmd, frame->view, &frame->panes[i].pose,
-                                                   virga_glass_time(scene->panes[i])));
+        result = worst(
+            result, virga_glass_prepare(scene->panes[i], cmd, view, &panes[i].pose, virga_glass_time(scene->panes[i])));
     return result;
 }
 
@@ -373,7 +402,7 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     if (result >= 0 && frame->view)
         result = worst(result, prepare(scene, cmd, frame->view));
     if (result >= 0 && frame->view && !frame->panes_later)
-        result = worst(result, prepare_panes(scene, cmd, frame));
+        result = worst(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
 }
 

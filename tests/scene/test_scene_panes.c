@@ -1,4 +1,5 @@
 /* test_scene_panes.c - panes of a scene: made, stepped with its rain, prepared, drawn, refused. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -232,6 +233,49 @@ static void frames_are_checked(void **state)
     virga_scene_destroy(&scene);
 }
 
+static void preparing_later_is_checked(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_scene(f);
+    virga_scene_pane panes[2];
+    const virga_view view = virga_default_view();
+    lay_panes(panes);
+    VkCommandBuffer cmd = begin(f);
+    assert_int_equal(virga_scene_prepare_panes(NULL, cmd, &view, panes), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_prepare_panes(scene, cmd, NULL, panes), VIRGA_ERROR_INVALID);
+    REQUIRE(strstr(f->said, "virga_scene_prepare_panes: view is NULL"));
+    assert_int_equal(virga_scene_prepare_panes(scene, cmd, &view, NULL), VIRGA_ERROR_INVALID);
+    REQUIRE(strstr(f->said, "virga_scene_prepare_panes: panes is NULL"));
+    finish(f);
+    virga_scene_destroy(&scene);
+}
+
+/* Rain and panes get it, and keep what else they were set to. */
+static void light_is_the_same_for_all_effects(void **state)
+{
+    scene_fixture *f = *state;
+    virga_scene *scene = make_scene(f);
+    virga_lighting light = virga_default_lighting();
+    virga_rain_settings rain;
+    virga_glass_settings glass;
+    light.light_count = 1;
+    light.lights[0].intensity[1] = 7;
+    light.environment_sh[0][2] = 0.25f;
+    assert_int_equal(virga_scene_light(scene, NULL), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_light(NULL, &light), VIRGA_ERROR_INVALID);
+    REQUIRE(virga_scene_light(scene, &light) == VIRGA_OK);
+    virga_rain_get(virga_scene_rain(scene), &rain);
+    assert_memory_equal(&rain.lighting, &light, sizeof light);
+    REQUIRE(rain.rate_mm_h == 100);
+    for (uint32_t i = 0; i < 2; i++) {
+        virga_glass_get(virga_scene_glass(scene, i), &glass);
+        assert_memory_equal(&glass.lighting, &light, sizeof light);
+    }
+    light.lights[0].intensity[1] = NAN;
+    assert_int_equal(virga_scene_light(scene, &light), VIRGA_ERROR_INVALID);
+    virga_scene_destroy(&scene);
+}
+
 /* Looking straight down. */
 static virga_view look_down(void)
 {
@@ -260,15 +304,17 @@ static void panes_are_drawn_once_they_are_prepared(void **state)
     host_target_describe_layer(&target, &def);
     REQUIRE(virga_target_create(f->context, &def, &layer) == VIRGA_OK);
     REQUIRE(virga_scene_attach(scene, layer) == VIRGA_OK);
-    for (int later = 0; later < 2; later++) {
+    for (int later = 0; later < 3; later++) { /* 1: one by one, 2: all in a call */
         const virga_scene_frame frame = {.dt_s = 0.25, .view = &view, .panes = panes, .panes_later = later};
         VkCommandBuffer cmd = begin(f);
         REQUIRE(virga_scene_record(scene, cmd, &frame) == VIRGA_OK);
         for (uint32_t i = 0; later && i < 2; i++)
             REQUIRE(virga_glass_draw(virga_scene_glass(scene, i), cmd, layer) == VIRGA_NOT_READY);
-        for (uint32_t i = 0; later && i < 2; i++)
+        for (uint32_t i = 0; later == 1 && i < 2; i++)
             REQUIRE(virga_glass_prepare(virga_scene_glass(scene, i), cmd, &view, &panes[i].pose,
                                         virga_glass_time(virga_scene_glass(scene, i))) == VIRGA_OK);
+        if (later == 2)
+            REQUIRE(virga_scene_prepare_panes(scene, cmd, &view, panes) == VIRGA_OK);
         host_target_begin_layer(&target, cmd);
         assert_int_equal(virga_scene_draw(scene, cmd, layer), VIRGA_OK);
         host_target_end_layer(&target, cmd);
@@ -293,6 +339,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(rain_lands_on_what_is_not_under_cover, set_up, tear_down),
         cmocka_unit_test_setup_teardown(panes_catch_the_drops_that_fall, set_up, tear_down),
         cmocka_unit_test_setup_teardown(frames_are_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(preparing_later_is_checked, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(light_is_the_same_for_all_effects, set_up, tear_down),
         cmocka_unit_test_setup_teardown(panes_are_drawn_once_they_are_prepared, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

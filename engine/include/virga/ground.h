@@ -144,7 +144,8 @@ VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer c
 VIRGA_API void virga_ground_survey(virga_ground *ground);
 
 /* What materials read. Both images are cells x cells (spots: twice as wide), and wrap around: the
- * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL. */
+ * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL, and
+ * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. */
 typedef struct virga_ground_maps {
     VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m) */

@@ -62,6 +62,10 @@ VIRGA_API virga_splash *virga_scene_splash(virga_scene *scene);
  * Owned by the scene. */
 VIRGA_API virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index);
 
+/* Gives all effects the same light, in place of each one's own `lighting`; their other settings stay. At any time, at
+ * once; costs microseconds, so that lamps may move every frame. The worst of the effects' results is returned. */
+VIRGA_API virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting);
+
 /* Where a pane is at the frame's end and how it moves; all zero: it rests at the world's origin with the world's
  * axes, in the open. A host that draws more than one view, or wants panes to show the picture of this very frame,
  * prepares them itself (virga_glass_prepare). */
@@ -86,7 +90,7 @@ typedef struct virga_scene_frame {
     const virga_scene_pane *panes; /* as many as the scene has; may be NULL where it has none */
     bool panes_later;       /* panes are stepped but not prepared. Else view.color, where given, is read here already,
                              * so it must hold a picture by now: that of the frame before is fine for a game.
-                             * Default false */
+                             * Default false. Then call virga_scene_prepare_panes once the picture is there */
 } virga_scene_frame;
 
 /* Whether the pipelines of all effects are there for stepping and preparing, see virga_rain_ready. */
@@ -96,6 +100,13 @@ VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
  * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready. Else the worst of the
  * effects' results is returned; VIRGA_ERROR_INVALID for a scene with panes and none in `frame`. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
+
+/* Prepares the panes of a frame with `panes_later`, at their own time: outside rendering, once view->color holds the
+ * picture behind them, after virga_scene_record and before virga_scene_draw. `panes`: as many as the scene has, as in
+ * the frame. Costs what virga_glass_prepare does for each. The worst of their results is returned;
+ * VIRGA_ERROR_INVALID for NULL. Nothing to do, and VIRGA_OK, for a scene without panes. */
+VIRGA_API virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
+                                                 const virga_scene_pane *panes);
 
 /* Builds the pipelines of all effects for a target, see virga_rain_attach. */
 VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target *target);

@@ -125,7 +125,8 @@ typedef struct virga_context_def {
     virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
     bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none */
-    bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled. Default true */
+    bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled: where
+                        * get_instance_proc_addr gives its functions for the instance. Default true */
 } virga_context_def;
 
 VIRGA_API virga_context_def virga_default_context_def(void);
@@ -220,7 +221,7 @@ typedef struct virga_target_def {
     uint32_t color_count;     /* [1; 8] attachments in the pass; others than 0 are not written. Default 1 */
     VkSampleCountFlagBits samples; /* default 1 */
     bool depth_attached;      /* a depth attachment is there and drawing is to be tested against it (never written).
-                               * Default true */
+                               * Default true; false where the pass has none */
     bool reversed_depth;      /* nearer is greater. Default false */
 } virga_target_def;
 
@@ -252,7 +253,9 @@ typedef struct virga_view {
     virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the scene (also where a
                                    * target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
-                                   * aspect. image VK_NULL_HANDLE: hard edges by the depth test, no haze */
+                                   * aspect. Attached in the same pass too it must be read only, with
+                                   * VK_ATTACHMENT_STORE_OP_NONE: a store counts as a write whatever the layout says.
+                                   * image VK_NULL_HANDLE: hard edges by the depth test, no haze */
     virga_image color;            /* (optional) the opaque scene's colour, linear radiance, single-sampled and in the
                                    * target's pixels, sampled where water refracts what is behind it; layout and
                                    * access while drawing are `before`, and stay. image VK_NULL_HANDLE: refraction

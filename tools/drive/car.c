@@ -1,0 +1,469 @@
+/* car.c - the track, how the car drives on it, and its body of boxes. */
+#include "car.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define WHEELBASE_M 2.6
+#define STEER_MOST  0.75 /* rad */
+#define STEP_M      0.5  /* between points of the track once it is read */
+#define POINTS_MOST 65536
+
+/* ---- the track */
+
+/* A closed Catmull-Rom curve through the points, at even steps. */
+static bool spread(const float (*given)[3], uint32_t count, track *t)
+{
+    const uint32_t fine = 64;
+    double last[3] = {0}, way = 0, next = 0;
+    t->points = malloc(POINTS_MOST * sizeof *t->points);
+    for (uint32_t i = 0; t->points && i < count * fine; i++) {
+        const double s = (double)(i % fine) / fine, s2 = s * s, s3 = s2 * s;
+        const double weights[4] = {-0.5 * s3 + s2 - 0.5 * s, 1.5 * s3 - 2.5 * s2 + 1, -1.5 * s3 + 2 * s2 + 0.5 * s,
+                                   0.5 * s3 - 0.5 * s2};
+        double at[3] = {0};
+        for (int k = 0; k < 4; k++)
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] += weights[k] * (double)given[(i / fine + count + (uint32_t)k - 1) % count][axis];
+        way += i ? hypot(at[0] - last[0], at[2] - last[2]) : 0;
+        memcpy(last, at, sizeof last);
+        if (way < next || t->count == POINTS_MOST)
+            continue;
+        for (int axis = 0; axis < 3; axis++)
+            t->points[t->count][axis] = (float)at[axis];
+        t->count++;
+        next += STEP_M;
+    }
+    t->step_m = STEP_M;
+    return t->points && t->count >= 8;
+}
+
+static bool read_line(char *line, track *t, float (*given)[3], uint32_t *count)
+{
+    float n[6];
+    char *comment = strchr(line, '#');
+    if (comment)
+        *comment = 0;
+    if (line[strspn(line, " \t\r\n")] == 0)
+        return true;
+    if (sscanf(line, "point %f %f %f", &n[0], &n[1], &n[2]) == 3 && *count < 1024)
+        return memcpy(given[(*count)++], n, sizeof *given);
+    if (sscanf(line, "width %f", &n[0]) == 1 && n[0] >= 1 && n[0] <= 100)
+        return t->half_width_m = (double)n[0] / 2, true;
+    if (sscanf(line, "speed %f", &n[0]) == 1 && n[0] >= 1 && n[0] <= 60)
+        return t->speed_m_s = (double)n[0], true;
+    const int read = sscanf(line, "lamp %f %f %f %f %f %f", &n[0], &n[1], &n[2], &n[3], &n[4], &n[5]);
+    if (read == 6 && t->lamp_count < TRACK_LAMPS) {
+        for (int i = 0; i < 3; i++) {
+            t->lamps[t->lamp_count].position_m[i] = (double)n[i];
+            t->lamps[t->lamp_count].intensity[i] = n[3 + i];
+        }
+        return t->lamp_count++, true;
+    }
+    if (sscanf(line, "box %f %f %f %f %f %f", &n[0], &n[1], &n[2], &n[3], &n[4], &n[5]) != 6 || t->box_count == 8)
+        return false;
+    memcpy(t->boxes[t->box_count].low, n, sizeof t->boxes[0].low);
+    memcpy(t->boxes[t->box_count].high, n + 3, sizeof t->boxes[0].high);
+    return t->box_count++, true;
+}
+
+bool track_load(const char *path, track *t, char *error, size_t error_size)
+{
+    char line[256];
+    float given[1024][3];
+    uint32_t count = 0, number = 0;
+    FILE *file = fopen(path, "r");
+    *t = (track){.half_width_m = 3, .speed_m_s = 12};
+    if (!file)
+        return host_fail(error, error_size, "%s: no such track; expected lines of `point X Y Z`", path);
+    bool good = true;
+    while (good && fgets(line, sizeof line, file)) {
+        number++;
+        good = read_line(line, t, given, &count);
+    }
+    fclose(file);
+    if (!good)
+        return host_fail(error, error_size, "%s:%u: expected width, speed, point, lamp or box and its numbers", path,
+                         number);
+    if (count < 4 || !spread(given, count, t)) {
+        track_free(t);
+        return host_fail(error, error_size, "%s: expected 4 points and more, not all in one place, got %u", path,
+                         count);
+    }
+    return true;
+}
+
+void track_free(track *t)
+{
+    free(t->points);
+    t->points = NULL;
+    t->count = 0;
+}
+
+/* ---- driving */
+
+static const float *ahead(const track *t, uint32_t from, double way_m)
+{
+    return t->points[(from + (uint32_t)(way_m / t->step_m)) % t->count];
+}
+
+static double distance2(const car *c, const float point[3])
+{
+    const double x = (double)point[0] - c->position_m[0], z = (double)point[2] - c->position_m[2];
+    return x * x + z * z;
+}
+
+/* The nearest point not far from the last nearest: where the way passes itself the car keeps to its part of it. */
+static void find_nearest(car *c, const track *t)
+{
+    uint32_t best = c->nearest;
+    for (uint32_t i = 0; i < 40; i++) {
+        const uint32_t tried = (c->nearest + t->count + i - 12) % t->count;
+        if (distance2(c, t->points[tried]) < distance2(c, t->points[best]))
+            best = tried;
+    }
+    c->nearest = best;
+}
+
+static double turned(double angle)
+{
+    return angle - 2 * M_PI * floor(angle / (2 * M_PI) + 0.5);
+}
+
+static double heading_to(const car *c, const float point[3])
+{
+    return atan2(c->position_m[0] - (double)point[0], c->position_m[2] - (double)point[2]);
+}
+
+/* Height and slope of the road from the two points beside the nearest, and the axes that follow. */
+static void stand(car *c, const track *t)
+{
+    const float *a = t->points[(c->nearest + t->count - 2) % t->count], *b = ahead(t, c->nearest, 2 * t->step_m);
+    const double x = (double)b[0] - (double)a[0], z = (double)b[2] - (double)a[2], way2 = fmax(x * x + z * z, 1e-6);
+    double along = ((c->position_m[0] - (double)a[0]) * x + (c->position_m[2] - (double)a[2]) * z) / way2;
+    along = fmin(fmax(along, 0), 1);
+    c->position_m[1] = (double)a[1] + along * ((double)b[1] - (double)a[1]);
+    const double f[3] = {-sin(c->heading), 0, -cos(c->heading)};
+    c->slope = ((double)b[1] - (double)a[1]) * (f[0] * x + f[2] * z) / way2;
+    const double length = sqrt(1 + c->slope * c->slope);
+    const double back[3] = {-f[0] / length, -c->slope / length, -f[2] / length};
+    const double right[3] = {cos(c->heading), 0, -sin(c->heading)};
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        c->axes[i] = (float)right[i];
+        c->axes[3 + i] = (float)(back[j] * right[k] - back[k] * right[j]);
+        c->axes[6 + i] = (float)back[i];
+    }
+}
+
+void car_place(car *c, const track *t, double way_m)
+{
+    *c = (car){.autopilot = true, .nearest = (uint32_t)(fmax(way_m, 0) / t->step_m) % t->count};
+    for (int axis = 0; axis < 3; axis++)
+        c->position_m[axis] = (double)t->points[c->nearest][axis];
+    c->heading = heading_to(c, ahead(t, c->nearest, 4));
+    stand(c, t);
+}
+
+/* Steers for a point ahead; slows down for the bends that come, so that they pull with about 2 m/s^2. */
+static void steer_by_itself(const car *c, const track *t, double *gas, double *steer)
+{
+    const double look_m = 2 + 0.4 * c->speed_m_s;
+    const double off = turned(heading_to(c, ahead(t, c->nearest, look_m)) - c->heading);
+    double least = t->speed_m_s;
+    for (double way = 0; way < 5 + c->speed_m_s * c->speed_m_s / 5; way += 2) {
+        const float *a = ahead(t, c->nearest, way), *b = ahead(t, c->nearest, way + 3),
+                    *d = ahead(t, c->nearest, way + 6);
+        const double first = atan2((double)b[0] - (double)a[0], (double)b[2] - (double)a[2]);
+        const double second = atan2((double)d[0] - (double)b[0], (double)d[2] - (double)b[2]);
+        const double bend = fabs(turned(second - first)) / 3;
+        const double there = sqrt(2.2 / fmax(bend, 1e-3)), now = sqrt(there * there + 2 * 2.5 * way);
+        least = fmin(least, now);
+    }
+    *steer = atan(2 * WHEELBASE_M * sin(off) / look_m);
+    *gas = fmin(fmax((least - c->speed_m_s) * 1.5, -5), 3);
+}
+
+static void steer_by_keys(const car *c, const car_keys *keys, double *gas, double *steer)
+{
+    const double most = STEER_MOST / (1 + 0.12 * c->speed_m_s);
+    *gas = keys->gas ? 4 : keys->brake ? -7 : -0.6;
+    *steer = (keys->left ? most : 0) - (keys->right ? most : 0);
+}
+
+/* Back beside the way where the car left it. */
+static void keep_on(car *c, const track *t)
+{
+    const float *at = t->points[c->nearest];
+    const double off = sqrt(distance2(c, at));
+    if (off <= t->half_width_m)
+        return;
+    for (int axis = 0; axis < 3; axis += 2)
+        c->position_m[axis] = (double)at[axis] + (c->position_m[axis] - (double)at[axis]) * t->half_width_m / off;
+    c->speed_m_s *= 0.97;
+}
+
+void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
+{
+    double gas, steer;
+    const double before = c->heading;
+    float then[3];
+    memcpy(then, c->velocity_m_s, sizeof then);
+    if (keys->gas || keys->brake || keys->left || keys->right)
+        c->autopilot = false;
+    if (c->autopilot)
+        steer_by_itself(c, t, &gas, &steer);
+    else
+        steer_by_keys(c, keys, &gas, &steer);
+    c->steer += (fmin(fmax(steer, -STEER_MOST), STEER_MOST) - c->steer) * fmin(10 * dt_s, 1);
+    c->speed_m_s = fmin(fmax(c->speed_m_s + gas * dt_s, 0), 60);
+    c->heading = turned(c->heading + c->speed_m_s / WHEELBASE_M * tan(c->steer) * dt_s);
+    c->position_m[0] -= sin(c->heading) * c->speed_m_s * dt_s;
+    c->position_m[2] -= cos(c->heading) * c->speed_m_s * dt_s;
+    find_nearest(c, t);
+    keep_on(c, t);
+    stand(c, t);
+    for (int i = 0; i < 3; i++) {
+        c->velocity_m_s[i] = (float)-c->speed_m_s * c->axes[6 + i];
+        c->acceleration_m_s2[i] = dt_s > 0 ? (c->velocity_m_s[i] - then[i]) / (float)dt_s : 0;
+    }
+    c->turn_rad_s[1] = dt_s > 0 ? (float)(turned(c->heading - before) / dt_s) : 0;
+}
+
+void car_point(const car *c, const double local[3], double world[3])
+{
+    for (int i = 0; i < 3; i++)
+        world[i] = c->position_m[i] + (double)c->axes[i] * local[0] + (double)c->axes[3 + i] * local[1] +
+                   (double)c->axes[6 + i] * local[2];
+}
+
+/* ---- boxes */
+
+static void subtract(const float a[3], const float b[3], float out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[i] - b[i];
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    const float made[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const float length = sqrtf(made[0] * made[0] + made[1] * made[1] + made[2] * made[2]);
+    for (int i = 0; i < 3; i++)
+        out[i] = length > 0 ? made[i] / length : 0;
+}
+
+void boxes_put(boxes *b, const float corners[8][3])
+{
+    static const int sides[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    static const uint32_t triangles[6] = {0, 1, 2, 2, 3, 0};
+    if (b->count == BOXES_MAX)
+        return;
+    for (uint32_t side = 0; side < 6; side++) {
+        const uint32_t first = b->count * 24 + side * 4;
+        float across[3], up[3], normal[3];
+        subtract(corners[sides[side][2]], corners[sides[side][0]], across);
+        subtract(corners[sides[side][3]], corners[sides[side][1]], up);
+        cross(across, up, normal);
+        for (uint32_t i = 0; i < 4; i++) {
+            host_vertex *to = &b->vertices[first + i];
+            *to = (host_vertex){.uv = {0, 0}};
+            memcpy(to->position, corners[sides[side][i]], sizeof to->position);
+            memcpy(to->normal, normal, sizeof normal);
+        }
+        for (uint32_t i = 0; i < 6; i++)
+            b->indices[b->count * 36 + side * 6 + i] = first + triangles[i];
+    }
+    b->count++;
+}
+
+void boxes_put_cuboid(boxes *b, const float low[3], const float high[3])
+{
+    float corners[8][3];
+    for (int i = 0; i < 8; i++) {
+        corners[i][0] = (i & 3) == 1 || (i & 3) == 2 ? high[0] : low[0];
+        corners[i][1] = i & 4 ? high[1] : low[1];
+        corners[i][2] = (i & 3) < 2 ? high[2] : low[2]; /* counter-clockwise from above */
+    }
+    boxes_put(b, corners);
+}
+
+void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float up[3], float width, float height)
+{
+    float along[3], side[3], over[3], corners[8][3];
+    subtract(to, from, along);
+    cross(along, up, side);
+    cross(side, along, over);
+    for (int i = 0; i < 8; i++)
+        for (int axis = 0; axis < 3; axis++)
+            corners[i][axis] = ((i & 3) == 0 || (i & 3) == 1 ? from[axis] : to[axis]) +
+                               ((i & 3) == 1 || (i & 3) == 2 ? 0.5f : -0.5f) * width * side[axis] +
+                               (i & 4 ? 0.5f : -0.5f) * height * over[axis];
+    boxes_put(b, corners);
+}
+
+/* ---- the body */
+
+const double car_windshield_m[3] = {0, 0.86, -1.2};
+const double car_eye_m[3] = {-0.36, 1.2, 0.08};
+const double car_head_lamps_m[2][3] = {{-0.62, 0.66, -2.2}, {0.62, 0.66, -2.2}};
+
+/* A box whose cross-section changes along z: half width, low and high at its front and at its back. */
+typedef struct taper {
+    float front_z, front_half, front_low, front_high, back_z, back_half, back_low, back_high;
+} taper;
+
+static void put_taper(boxes *b, float middle_x, const taper *t)
+{
+    const float corners[8][3] = {
+        {middle_x - t->back_half, t->back_low, t->back_z},     {middle_x + t->back_half, t->back_low, t->back_z},
+        {middle_x + t->front_half, t->front_low, t->front_z},  {middle_x - t->front_half, t->front_low, t->front_z},
+        {middle_x - t->back_half, t->back_high, t->back_z},    {middle_x + t->back_half, t->back_high, t->back_z},
+        {middle_x + t->front_half, t->front_high, t->front_z}, {middle_x - t->front_half, t->front_high, t->front_z}};
+    boxes_put(b, corners);
+}
+
+static void put_both(boxes *b, float x, const taper *t)
+{
+    put_taper(b, -x, t);
+    put_taper(b, x, t);
+}
+
+/* `in_m`: how far inside the outline. */
+static void put_pillars(boxes *b, float thick, float deep, float in_m)
+{
+    const float feet[3][3] = {{0.755f, 0.84f, -1.18f}, {0.79f, 0.82f, 0.28f}, {0.77f, 0.84f, 1.42f}};
+    const float heads[3][3] = {{0.735f, 1.42f, -0.40f}, {0.735f, 1.42f, 0.30f}, {0.70f, 1.42f, 0.98f}};
+    const float up[3] = {1, 0, 0};
+    for (int i = 0; i < 3; i++)
+        for (int side = -1; side <= 1; side += 2) {
+            const float from[3] = {(float)side * (feet[i][0] - 0.3f * in_m), feet[i][1] - 0.5f * in_m,
+                                   feet[i][2] + in_m};
+            const float to[3] = {(float)side * (heads[i][0] - 0.3f * in_m), heads[i][1] - 0.5f * in_m,
+                                 heads[i][2] + in_m};
+            boxes_put_bar(b, from, to, up, i == 2 ? 0.2f : thick, deep);
+        }
+}
+
+static void put_paint(boxes *b)
+{
+    put_taper(b, 0, &(taper){-2.05f, 0.78f, 0.34f, 0.66f, -1.25f, 0.84f, 0.30f, 0.72f});   /* around the engine */
+    put_taper(b, 0, &(taper){-2.02f, 0.74f, 0.66f, 0.71f, -1.18f, 0.80f, 0.72f, 0.86f});   /* bonnet */
+    put_both(b, 0.81f, &(taper){-1.25f, 0.03f, 0.30f, 0.85f, 1.40f, 0.03f, 0.30f, 0.85f}); /* doors */
+    put_taper(b, 0, &(taper){1.38f, 0.84f, 0.30f, 0.86f, 2.05f, 0.78f, 0.36f, 0.84f});     /* boot */
+    put_taper(b, 0, &(taper){-0.42f, 0.75f, 1.40f, 1.43f, 0.10f, 0.73f, 1.43f, 1.48f});    /* roof */
+    put_taper(b, 0, &(taper){0.10f, 0.73f, 1.43f, 1.48f, 1.02f, 0.71f, 1.39f, 1.43f});
+    put_pillars(b, 0.07f, 0.04f, 0);
+}
+
+static void put_trim(boxes *b)
+{
+    put_taper(b, 0, &(taper){-2.16f, 0.74f, 0.24f, 0.48f, -2.02f, 0.80f, 0.24f, 0.52f}); /* bumpers */
+    put_taper(b, 0, &(taper){2.02f, 0.80f, 0.26f, 0.56f, 2.16f, 0.74f, 0.28f, 0.50f});
+    put_taper(b, 0, &(taper){-1.9f, 0.72f, 0.20f, 0.32f, 1.9f, 0.72f, 0.20f, 0.32f});       /* floor */
+    put_taper(b, 0, &(taper){-2.09f, 0.42f, 0.54f, 0.66f, -2.03f, 0.42f, 0.54f, 0.66f});    /* grille */
+    put_both(b, 0.94f, &(taper){-0.92f, 0.06f, 0.89f, 0.97f, -0.84f, 0.07f, 0.88f, 0.98f}); /* mirrors */
+}
+
+static void put_cabin(boxes *b)
+{
+    const float up[3] = {0, 0, 1}, hub[3] = {-0.36f, 0.83f, -0.46f};
+    put_taper(b, 0, &(taper){-1.16f, 0.77f, 0.70f, 0.85f, -0.80f, 0.78f, 0.60f, 0.865f});      /* dashboard */
+    put_taper(b, -0.36f, &(taper){-0.98f, 0.15f, 0.80f, 0.88f, -0.74f, 0.17f, 0.76f, 0.915f}); /* over the dials */
+    put_both(b, 0.77f, &(taper){-1.1f, 0.015f, 0.40f, 0.86f, 1.4f, 0.015f, 0.40f, 0.86f});
+    put_taper(b, 0, &(taper){-0.40f, 0.73f, 1.37f, 1.405f, 1.0f, 0.70f, 1.36f, 1.39f}); /* lining of the roof */
+    put_taper(b, 0, &(taper){-0.43f, 0.73f, 1.375f, 1.40f, -0.36f, 0.73f, 1.365f, 1.40f});
+    put_taper(b, 0.0f, &(taper){-0.60f, 0.09f, 1.335f, 1.38f, -0.57f, 0.09f, 1.335f, 1.38f}); /* mirror */
+    put_taper(b, 0, &(taper){-0.59f, 0.012f, 1.37f, 1.42f, -0.57f, 0.012f, 1.37f, 1.42f});
+    put_both(b, 0.36f, &(taper){0.30f, 0.25f, 0.35f, 0.55f, 0.45f, 0.25f, 0.35f, 1.0f}); /* seats */
+    put_both(b, 0.36f, &(taper){0.38f, 0.12f, 1.02f, 1.2f, 0.48f, 0.12f, 1.02f, 1.2f});
+    put_pillars(b, 0.095f, 0.05f, 0.12f); /* over the paint, seen from within */
+    for (int i = 0; i < 24; i++) {        /* the wheel, leaning to the driver */
+        float ends[2][3];
+        for (int end = 0; end < 2; end++) {
+            const double angle = 2 * M_PI * (i + end) / 24, lean = 0.42;
+            ends[end][0] = hub[0] + (float)(0.19 * cos(angle));
+            ends[end][1] = hub[1] + (float)(0.19 * sin(angle) * cos(lean));
+            ends[end][2] = hub[2] - (float)(0.19 * sin(angle) * sin(lean));
+        }
+        boxes_put_bar(b, ends[0], ends[1], up, 0.026f, 0.026f);
+    }
+    boxes_put_bar(b, (const float[3]){-0.55f, 0.83f, -0.46f}, (const float[3]){-0.17f, 0.83f, -0.46f}, up, 0.05f,
+                  0.02f);
+    boxes_put_bar(b, hub, (const float[3]){-0.36f, 0.76f, -0.75f}, (const float[3]){1, 0, 0}, 0.06f, 0.06f);
+}
+
+/* Four wheels of bars: tyres, or rims within them. */
+static void put_wheels(boxes *b, float radius, float half)
+{
+    const float places[4][2] = {{-0.72f, -1.38f}, {0.72f, -1.38f}, {-0.72f, 1.32f}, {0.72f, 1.32f}};
+    for (int wheel = 0; wheel < 4; wheel++)
+        for (int i = 0; i < 10; i++) {
+            const double angle = M_PI * i / 10;
+            const float y = (float)cos(angle) * radius, z = (float)sin(angle) * radius, x = places[wheel][0];
+            const float from[3] = {x, 0.31f - y, places[wheel][1] - z}, to[3] = {x, 0.31f + y, places[wheel][1] + z};
+            boxes_put_bar(b, from, to, (const float[3]){1, 0, 0}, 0.32f * radius, 2 * half);
+        }
+}
+
+static void put_windows(boxes *b)
+{
+    const float sides[3][2] = {{-0.80f, 0.22f}, {0.34f, 1.0f}, {0, 0}};
+    for (int i = 0; i < 2; i++)
+        put_both(b, 0.765f, &(taper){sides[i][0], 0.006f, 0.84f, i ? 1.41f : 1.12f, sides[i][1], 0.006f, 0.84f, 1.41f});
+    put_taper(b, 0, &(taper){1.0f, 0.68f, 1.37f, 1.40f, 1.44f, 0.72f, 0.84f, 0.87f}); /* behind */
+}
+
+/* Just under the windshield. */
+static void put_screen(boxes *b)
+{
+    put_taper(b, 0, &(taper){-1.12f, 0.74f, 0.80f, 0.82f, -0.38f, 0.74f, 1.34f, 1.36f});
+}
+
+static void put_cover(boxes *b)
+{
+    put_taper(b, 0, &(taper){-0.42f, 0.76f, 1.40f, 1.46f, 1.02f, 0.74f, 1.40f, 1.46f});
+    put_taper(b, 0, &(taper){1.0f, 0.74f, 1.38f, 1.42f, 1.45f, 0.74f, 0.84f, 0.88f});
+    put_taper(b, 0, &(taper){-2.02f, 0.78f, 0.5f, 0.71f, -1.15f, 0.82f, 0.5f, 0.86f});
+    put_taper(b, 0, &(taper){1.38f, 0.8f, 0.5f, 0.86f, 2.05f, 0.78f, 0.5f, 0.84f});
+}
+
+void car_build(car_part part, boxes *b, host_material *material)
+{
+    static const host_material materials[CAR_PARTS] = {
+        [CAR_PAINT] = {.name = "paint", .base_color = {0.30f, 0.012f, 0.014f, 1}, .roughness = 0.22f, .metallic = 0.3f},
+        [CAR_TRIM] = {.name = "trim", .base_color = {0.015f, 0.015f, 0.016f, 1}, .roughness = 0.55f},
+        [CAR_RUBBER] = {.name = "rubber", .base_color = {0.012f, 0.012f, 0.013f, 1}, .roughness = 0.8f},
+        [CAR_RIM] = {.name = "rim", .base_color = {0.45f, 0.46f, 0.47f, 1}, .roughness = 0.35f, .metallic = 0.8f},
+        [CAR_WINDOWS] = {.name = "windows", .base_color = {0.008f, 0.009f, 0.010f, 1}, .roughness = 0.08f},
+        [CAR_CABIN] = {.name = "cabin", .base_color = {0.035f, 0.034f, 0.033f, 1}, .roughness = 0.85f},
+        [CAR_HEAD_LAMPS] = {.name = "head",
+                            .base_color = {0.5f, 0.5f, 0.5f, 1},
+                            .emissive = {9, 8, 6.5f},
+                            .roughness = 0.2f},
+        [CAR_TAIL_LAMPS] = {.name = "tail",
+                            .base_color = {0.2f, 0.01f, 0.01f, 1},
+                            .emissive = {1.6f, 0.05f, 0.03f},
+                            .roughness = 0.2f},
+        [CAR_SCREEN] = {.name = "screen", .base_color = {0, 0, 0, 1}, .roughness = 1},
+        [CAR_COVER] = {.name = "cover", .base_color = {0, 0, 0, 1}, .roughness = 1},
+    };
+    *material = materials[part];
+    material->two_sided = true;
+    material->base_texture = material->emissive_texture = -1;
+    b->count = 0;
+    switch (part) {
+    case CAR_PAINT: put_paint(b); break;
+    case CAR_TRIM: put_trim(b); break;
+    case CAR_RUBBER: put_wheels(b, 0.31f, 0.1f); break;
+    case CAR_RIM: put_wheels(b, 0.19f, 0.108f); break;
+    case CAR_WINDOWS: put_windows(b); break;
+    case CAR_CABIN: put_cabin(b); break;
+    case CAR_HEAD_LAMPS: put_both(b, 0.60f, &(taper){-2.09f, 0.13f, 0.58f, 0.67f, -2.03f, 0.15f, 0.58f, 0.69f}); break;
+    case CAR_TAIL_LAMPS: put_both(b, 0.62f, &(taper){2.0f, 0.15f, 0.64f, 0.78f, 2.07f, 0.13f, 0.64f, 0.76f}); break;
+    case CAR_SCREEN: put_screen(b); break;
+    default: put_cover(b); break;
+    }
+}

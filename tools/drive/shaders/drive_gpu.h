@@ -1,0 +1,47 @@
+/* drive_gpu.h - what the sample's shaders are told, read by C and by GLSL: vec4s only, so both lay it out alike. */
+#ifndef DRIVE_GPU_H
+#define DRIVE_GPU_H
+
+#ifdef VULKAN /* glslang defines it */
+#define DRIVE_VEC4 vec4
+#define DRIVE_MAT4 mat4
+#define DRIVE_LIGHT drive_light_gpu
+#else
+typedef float drive_vec4[4];
+typedef float drive_mat4[16];
+#define DRIVE_VEC4 drive_vec4
+#define DRIVE_MAT4 drive_mat4
+#define DRIVE_LIGHT struct drive_light_gpu
+#endif
+
+#define DRIVE_LIGHTS 16
+
+struct drive_light_gpu {
+    DRIVE_VEC4 place;     /* relative to the camera, 1 / range or 0 */
+    DRIVE_VEC4 intensity; /* rgb */
+    DRIVE_VEC4 direction; /* unit; all zero: a point light */
+    DRIVE_VEC4 cone;      /* scale and offset of the cosine to the axis */
+};
+
+struct drive_frame_gpu {
+    DRIVE_MAT4 clip_from_relative; /* relative: the world's axes with the camera at the origin */
+    DRIVE_MAT4 last_from_relative; /* clip of the frame before, for a point relative to the camera of this one */
+    DRIVE_VEC4 moved;              /* this camera minus the one before; w: number of lights */
+    DRIVE_VEC4 ray_x;              /* direction of a pixel: ray_z + x ray_x + y ray_y, with x and y in clip space */
+    DRIVE_VEC4 ray_y;
+    DRIVE_VEC4 ray_z;
+    DRIVE_VEC4 ground_low;  /* low corner of the wet ground's window relative to the camera; w: 1 / side of a cell */
+    DRIVE_VEC4 ground_wrap; /* number of the corner's cell modulo cells; z: cells */
+    DRIVE_VEC4 ripples;     /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
+    DRIVE_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
+    DRIVE_LIGHT lights[DRIVE_LIGHTS];
+};
+
+struct drive_surface_gpu {   /* push constants */
+    DRIVE_VEC4 from_mesh[3]; /* rows: place relative to the camera of a point of the mesh */
+    DRIVE_VEC4 base_color;   /* times the texture's */
+    DRIVE_VEC4 emissive;     /* times the texture's; w: roughness */
+    DRIVE_VEC4 traits;       /* metallic, alpha below which it is cut out, share of the sky that it sees */
+};
+
+#endif

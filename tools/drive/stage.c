@@ -1,0 +1,397 @@
+/* stage.c - frames, draws and descriptors of the sample's renderer. Passes and pipelines: stage_passes.c; the window's
+ * images: stage_images.c. */
+#include "stage_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NEAR_M 0.05
+#define FAR_M  900.0
+
+/* ---- cameras */
+
+void stage_camera_set(const stage *s, stage_camera *camera)
+{
+    const double *f = camera->forward, *u = camera->up;
+    const double right[3] = {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2], f[0] * u[1] - f[1] * u[0]};
+    memset(camera->view_from_world, 0, sizeof camera->view_from_world);
+    memset(camera->clip_from_view, 0, sizeof camera->clip_from_view);
+    for (int i = 0; i < 3; i++) { /* column i: where the world's axis i points, as the camera sees it */
+        camera->view_from_world[4 * i] = (float)right[i];
+        camera->view_from_world[4 * i + 1] = (float)u[i];
+        camera->view_from_world[4 * i + 2] = (float)-f[i];
+    }
+    camera->view_from_world[15] = 1;
+    const double scale = 1 / tan(camera->fov_deg * M_PI / 360), aspect = s->height ? (double)s->width / s->height : 1;
+    camera->clip_from_view[0] = (float)(scale / aspect);
+    camera->clip_from_view[5] = (float)-scale; /* Vulkan's y points down */
+    camera->clip_from_view[10] = (float)(FAR_M / (NEAR_M - FAR_M));
+    camera->clip_from_view[11] = -1;
+    camera->clip_from_view[14] = (float)(NEAR_M * FAR_M / (NEAR_M - FAR_M));
+}
+
+static void multiply(const float a[16], const float b[16], float out[16])
+{
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            out[4 * column + row] = 0;
+            for (int k = 0; k < 4; k++)
+                out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+        }
+}
+
+/* ---- what the shaders are told */
+
+static void tell_camera(const stage *s, const stage_camera *camera, struct drive_frame_gpu *to)
+{
+    const stage_camera *last = s->has_last ? &s->last : camera;
+    multiply(camera->clip_from_view, camera->view_from_world, to->clip_from_relative);
+    float rotated[16], moved[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (int i = 0; i < 3; i++)
+        moved[12 + i] = to->moved[i] = (float)(camera->position_m[i] - last->position_m[i]);
+    multiply(last->clip_from_view, last->view_from_world, rotated);
+    multiply(rotated, moved, to->last_from_relative);
+    for (int i = 0; i < 3; i++) {
+        to->ray_x[i] = camera->view_from_world[4 * i] / camera->clip_from_view[0];
+        to->ray_y[i] = camera->view_from_world[4 * i + 1] / camera->clip_from_view[5];
+        to->ray_z[i] = -camera->view_from_world[4 * i + 2];
+    }
+}
+
+static void tell_ground(const stage_camera *camera, const virga_ground_maps *maps, struct drive_frame_gpu *to)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const double cell = floor(maps->low_m[axis] / (double)maps->cell_m + 0.5),
+                     position = camera->position_m[2 * axis];
+        to->ground_low[2 * axis] = (float)(maps->low_m[axis] - position);
+        to->ground_wrap[axis] = (float)(cell - floor(cell / maps->cells) * maps->cells);
+        to->ripples[axis] = (float)(maps->ripple_low_m[axis] - position);
+    }
+    to->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
+    to->ground_low[3] = 1 / maps->cell_m;
+    to->ground_wrap[2] = (float)maps->cells;
+    to->ripples[2] = 1 / ((float)maps->ripple_texels * maps->ripple_texel_m);
+}
+
+static void tell_lights(const stage_camera *camera, const virga_lighting *lighting, struct drive_frame_gpu *to)
+{
+    to->moved[3] = (float)lighting->light_count;
+    for (uint32_t i = 0; i < lighting->light_count && i < DRIVE_LIGHTS; i++) {
+        const virga_light *light = &lighting->lights[i];
+        struct drive_light_gpu *l = &to->lights[i];
+        const float length =
+            sqrtf(light->direction[0] * light->direction[0] + light->direction[1] * light->direction[1] +
+                  light->direction[2] * light->direction[2]);
+        for (int c = 0; c < 3; c++) {
+            l->place[c] = (float)(light->position_m[c] - camera->position_m[c]);
+            l->intensity[c] = light->intensity[c];
+            l->direction[c] = length > 0 ? light->direction[c] / length : 0;
+        }
+        l->place[3] = light->range_m > 0 ? 1 / light->range_m : 0;
+        l->cone[0] = length > 0 ? 1 / fmaxf(light->cos_inner - light->cos_outer, 1e-4f) : 0;
+        l->cone[1] = length > 0 ? -light->cos_outer * l->cone[0] : 1;
+    }
+}
+
+/* Irradiance over pi from radiance in harmonics: bands times 1, 2/3, 1/4 (Ramamoorthi and Hanrahan 2001), and the
+ * harmonics' own factors. */
+static void tell_sky(const float sh[9][3], struct drive_frame_gpu *to)
+{
+    static const float factors[9] = {0.282095f,         0.488603f * 2 / 3, 0.488603f * 2 / 3,
+                                     0.488603f * 2 / 3, 1.092548f / 4,     1.092548f / 4,
+                                     0.315392f / 4,     1.092548f / 4,     0.546274f / 4};
+    for (int i = 0; i < 9; i++)
+        for (int c = 0; c < 3; c++)
+            to->irradiance[i][c] = sh[i][c] * factors[i];
+}
+
+/* ---- a frame */
+
+static uint32_t slot(const stage *s)
+{
+    return (uint32_t)(s->device->frame % HOST_FRAMES);
+}
+
+static void begin_pass(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, const stage *s)
+{
+    const VkClearValue clears[2] = {{.color = {.float32 = {0, 0, 0, 0}}}, {.depthStencil = {1, 0}}};
+    VkRenderPassBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+        .renderPass = pass,
+        .framebuffer = framebuffer,
+        .renderArea = {.extent = {s->width, s->height}},
+        .clearValueCount = 2,
+        .pClearValues = clears,
+    };
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    VkViewport viewport = {0, 0, (float)s->width, (float)s->height, 0, 1};
+    VkRect2D scissor = {.extent = {s->width, s->height}};
+    vkCmdSetViewport(cmd, 0, 1, &viewport);
+    vkCmdSetScissor(cmd, 0, 1, &scissor);
+}
+
+bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size)
+{
+    *cmd = NULL;
+    *resized = false;
+    if (!stage_images_fit(s, resized, error, error_size))
+        return false;
+    if (*resized || !s->width)
+        return true;
+    /* The place of the ring is free again before its semaphore is used anew. */
+    if (!host_begin_frame(s->device, cmd, error, error_size))
+        return false;
+    if (!s->window)
+        return true;
+    const VkResult got = vkAcquireNextImageKHR(s->device->device, s->swapchain, UINT64_MAX, s->acquired[slot(s)],
+                                               VK_NULL_HANDLE, &s->image);
+    if (got == VK_SUCCESS || got == VK_SUBOPTIMAL_KHR)
+        return true;
+    *cmd = NULL;
+    if (got != VK_ERROR_OUT_OF_DATE_KHR)
+        return host_fail(error, error_size, "vkAcquireNextImageKHR gave %s", host_result_name(got));
+    return host_submit(s->device, error, error_size) && stage_images_again(s, resized, error, error_size);
+}
+
+/* At the start and after a cut the material finds nothing mirrored there: 1 / distance is 0. */
+static void clear_behind(const stage *s, VkCommandBuffer cmd)
+{
+    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    const VkClearColorValue nothing = {.float32 = {0, 0, 0, 0}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers, 0,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdClearColorImage(cmd, s->behind.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &nothing, 1, &all);
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, readers,
+                       VK_ACCESS_SHADER_READ_BIT);
+}
+
+void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
+                       const virga_lighting *lighting)
+{
+    struct drive_frame_gpu *to = s->numbers[slot(s)].mapped;
+    memset(to, 0, sizeof *to);
+    tell_camera(s, camera, to);
+    tell_ground(camera, maps, to);
+    tell_lights(camera, lighting, to);
+    tell_sky(lighting->environment_sh, to);
+    if (!s->has_last)
+        clear_behind(s, cmd);
+    begin_pass(cmd, s->world_pass, s->world_framebuffer, s);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 0, 1, &s->frame_sets[slot(s)], 0,
+                            NULL);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->sky_pipeline);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_pipeline);
+}
+
+static void place(const stage_camera *camera, const stage_draw *draw, struct drive_surface_gpu *surface)
+{
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            surface->from_mesh[row][column] = draw->axes[3 * column + row];
+        surface->from_mesh[row][3] = (float)(draw->position_m[row] - camera->position_m[row]);
+    }
+}
+
+void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw)
+{
+    const host_mesh *mesh = draw->mesh;
+    const VkDescriptorSet *sets = NULL;
+    const VkDeviceSize zero = 0;
+    for (uint32_t i = 0; i < s->mesh_count; i++)
+        sets = s->meshes[i].mesh == mesh ? s->meshes[i].sets : sets;
+    struct drive_surface_gpu surface;
+    place(camera, draw, &surface);
+    vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &zero);
+    vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+    for (uint32_t i = 0; sets && i < mesh->primitive_count; i++) {
+        const host_primitive *primitive = &mesh->primitives[i];
+        const host_material *material = &mesh->materials[primitive->material];
+        memcpy(surface.base_color, material->base_color, sizeof surface.base_color);
+        memcpy(surface.emissive, material->emissive, sizeof material->emissive);
+        surface.emissive[3] = material->roughness;
+        surface.traits[0] = material->metallic;
+        surface.traits[1] = material->alpha == HOST_ALPHA_OPAQUE ? -1 : material->cutoff;
+        surface.traits[2] = draw->sky;
+        surface.traits[3] = 0;
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 1, 1, &sets[primitive->material],
+                                0, NULL);
+        vkCmdPushConstants(cmd, s->world_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof surface, &surface);
+        vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+    }
+}
+
+/* The pass has left `color` ready to be copied from. */
+void stage_world_end(stage *s, VkCommandBuffer cmd)
+{
+    vkCmdEndRenderPass(cmd);
+    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, readers, 0,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    VkImageCopy whole = {
+        .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+        .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+        .extent = {s->width, s->height, 1},
+    };
+    vkCmdCopyImage(cmd, s->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, s->behind.image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &whole);
+    host_image_barrier(cmd, &s->behind, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, readers,
+                       VK_ACCESS_SHADER_READ_BIT);
+}
+
+void stage_over_begin(stage *s, VkCommandBuffer cmd)
+{
+    begin_pass(cmd, s->over_pass, s->over_framebuffer, s);
+}
+
+void stage_over_end(stage *s, VkCommandBuffer cmd)
+{
+    (void)s;
+    vkCmdEndRenderPass(cmd);
+}
+
+static void show(stage *s, VkCommandBuffer cmd, bool keep)
+{
+    begin_pass(cmd, s->show_pass, s->show_framebuffers[s->image], s);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->show_pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->show_pipeline_layout, 0, 1, &s->show_set, 0, NULL);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    vkCmdEndRenderPass(cmd);
+    if (s->window || !keep)
+        return;
+    VkBufferImageCopy whole = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                               .imageExtent = {s->width, s->height, 1}};
+    vkCmdCopyImageToBuffer(cmd, s->picture.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, s->copy.buffer, 1, &whole);
+    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                               .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                               .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, NULL, 0,
+                         NULL);
+}
+
+/* host_submit, with the semaphores that a window needs. */
+static bool submit(stage *s, char *error, size_t error_size)
+{
+    host_frame *frame = &s->device->frames[slot(s)];
+    const VkPipelineStageFlags wait = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    HOST_TRY(vkEndCommandBuffer(frame->cmd));
+    HOST_TRY(vkResetFences(s->device->device, 1, &frame->fence));
+    VkSubmitInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+        .waitSemaphoreCount = 1,
+        .pWaitSemaphores = &s->acquired[slot(s)],
+        .pWaitDstStageMask = &wait,
+        .commandBufferCount = 1,
+        .pCommandBuffers = &frame->cmd,
+        .signalSemaphoreCount = 1,
+        .pSignalSemaphores = &s->finished[s->image],
+    };
+    HOST_TRY(vkQueueSubmit(s->device->queue, 1, &info, frame->fence));
+    frame->index = s->device->frame;
+    return true;
+}
+
+bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size)
+{
+    show(s, cmd, keep);
+    s->last = *camera;
+    s->has_last = true;
+    if (!s->window)
+        return host_submit(s->device, error, error_size);
+    if (!submit(s, error, error_size))
+        return false;
+    VkPresentInfoKHR present = {
+        .sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+        .waitSemaphoreCount = 1,
+        .pWaitSemaphores = &s->finished[s->image],
+        .swapchainCount = 1,
+        .pSwapchains = &s->swapchain,
+        .pImageIndices = &s->image,
+    };
+    const VkResult shown = vkQueuePresentKHR(s->device->queue, &present);
+    if (shown == VK_SUCCESS || shown == VK_SUBOPTIMAL_KHR || shown == VK_ERROR_OUT_OF_DATE_KHR)
+        return true; /* the next stage_begin sees to the rest */
+    return host_fail(error, error_size, "vkQueuePresentKHR gave %s", host_result_name(shown));
+}
+
+const uint8_t *stage_picture(stage *s)
+{
+    host_buffer_invalidate(s->device, &s->copy);
+    return s->copy.mapped;
+}
+
+/* ---- descriptors */
+
+typedef struct binding {
+    VkDescriptorSet set;
+    uint32_t index;
+    VkSampler sampler;
+    VkImageView view;
+    VkImageLayout layout;
+} binding;
+
+static void bind_image(const stage *s, binding b)
+{
+    VkDescriptorImageInfo image = {b.sampler, b.view, b.layout};
+    VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = b.set,
+        .dstBinding = b.index,
+        .descriptorCount = 1,
+        .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        .pImageInfo = &image,
+    };
+    vkUpdateDescriptorSets(s->device->device, 1, &write, 0, NULL);
+}
+
+void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment)
+{
+    const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
+    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
+        const VkDescriptorSet set = s->frame_sets[i];
+        VkDescriptorBufferInfo buffer = {s->numbers[i].buffer, 0, VK_WHOLE_SIZE};
+        VkWriteDescriptorSet write = {
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = set,
+            .descriptorCount = 1,
+            .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+            .pBufferInfo = &buffer,
+        };
+        vkUpdateDescriptorSets(s->device->device, 1, &write, 0, NULL);
+        bind_image(s, (binding){set, 1, s->repeat, environment->sky.view, read});
+        bind_image(s, (binding){set, 2, s->smooth, environment->reflection.view, read});
+        bind_image(s, (binding){set, 3, s->nearest, maps->wet, general});
+        bind_image(s, (binding){set, 4, s->nearest, maps->spots, general});
+        bind_image(s, (binding){set, 5, s->smooth, maps->ripples, general});
+        bind_image(s, (binding){set, 6, s->smooth, s->behind.view, read});
+    }
+    bind_image(s, (binding){s->show_set, 0, s->nearest, s->color.view, read});
+}
+
+bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size)
+{
+    if (s->mesh_count == STAGE_MESHES || mesh->material_count > 64)
+        return host_fail(error, error_size, "more than %d meshes, or 64 materials in one", STAGE_MESHES);
+    VkDescriptorSet *sets = s->meshes[s->mesh_count].sets;
+    for (uint32_t i = 0; i < mesh->material_count; i++) {
+        const host_material *material = &mesh->materials[i];
+        const int32_t textures[2] = {material->base_texture, material->emissive_texture};
+        VkDescriptorSetAllocateInfo allocate = {
+            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+            .descriptorPool = s->pool,
+            .descriptorSetCount = 1,
+            .pSetLayouts = &s->material_layout,
+        };
+        HOST_TRY(vkAllocateDescriptorSets(s->device->device, &allocate, &sets[i]));
+        for (uint32_t k = 0; k < 2; k++) {
+            const VkImageView view = textures[k] >= 0 ? mesh->textures[textures[k]].view : s->white.view;
+            bind_image(s, (binding){sets[i], k, s->repeat, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+        }
+    }
+    s->meshes[s->mesh_count++].mesh = mesh;
+    return true;
+}

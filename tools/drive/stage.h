@@ -1,0 +1,104 @@
+/* stage.h - the sample's small renderer: a window's swapchain or a picture for a file, the passes, one material. It
+ * makes no call of Virga. What is drawn goes through four stations of a frame:
+ *
+ *     stage_begin            a command buffer, and an image to show
+ *     stage_world_begin/end  sky and meshes into `color` and `depth`; then `behind` is a copy of `color`
+ *     stage_over_begin/end   what is blended over `color`, while `depth` and `behind` may be sampled
+ *     stage_end              `color` to the window or to the picture; submitted
+ */
+#ifndef DRIVE_STAGE_H
+#define DRIVE_STAGE_H
+
+#include <virga/ground.h>
+#include <virga/light.h>
+
+#include "environment.h"
+#include "mesh.h"
+#include "shaders/drive_gpu.h"
+
+#define STAGE_IMAGES 8 /* of a swapchain, at most */
+#define STAGE_MESHES 16
+#define STAGE_SETS   256 /* materials of all meshes */
+
+struct GLFWwindow;
+
+typedef struct stage_camera {
+    double position_m[3];
+    double forward[3], up[3];                      /* unit length, at right angles */
+    double fov_deg;                                /* of the picture's height */
+    float view_from_world[16], clip_from_view[16]; /* made by stage_camera_set */
+} stage_camera;
+
+/* What is drawn: a mesh at a place, as 3 x 4 row-major; and how much of the sky it sees. */
+typedef struct stage_draw {
+    const host_mesh *mesh;
+    double position_m[3];
+    float axes[9]; /* columns: the mesh's axes in the world */
+    float sky;     /* [0; 1]: 0.1 within a car */
+} stage_draw;
+
+typedef struct stage {
+    host_device *device;
+    struct GLFWwindow *window; /* NULL: no window, a picture */
+    VkSurfaceKHR surface;
+    VkSwapchainKHR swapchain;
+    VkFormat show_format;
+    uint32_t width, height;      /* 0: minimised, nothing can be drawn */
+    uint32_t image_count, image; /* of the swapchain; the one of this frame */
+    VkImage images[STAGE_IMAGES];
+    VkImageView image_views[STAGE_IMAGES];
+    VkFramebuffer show_framebuffers[STAGE_IMAGES];
+    VkSemaphore acquired[HOST_FRAMES], finished[STAGE_IMAGES];
+    host_image picture; /* in place of a swapchain */
+    host_buffer copy;   /* its bytes, after the last frame */
+
+    host_image color, depth, behind; /* RGBA16F with 1 / distance in alpha of `behind`; D32 */
+    VkRenderPass world_pass, over_pass, show_pass;
+    VkFramebuffer world_framebuffer, over_framebuffer;
+
+    VkDescriptorSetLayout frame_layout, material_layout, show_layout;
+    VkPipelineLayout world_layout, show_pipeline_layout;
+    VkPipeline world_pipeline, sky_pipeline, show_pipeline;
+    VkDescriptorPool pool;
+    VkDescriptorSet frame_sets[HOST_FRAMES], show_set;
+    VkSampler smooth, nearest, repeat;
+    host_buffer numbers[HOST_FRAMES]; /* drive_frame_gpu */
+    host_image white;
+    struct {
+        const host_mesh *mesh;
+        VkDescriptorSet sets[64];
+    } meshes[STAGE_MESHES];
+    uint32_t mesh_count;
+    stage_camera last; /* camera of the frame before */
+    bool has_last;
+} stage;
+
+/* A window (glfwInit and its surface are the caller's) or, with NULL, a picture of that size. */
+bool stage_create(stage *s, host_device *device, struct GLFWwindow *window, VkSurfaceKHR surface, uint32_t width,
+                  uint32_t height, char *error, size_t error_size);
+void stage_destroy(stage *s);
+
+/* Makes the matrices of a camera for the picture as it is now. */
+void stage_camera_set(const stage *s, stage_camera *camera);
+
+/* The mesh's materials get descriptor sets. */
+bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size);
+
+/* The maps and panorama that the material reads; after stage_create and whenever it returns with *resized. */
+void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment);
+
+/* Begins a frame. *cmd is NULL where none can be drawn now (minimised; or resized, with *resized set: sizes, `depth` and
+ * `behind` are others now). */
+bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size);
+void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
+                       const virga_lighting *lighting);
+void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw);
+void stage_world_end(stage *s, VkCommandBuffer cmd);
+void stage_over_begin(stage *s, VkCommandBuffer cmd);
+void stage_over_end(stage *s, VkCommandBuffer cmd);
+bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size);
+
+/* RGBA bytes of the picture that the newest frame with `keep` drew; the device has completed it. */
+const uint8_t *stage_picture(stage *s);
+
+#endif
