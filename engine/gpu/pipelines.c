@@ -97,7 +97,7 @@ typedef struct graphics_state {
     VkPipelineRasterizationStateCreateInfo raster;
     VkPipelineMultisampleStateCreateInfo multisample;
     VkPipelineDepthStencilStateCreateInfo depth;
-    VkPipelineColorBlendAttachmentState attachments[8];
+    VkPipelineColorBlendAttachmentState attachments[VIRGA_MAX_ATTACHMENTS];
     VkPipelineColorBlendStateCreateInfo blend;
     VkDynamicState dynamics[2];
     VkPipelineDynamicStateCreateInfo dynamic;
@@ -116,6 +116,19 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
         .alphaBlendOp = VK_BLEND_OP_ADD,
         .colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+    /* A motion vector is taken or left, as its alpha is 1 or 0; masks lie over one another. */
+    if (def->motion_attachment)
+        state->attachments[def->motion_attachment] = (VkPipelineColorBlendAttachmentState){
+            .blendEnable = VK_TRUE,
+            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT};
+    if (def->reactive_attachment)
+        state->attachments[def->reactive_attachment] =
+            (VkPipelineColorBlendAttachmentState){.blendEnable = VK_TRUE,
+                                                  .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                  .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                                  .colorWriteMask = VK_COLOR_COMPONENT_R_BIT};
     /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
     state->blend =
         (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
@@ -143,11 +156,11 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
 {
     state->viewport = (VkPipelineViewportStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    state->raster =
-        (VkPipelineRasterizationStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-                                                 .polygonMode = VK_POLYGON_MODE_FILL,
-                                                 .cullMode = (VkCullModeFlags)(def->cull_back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-                                                 .lineWidth = 1};
+    state->raster = (VkPipelineRasterizationStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = (VkCullModeFlags)(def->cull_back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+        .lineWidth = 1};
     state->multisample = (VkPipelineMultisampleStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = def->samples ? def->samples : VK_SAMPLE_COUNT_1_BIT};
@@ -186,6 +199,51 @@ static VkGraphicsPipelineCreateInfo describe(const virga_graphics_def *def, grap
                                           .subpass = def->subpass};
 }
 
+/* ---- outputs where the target wants them */
+
+/* As in shaders/gpu/temporal.glsl. */
+#define LOCATION_MOTION   1
+#define LOCATION_REACTIVE 2
+
+/* Of the SPIR-V specification: words of the header, opcodes, a decoration and a storage class. */
+enum { SPIRV_HEADER_WORDS = 5, OP_VARIABLE = 59, OP_DECORATE = 71, LOCATION = 30, OUTPUT = 3 };
+
+static bool is_output(const uint32_t *code, size_t words, uint32_t id)
+{
+    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16)
+        if ((code[at] & 0xffff) == OP_VARIABLE && code[at + 2] == id)
+            return code[at + 3] == OUTPUT;
+    return false;
+}
+
+/* Vulkan can not specialise locations, and which attachment of a pass gets what is the host's: they are changed in the
+ * code itself. It is ours, so that all of its instructions are whole. */
+static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t words)
+{
+    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16) {
+        if ((code[at] & 0xffff) != OP_DECORATE || code[at + 2] != LOCATION || !is_output(code, words, code[at + 1]))
+            continue;
+        if (code[at + 3] == LOCATION_MOTION)
+            code[at + 3] = def->motion_attachment;
+        else if (code[at + 3] == LOCATION_REACTIVE)
+            code[at + 3] = def->reactive_attachment;
+    }
+}
+
+static virga_result fragment_module(virga_context *context, const virga_graphics_def *def, VkShaderModule *module)
+{
+    if (!def->motion_attachment && !def->reactive_attachment)
+        return module_create(context, def->fragment, module);
+    uint32_t *code = virga_alloc(&context->heap, def->fragment.size);
+    if (!code)
+        return virga_out_of_host_memory(context, def->name);
+    memcpy(code, def->fragment.code, def->fragment.size);
+    move_outputs(def, code, def->fragment.size / sizeof *code);
+    const virga_result result = module_create(context, (virga_spirv){code, def->fragment.size}, module);
+    virga_free(&context->heap, code);
+    return result;
+}
+
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **created)
 {
@@ -195,7 +253,7 @@ virga_result virga_graphics_pipeline_create(virga_context *context, const virga_
     if (result)
         return result;
     TRY(module_create(context, def->vertex, &modules[0]));
-    TRY(module_create(context, def->fragment, &modules[1]));
+    TRY(fragment_module(context, def, &modules[1]));
     VkPipelineShaderStageCreateInfo stages[2];
     const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
     const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};

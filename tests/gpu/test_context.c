@@ -370,7 +370,7 @@ static virga_result try_target(void *object, uint32_t size, uint32_t cookie)
     virga_target_def def = virga_default_target_def();
     virga_target *target = NULL;
     def.kind = VIRGA_TARGET_DYNAMIC;
-    def.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
     def.depth_attached = false;
     def.size += size;
     def.cookie ^= cookie;

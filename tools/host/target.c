@@ -430,7 +430,7 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
     def->kind = VIRGA_TARGET_RENDER_PASS;
     def->render_pass = target->layer_pass;
     def->subpass = 0;
-    def->color_format = outputs_table[HOST_LAYER].format;
+    def->color_formats[0] = outputs_table[HOST_LAYER].format;
     def->color_count = 1;
     def->samples = VK_SAMPLE_COUNT_1_BIT;
     def->depth_attached = false; /* tested in the shader, see create_color_pass */
