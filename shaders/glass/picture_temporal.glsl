@@ -42,11 +42,11 @@ vec2 scene_before(vec2 pixel)
 vec2 water_before() { return pixel_of(to_mat(look.previous_from_here) * vec4(position, 1.0)); }
 
 // How far the picture in the water moves against the water, looking back a frame: J^-1 (q' - q0). Where J is singular the
-// drop focuses, and shows of one place a patch: that stays. It is never more than the scene's own motion.
+// drop focuses, and shows of one place a patch: that stays. Next to it a vector is at most four times the scene's.
 vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
 {
     const vec2 flow = scene_was - shown_was;
-    const float turn = determinant(change), most = length(flow);
+    const float turn = determinant(change), most = 4.0 * length(flow);
     if (abs(turn) < 0.05)
         return vec2(0.0);
     const vec2 moved = inverse(change) * flow;
@@ -73,10 +73,14 @@ bool moves_inside(Path path, Water water)
     return !opaque && path.ahead && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
 }
 
-// `inside` from motion_in_water. The mask: what moves in drops is known only about as well as they are.
+// `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into them,
+// whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps still
+// its history is as good as any.
 void write_temporal(vec2 inside, float cover)
 {
-    WRITE_MOTION(clamp(water_before() + inside - gl_FragCoord.xy, vec2(-16384.0), vec2(16384.0)), cover);
-    WRITE_REACTIVE(cover * clamp(2.0 * length(inside), 0.0, 1.0), 1.0);
+    const vec2 own = water_before() + inside - gl_FragCoord.xy;
+    WRITE_MOTION(clamp(own, vec2(-16384.0), vec2(16384.0)), cover);
+    const vec2 behind = scene_before(gl_FragCoord.xy) - gl_FragCoord.xy;
+    WRITE_REACTIVE(cover * clamp(2.0 * max(length(inside), length(own - behind)), 0.0, 1.0), 1.0);
 }
 #endif

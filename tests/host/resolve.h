@@ -1,7 +1,7 @@
 /* resolve.h - a plain temporal anti-aliasing on the CPU, and how far it is from the truth with and without what Virga tells
  * it: of moving water before a wall with a pattern.
  *
- * Each frame is drawn with a jitter (Halton 2, 3). Its history is fetched, bilinearly, from where the motion vectors
+ * Each frame is drawn with a jitter (Halton 2, 3). Its history is fetched, by a Catmull-Rom spline, from where the motion vectors
  * lead, and weighs 0.9; with a neighbourhood clamp it is first cut to the range of the 3 x 3 pixels around. Without
  * Virga's outputs motion vectors are the wall's. With them, pixels that draws have written have their vectors, and the
  * reactive mask takes weight from the history: the larger of this frame's and the last one's at the history's
@@ -35,14 +35,11 @@ typedef struct resolve_errors {
 
 /* ---- the wall */
 
-/* Tiles of 0.4 m with dark joints, in three shades, and fine stripes on some. */
+/* Waves of 0.4 to 1 m, as smooth as filtered textures are, at dusk; and every 3 m a post with hard edges. */
 static inline double wall_light(double x, double y)
 {
-    const double u = floor(x / 0.4), v = floor(y / 0.4), fu = x / 0.4 - u, fv = y / 0.4 - v;
-    const int kind = (int)(((long)u * 7 + (long)v * 3) & 3);
-    if (fu < 0.06 || fv < 0.06)
-        return 0.05;
-    return kind == 3 ? (fmod(floor(fu * 8), 2) != 0 ? 0.35 : 0.12) : 0.15 + 0.1 * kind;
+    const double post = x / 3 - floor(x / 3);
+    return post < 0.05 ? 0.02 : 0.06 + 0.02 * sin(14 * x + 2 * sin(6 * y)) + 0.02 * sin(11 * y - 5 * x);
 }
 
 /* Where the ray through a place of the picture meets the wall. */
@@ -115,6 +112,31 @@ static inline float bilinear(const float *image, uint32_t width, uint32_t height
            ty * ((1 - tx) * image[at + width] + tx * image[at + width + 1]);
 }
 
+/* Weights of Catmull and Rom's spline, which blurs history less than straight lines between pixels. */
+static inline void spline_weights(double t, double w[4])
+{
+    w[0] = ((-0.5 * t + 1) * t - 0.5) * t;
+    w[1] = (1.5 * t - 2.5) * t * t + 1;
+    w[2] = ((-1.5 * t + 2) * t + 0.5) * t;
+    w[3] = (0.5 * t - 0.5) * t * t;
+}
+
+static inline float spline(const float *image, uint32_t width, uint32_t height, double x, double y)
+{
+    const int ix = (int)floor(x - 0.5), iy = (int)floor(y - 0.5);
+    double wx[4], wy[4], sum = 0;
+    spline_weights(x - 0.5 - ix, wx);
+    spline_weights(y - 0.5 - iy, wy);
+    for (int j = 0; j < 4; j++)
+        for (int i = 0; i < 4; i++) {
+            const int column = ix + i - 1, row = iy + j - 1;
+            const int c = column < 0 ? 0 : column < (int)width ? column : (int)width - 1;
+            const int r = row < 0 ? 0 : row < (int)height ? row : (int)height - 1;
+            sum += wx[i] * wy[j] * (double)image[(size_t)r * width + (size_t)c];
+        }
+    return (float)fmax(sum, 0);
+}
+
 static inline float clamp_to_neighbours(const float *image, uint32_t width, uint32_t height, size_t pixel, float value)
 {
     const int x = (int)(pixel % width), y = (int)(pixel / width);
@@ -143,7 +165,7 @@ static inline void resolve_frame(const resolve_scene *scene, const float *light,
         }
         const double x = (double)(i % width) + 0.5 + motion[0], y = (double)(i / width) + 0.5 + motion[1];
         const bool outside = x < 0 || y < 0 || x >= width || y >= height;
-        float weight = outside ? 0 : 0.9f, old = bilinear(*history, width, height, x, y);
+        float weight = outside ? 0 : 0.9f, old = spline(*history, width, height, x, y);
         if (outputs)
             weight = fminf(weight, 1 - fmaxf(scene->picture->reactive[i], bilinear(mask, width, height, x, y)));
         if (clamped)
@@ -171,7 +193,8 @@ static inline void resolve_save(const resolve_scene *scene, const char *kind, co
             for (uint32_t x = 0; x < width * zoom; x++) {
                 const float light = lights[part][y / zoom * width + x / zoom];
                 const float rgba[4] = {light, light, light, 1};
-                png_from_linear(rgba, 1, 0.5f, &rgb[3 * ((size_t)y * wide + (uint32_t)part * (width * zoom + gap) + x)]);
+                png_from_linear(rgba, 1, 0.5f,
+                                &rgb[3 * ((size_t)y * wide + (uint32_t)part * (width * zoom + gap) + x)]);
             }
     char path[1024], error[256];
     snprintf(path, sizeof path, "%s/%s_%s.png", folder, scene->name, kind);

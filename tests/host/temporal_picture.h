@@ -57,11 +57,11 @@ static inline void picture_pass(host_device *device, temporal_picture *p)
                                           .pColorAttachments = references};
     const VkPipelineStageFlags drawn = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkAccessFlags access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | drawn, drawn, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         access, 0},
-        {0, VK_SUBPASS_EXTERNAL, drawn, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         VK_ACCESS_TRANSFER_READ_BIT, 0}};
+    const VkSubpassDependency dependencies[2] = {{VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | drawn, drawn,
+                                                  VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, access, 0},
+                                                 {0, VK_SUBPASS_EXTERNAL, drawn, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                                  VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT,
+                                                  0}};
     const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
                                          .attachmentCount = PICTURE_IMAGES,
                                          .pAttachments = attachments,

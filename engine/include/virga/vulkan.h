@@ -223,12 +223,14 @@ VIRGA_API void virga_target_destroy(virga_target **target);
  * A pixel has one motion vector but, where water covers it in part, two things that move: the vector is water's
  * where it covers at least `motion_coverage` of the pixel, else it stays what it was, that of the scene. They are never
  * mixed: halfway between two motions lies what neither shows. Physical rain covers a few hundredths of a pixel, so
- * for most of its streaks the reactive mask does the work.
+ * for most of its streaks the reactive mask does the work: in tests/rain/test_rain_temporal.c streaks' own vectors from
+ * a coverage of 1/20 on, with a gain of 1, double the error, as they drag the wall behind along.
  *
  * The reactive mask is 1 - (1 - coverage)^reactive_gain, laid over what is there: how little the pixel's history is
- * worth. A gain of 1 is the coverage itself, as FSR's particles give it; thin streaks that are much brighter than what is
- * behind them want more. On panes it is coverage times how far the picture in the drop moves against the pane in a
- * frame, all from half a pixel on, with a gain of 1.
+ * worth. A gain of 1 is the coverage itself; thin streaks that are much brighter than what is behind them want more, up
+ * to 16, which lets more of the edges behind them flicker. On panes it is coverage, with a gain of 1, times how far the
+ * water's picture moves in a frame against the pane or against what is behind it, all from half a pixel on: at rest
+ * drops keep their history.
  *
  *     taker               direction      unit        motion_scale            reactive mask
  *     FSR 2 and 3         now to before  pixels      1, 1                    reactive, at most 0.9
@@ -239,8 +241,10 @@ VIRGA_API void virga_target_destroy(virga_target **target);
  *     TAA, before = uv - m               uv, v down  -1 / width, -1 / height likewise
  *     compositing         before to now  pixels      -1, -1                  -
  *
- * The mask says where rain is, not where it was: a resolve without a neighbourhood clamp keeps what left the pixel.
- * Let it use the larger of this frame's mask and the last one's, at the pixel's history. */
+ * The mask says where water is, not where it was: a resolve without a neighbourhood clamp keeps what left the pixel.
+ * Let it use the larger of this frame's mask and the last one's, at the pixel's history.
+ *
+ * Draws of one pass order themselves: what is drawn last and covers enough gives the vector. Haze writes neither. */
 typedef struct virga_temporal {
     double position_m[3];         /* of the camera of the previous frame; these three as open_* of virga_view. */
     float view_from_world[16];
