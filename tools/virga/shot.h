@@ -22,6 +22,7 @@ typedef struct shot_options {
     bool points;      /* drops and droplets of each stepped frame are read back */
     const char *plate; /* pictures in place of the opaque scene, see plate.h; NULL: the scene is drawn */
     uint32_t frames[2]; /* (plate) first and last to be drawn */
+    uint32_t water_velocity; /* percent of a pixel from which on water's velocity is its own; 0: it is the plate's */
 } shot_options;
 
 /* Points of the newest step, on their way to the host. */
@@ -68,6 +69,7 @@ typedef struct shot {
     virga_ground *ground; /* NULL: none */
     virga_splash *splash; /* NULL: none */
     virga_target *layer;  /* what rain, splashes and panes draw into, each into a layer of its own */
+    virga_target *moving; /* of the pass that draws the velocity of water; NULL where it is not asked for */
     virga_rain_settings settings;
     shot_read drops_read, droplets_read;
     shot_pane *panes; /* as many as the scene has; NULL before they are made */
