@@ -4,7 +4,13 @@
 
 #include "shaders/glass_picture_pane_vert.spv.h"
 #include "shaders/glass_picture_paper_frag.spv.h"
+#include "shaders/glass_picture_paper_frag_both.spv.h"
+#include "shaders/glass_picture_paper_frag_motion.spv.h"
+#include "shaders/glass_picture_paper_frag_reactive.spv.h"
 #include "shaders/glass_picture_physical_frag.spv.h"
+#include "shaders/glass_picture_physical_frag_both.spv.h"
+#include "shaders/glass_picture_physical_frag_motion.spv.h"
+#include "shaders/glass_picture_physical_frag_reactive.spv.h"
 #include "shaders/glass_picture_refraction_frag.spv.h"
 
 #include <math.h>
@@ -153,6 +159,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fill_pane(glass, view, pose, &filled.look);
     fill_time(glass, time_s, &filled.look);
     fill_look(glass, &filled.look);
+    glass_fill_before(view, pose, &filled.look);
     fit_map(glass, &filled);
     glass->picture->columns = filled.look.map_columns;
     glass->picture->rows = filled.look.map_rows;
@@ -318,7 +325,9 @@ static virga_result ready_to_prepare(const virga_glass *glass)
 static bool pose_is_finite(const virga_log *log, const virga_glass_pose *pose)
 {
     return !virga_settings_finite_double(log, "glass_pose.position_m", pose->position_m, 3) &&
-           !virga_settings_finite(log, "glass_pose.world_from_pane", pose->world_from_pane, 9);
+           !virga_settings_finite(log, "glass_pose.world_from_pane", pose->world_from_pane, 9) &&
+           !virga_settings_finite_double(log, "glass_pose.before_position_m", pose->before_position_m, 3) &&
+           !virga_settings_finite(log, "glass_pose.before_world_from_pane", pose->before_world_from_pane, 9);
 }
 
 /* A place for a view in this frame's ring. */
@@ -449,12 +458,13 @@ static void target_clear(virga_glass *glass, glass_target *target)
 }
 
 /* What one of a target's pipelines differs in. */
-static void describe_draw(uint32_t i, virga_graphics_def *def)
+static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphics_def *def)
 {
+    def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
     def->blend_premultiplied = i < GLASS_DRAW_REFRACTION;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
-    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_SPIRV(glass_picture_physical_frag)
-                    : i < GLASS_DRAW_REFRACTION ? VIRGA_SPIRV(glass_picture_paper_frag)
+    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_picture_physical_frag, outputs)
+                    : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_picture_paper_frag, outputs)
                                                 : VIRGA_SPIRV(glass_picture_refraction_frag);
     def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
                 : i < GLASS_DRAW_REFRACTION ? "glass.paper"
@@ -479,7 +489,7 @@ virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
     virga_graphics_def def = {
         .vertex = VIRGA_SPIRV(glass_picture_pane_vert), .layout = glass->picture->bindings->layout, .depth_test = true};
     for (uint32_t i = 0; i < GLASS_DRAWS; i++) {
-        describe_draw(i, &def);
+        describe_draw(i, virga_target_outputs_of(target), &def);
         def.constant |= glass->picture->filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;
         TRY(virga_target_pipeline(target, def, &slot->draws[i]));
     }

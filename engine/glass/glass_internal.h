@@ -7,6 +7,7 @@
  *   glass_step.c     ticks
  *   glass_picture.c  what the height map and the draws need
  *   glass_draw.c     prepare, attach, draw
+ *   glass_temporal.c where a pane was in the previous frame's picture
  */
 #ifndef VIRGA_GLASS_INTERNAL_H
 #define VIRGA_GLASS_INTERNAL_H

@@ -118,6 +118,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 18 work */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 19 corners to be drawn */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 20 relief, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 21 scene motion */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -168,6 +169,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(picture->work),
         whole(picture->corners),
         own_image(picture->relief, VK_NULL_HANDLE),
+        image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }

@@ -2,6 +2,7 @@
  *
  *   glass_picture.c  create, destroy, what sets hold
  *   glass_draw.c     prepare, attach, draw
+ *   glass_temporal.c where a pane was in the previous frame's picture
  */
 #ifndef VIRGA_GLASS_PICTURE_H
 #define VIRGA_GLASS_PICTURE_H
@@ -61,6 +62,9 @@ struct glass_picture {
 /* Writes the set of a frame's view. */
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
 uint32_t glass_view_bytes(void);
+
+/* Where the pane was in the previous frame's picture; world_from_pane is filled. In glass_temporal.c. */
+void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look);
 
 /* Hands balls around in shared memory, though the device may shuffle: for tests and measurements. The same bits. */
 virga_result glass_picture_share(virga_glass *glass);

@@ -50,6 +50,8 @@ static void run(void *data)
 static virga_result finish(virga_context *context, virga_pipeline *pipeline, VkResult made, VkPipeline handle,
                            const char *call)
 {
+    virga_free(&context->heap, pipeline->code);
+    pipeline->code = NULL;
     if (made != VK_SUCCESS)
         return pipeline->failed = virga_vulkan_failed(context, made, call);
     pipeline->pipeline = handle;

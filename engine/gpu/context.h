@@ -64,6 +64,7 @@ typedef struct virga_pipeline {
     const char *name;          /* static */
     virga_pipeline_group *group; /* (optional) lives as long as this is not let go of */
     struct virga_build *build; /* NULL: nothing is left to be done */
+    uint32_t *code;            /* of the fragment shader, where it was changed for the target; until it is built */
     virga_result failed;
 } virga_pipeline;
 
@@ -253,15 +254,35 @@ virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLa
                                             virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count);
 void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
 
+/* What fragment shaders write beside the colour: bits. Such a shader has a form for each, see shaders/meson.build. */
+typedef enum virga_target_outputs {
+    VIRGA_OUTPUTS_COLOR = 0,
+    VIRGA_OUTPUTS_MOTION = 1,
+    VIRGA_OUTPUTS_REACTIVE = 2,
+    VIRGA_OUTPUTS_BOTH = 3,
+    VIRGA_OUTPUTS_FORMS = 4,
+} virga_target_outputs;
+
+/* The four forms of a fragment shader, and the two of a vertex shader, by outputs. */
+#define VIRGA_FRAGMENT_FORM(name, outputs)                                   \
+    ((outputs) == VIRGA_OUTPUTS_BOTH       ? VIRGA_SPIRV(name##_both)     \
+     : (outputs) == VIRGA_OUTPUTS_MOTION   ? VIRGA_SPIRV(name##_motion)   \
+     : (outputs) == VIRGA_OUTPUTS_REACTIVE ? VIRGA_SPIRV(name##_reactive) \
+                                           : VIRGA_SPIRV(name))
+#define VIRGA_VERTEX_FORM(name, outputs) \
+    ((outputs) & VIRGA_OUTPUTS_MOTION ? VIRGA_SPIRV(name##_motion) : VIRGA_SPIRV(name))
+
 /* What a graphics pipeline of ours varies in. Holds no pointer that must outlive the call. */
 typedef struct virga_graphics_def {
     virga_spirv vertex, fragment;
     VkPipelineLayout layout;
     VkRenderPass render_pass; /* null: dynamic rendering into these formats */
     uint32_t subpass;
-    VkFormat color_format, depth_format, stencil_format;
+    VkFormat color_formats[VIRGA_MAX_ATTACHMENTS], depth_format, stencil_format;
     uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
-    uint32_t color_count;   /* those beyond the first are not written */
+    uint32_t color_count;   /* those beyond the first are not written but for these: */
+    virga_target_outputs outputs; /* of the fragment shader */
+    uint32_t motion_attachment, reactive_attachment; /* 0: none */
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
     bool cull_back;    /* counter-clockwise on the picture is the front */
@@ -394,6 +415,9 @@ struct virga_target {
     virga_target_def def;
     uint64_t serial; /* another for each target of a context, never used again */
 };
+
+/* What a target takes beside the colour. */
+virga_target_outputs virga_target_outputs_of(const virga_target *target);
 
 /* A graphics pipeline for a target: fills what the target decides, then creates it. */
 virga_result virga_target_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline);

@@ -7,6 +7,7 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
 {
     virga_pipeline *pipeline = (virga_pipeline *)resource;
     virga_build_disown(context, pipeline);
+    virga_free(&context->heap, pipeline->code);
     if (pipeline->pipeline) {
         context->vk.DestroyPipeline(context->device, pipeline->pipeline, NULL);
         context->objects--;
@@ -14,14 +15,17 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
     virga_free(&context->heap, pipeline);
 }
 
-/* A pipeline of that name, built or asked for. */
+/* A pipeline of that name, built or asked for. Takes `code` over, which its definition may point to. */
 static virga_result pipeline_create(virga_context *context, const char *name, virga_pipeline_group *group,
                                     const virga_compute_def *compute, const virga_graphics_def *graphics,
-                                    virga_pipeline **created)
+                                    uint32_t *code, virga_pipeline **created)
 {
     virga_pipeline *pipeline = virga_alloc(&context->heap, sizeof *pipeline);
-    if (!pipeline)
+    if (!pipeline) {
+        virga_free(&context->heap, code);
         return virga_out_of_host_memory(context, name);
+    }
+    pipeline->code = code;
     pipeline->resource.destroy = pipeline_destroy;
     pipeline->name = name;
     pipeline->group = group;
@@ -36,13 +40,7 @@ static virga_result pipeline_create(virga_context *context, const char *name, vi
 virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
                                            virga_pipeline **pipeline)
 {
-    return pipeline_create(context, def->name, def->group, def, NULL, pipeline);
-}
-
-virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
-                                            virga_pipeline **pipeline)
-{
-    return pipeline_create(context, def->name, def->group, NULL, def, pipeline);
+    return pipeline_create(context, def->name, def->group, def, NULL, NULL, pipeline);
 }
 
 static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
@@ -113,11 +111,10 @@ typedef struct graphics_state {
     VkPipelineRasterizationStateCreateInfo raster;
     VkPipelineMultisampleStateCreateInfo multisample;
     VkPipelineDepthStencilStateCreateInfo depth;
-    VkPipelineColorBlendAttachmentState attachments[8];
+    VkPipelineColorBlendAttachmentState attachments[VIRGA_MAX_ATTACHMENTS];
     VkPipelineColorBlendStateCreateInfo blend;
     VkDynamicState dynamics[2];
     VkPipelineDynamicStateCreateInfo dynamic;
-    VkFormat color_formats[8];
     VkPipelineRenderingCreateInfo rendering;
 } graphics_state;
 
@@ -134,6 +131,19 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
         .alphaBlendOp = VK_BLEND_OP_ADD,
         .colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+    /* A motion vector is taken or left, as its alpha is 1 or 0; masks lie over one another. */
+    if (def->motion_attachment)
+        state->attachments[def->motion_attachment] = (VkPipelineColorBlendAttachmentState){
+            .blendEnable = VK_TRUE,
+            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT};
+    if (def->reactive_attachment)
+        state->attachments[def->reactive_attachment] =
+            (VkPipelineColorBlendAttachmentState){.blendEnable = VK_TRUE,
+                                                  .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                  .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                                  .colorWriteMask = VK_COLOR_COMPONENT_R_BIT};
     /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
     state->blend =
         (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
@@ -184,11 +194,9 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
 /* What is drawn into, where no render pass says it. */
 static void describe_rendering(const virga_graphics_def *def, graphics_state *state)
 {
-    memset(state->color_formats, 0, sizeof state->color_formats);
-    state->color_formats[0] = def->color_format;
     state->rendering = (VkPipelineRenderingCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                        .colorAttachmentCount = def->color_count,
-                                                       .pColorAttachmentFormats = state->color_formats,
+                                                       .pColorAttachmentFormats = def->color_formats,
                                                        .depthAttachmentFormat = def->depth_format,
                                                        .stencilAttachmentFormat = def->stencil_format};
 }
@@ -244,6 +252,52 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
     for (int i = 0; i < 2; i++)
         module_destroy(context, modules[i]);
     return result;
+}
+
+/* ---- outputs where the target wants them */
+
+/* As in shaders/gpu/temporal.glsl. */
+#define LOCATION_MOTION   1
+#define LOCATION_REACTIVE 2
+
+/* Of the SPIR-V specification: words of the header, opcodes, a decoration and a storage class. */
+enum { SPIRV_HEADER_WORDS = 5, OP_VARIABLE = 59, OP_DECORATE = 71, LOCATION = 30, OUTPUT = 3 };
+
+static bool is_output(const uint32_t *code, size_t words, uint32_t id)
+{
+    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16)
+        if ((code[at] & 0xffff) == OP_VARIABLE && code[at + 2] == id)
+            return code[at + 3] == OUTPUT;
+    return false;
+}
+
+/* Vulkan can not specialise locations, and which attachment of a pass gets what is the host's: they are changed in the
+ * code itself. It is ours, so that all of its instructions are whole. */
+static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t words)
+{
+    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16) {
+        if ((code[at] & 0xffff) != OP_DECORATE || code[at + 2] != LOCATION || !is_output(code, words, code[at + 1]))
+            continue;
+        if (code[at + 3] == LOCATION_MOTION)
+            code[at + 3] = def->motion_attachment;
+        else if (code[at + 3] == LOCATION_REACTIVE)
+            code[at + 3] = def->reactive_attachment;
+    }
+}
+
+virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
+                                            virga_pipeline **pipeline)
+{
+    virga_graphics_def changed = *def;
+    uint32_t *code = NULL;
+    if (def->motion_attachment || def->reactive_attachment) {
+        code = virga_memdup(&context->heap, def->fragment.code, def->fragment.size);
+        if (!code)
+            return virga_out_of_host_memory(context, def->name);
+        move_outputs(def, code, def->fragment.size / sizeof *code);
+        changed.fragment.code = code;
+    }
+    return pipeline_create(context, def->name, def->group, NULL, &changed, code, pipeline);
 }
 
 /* ---- the pipeline cache */

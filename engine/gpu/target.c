@@ -1,6 +1,8 @@
 /* gpu/target.c - what draws go into: a host's render pass, or its dynamic rendering. */
 #include "gpu/context.h"
 
+#include <string.h>
+
 #define TARGET_COOKIE VIRGA_COOKIE(2)
 
 virga_target_def virga_default_target_def(void)
@@ -12,18 +14,56 @@ virga_target_def virga_default_target_def(void)
                               .depth_attached = true};
 }
 
+/* An attachment for motion vectors or the reactive mask: one of the pass, not the colour's, and blended. */
+static virga_result check_extra(virga_context *context, const virga_target_def *def, uint32_t index, const char *name)
+{
+    if (!index)
+        return VIRGA_OK;
+    if (index >= def->color_count)
+        return virga_wrong_argument(&context->log, "target_def.%s: expected less than color_count (%u), got %u", name,
+                                    def->color_count, index);
+    const VkFormat format = def->color_formats[index];
+    if (format == VK_FORMAT_UNDEFINED && def->kind == VIRGA_TARGET_DYNAMIC)
+        return virga_wrong_argument(&context->log, "target_def.color_formats[%u]: expected a format for %s, got none",
+                                    index, name);
+    if (format == VK_FORMAT_UNDEFINED)
+        return VIRGA_OK;
+    VkFormatProperties found;
+    context->vk.GetPhysicalDeviceFormatProperties(context->physical_device, format, &found);
+    if (!(found.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
+        return virga_wrong_argument(&context->log,
+                                    "target_def.color_formats[%u]: expected a format that this device can blend for "
+                                    "%s, got VkFormat %d",
+                                    index, name, (int)format);
+    return VIRGA_OK;
+}
+
+static virga_result check_extras(virga_context *context, const virga_target_def *def)
+{
+    const virga_result result = check_extra(context, def, def->motion_attachment, "motion_attachment");
+    if (result)
+        return result;
+    if (def->reactive_attachment && def->reactive_attachment == def->motion_attachment)
+        return virga_wrong_argument(&context->log,
+                                    "target_def.reactive_attachment: expected another than "
+                                    "motion_attachment (%u)",
+                                    def->motion_attachment);
+    return check_extra(context, def, def->reactive_attachment, "reactive_attachment");
+}
+
 static virga_result check_def(const virga_log *log, const virga_target_def *def)
 {
     const virga_result result =
         virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie, TARGET_COOKIE);
     if (result)
         return result;
-    if (def->color_count < 1 || def->color_count > 8)
+    if (def->color_count < 1 || def->color_count > VIRGA_MAX_ATTACHMENTS)
         return virga_wrong_argument(log, "target_def.color_count: expected 1 to 8, got %u", def->color_count);
     if (def->kind == VIRGA_TARGET_RENDER_PASS && !def->render_pass)
         return virga_wrong_argument(log, "target_def.render_pass: expected a VkRenderPass for this kind, got none");
-    if (def->kind == VIRGA_TARGET_DYNAMIC && def->color_format == VK_FORMAT_UNDEFINED)
-        return virga_wrong_argument(log, "target_def.color_format: expected a format for dynamic rendering, got none");
+    if (def->kind == VIRGA_TARGET_DYNAMIC && def->color_formats[0] == VK_FORMAT_UNDEFINED)
+        return virga_wrong_argument(log,
+                                    "target_def.color_formats[0]: expected a format for dynamic rendering, got none");
     if (def->kind == VIRGA_TARGET_DYNAMIC && def->depth_attached && def->depth_format == VK_FORMAT_UNDEFINED)
         return virga_wrong_argument(log, "target_def.depth_format: expected a format, as depth_attached is set");
     return VIRGA_OK;
@@ -37,7 +77,9 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         return virga_wrong_argument(context ? &context->log : NULL, "virga_target_create: NULL argument");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    const virga_result result = check_def(&context->log, def);
+    virga_result result = check_def(&context->log, def);
+    if (!result)
+        result = check_extras(context, def);
     if (result)
         return result;
     virga_target *made = virga_alloc(&context->heap, sizeof *made);
@@ -58,15 +100,23 @@ void virga_target_destroy(virga_target **target)
     *target = NULL;
 }
 
+virga_target_outputs virga_target_outputs_of(const virga_target *target)
+{
+    return (virga_target_outputs)((target->def.motion_attachment ? VIRGA_OUTPUTS_MOTION : 0) |
+                                  (target->def.reactive_attachment ? VIRGA_OUTPUTS_REACTIVE : 0));
+}
+
 virga_result virga_target_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline)
 {
     const virga_target_def *into = &target->def;
     def.color_count = into->color_count;
+    def.motion_attachment = def.outputs & VIRGA_OUTPUTS_MOTION ? into->motion_attachment : 0;
+    def.reactive_attachment = def.outputs & VIRGA_OUTPUTS_REACTIVE ? into->reactive_attachment : 0;
     def.samples = into->samples;
     def.depth_test = def.depth_test && into->depth_attached;
     def.reversed_depth = into->reversed_depth;
     if (into->kind == VIRGA_TARGET_DYNAMIC) {
-        def.color_format = into->color_format;
+        memcpy(def.color_formats, into->color_formats, sizeof def.color_formats);
         def.depth_format = into->depth_format;
         def.stencil_format = into->stencil_format;
     } else {

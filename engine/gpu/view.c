@@ -14,11 +14,33 @@ virga_view virga_default_view(void)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     virga_view view = {.size = sizeof view, .cookie = VIEW_COOKIE, .shutter_s = 1.0 / 96};
+    view.temporal = (virga_temporal){.motion_scale = {1, 1}, .motion_coverage = 0.5f, .reactive_gain = 8};
     memcpy(view.view_from_world, identity, sizeof identity);
     memcpy(view.clip_from_view, identity, sizeof identity);
     memcpy(view.open_view_from_world, identity, sizeof identity);
     memcpy(view.open_clip_from_view, identity, sizeof identity);
     return view;
+}
+
+static virga_result check_temporal(const virga_log *log, const virga_temporal *temporal)
+{
+    const float *scale = temporal->motion_scale;
+    if (virga_settings_finite_double(log, "view.temporal.position_m", temporal->position_m, 3) ||
+        virga_settings_finite(log, "view.temporal.view_from_world", temporal->view_from_world, 16) ||
+        virga_settings_finite(log, "view.temporal.clip_from_view", temporal->clip_from_view, 16) ||
+        virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
+        return VIRGA_ERROR_INVALID;
+    if (!(temporal->ago_s >= 0 && temporal->ago_s <= 1))
+        return virga_wrong_argument(log, "view.temporal.ago_s: expected 0 to 1 s, got %g", temporal->ago_s);
+    if (scale[0] == 0 || scale[1] == 0)
+        return virga_wrong_argument(log, "view.temporal.motion_scale: expected other numbers than 0");
+    if (!(temporal->motion_coverage > 0 && temporal->motion_coverage <= 1))
+        return virga_wrong_argument(log, "view.temporal.motion_coverage: expected above 0 to 1, got %g",
+                                    (double)temporal->motion_coverage);
+    if (!(temporal->reactive_gain >= 0 && temporal->reactive_gain <= 64))
+        return virga_wrong_argument(log, "view.temporal.reactive_gain: expected 0 to 64, got %g",
+                                    (double)temporal->reactive_gain);
+    return VIRGA_OK;
 }
 
 virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s)
@@ -38,7 +60,7 @@ virga_result virga_view_check(const virga_log *log, const virga_view *view, doub
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
     if (view->clip_from_view[0] == 0 || view->clip_from_view[5] == 0 || view->clip_from_view[11] != -1)
         return virga_wrong_argument(log, "view.clip_from_view: expected a perspective projection with w = -z");
-    return VIRGA_OK;
+    return check_temporal(log, &view->temporal);
 }
 
 /* out = projection x rotation x translation(offset), column-major. */
@@ -130,6 +152,43 @@ static void fill_matrices(const virga_view *view, virga_view_gpu *out)
         out->open_clip_from_rel[i] = out->clip_from_rel[i] + (float)share * (open[i] - out->clip_from_rel[i]);
 }
 
+bool virga_view_has_previous(const virga_view *view)
+{
+    for (int i = 0; i < 16; i++)
+        if (view->temporal.clip_from_view[i] != 0)
+            return true;
+    return false;
+}
+
+void virga_view_previous(const virga_view *view, double position_m[3], float clip_from_rel[16])
+{
+    const double none[3] = {0, 0, 0};
+    const bool given = virga_view_has_previous(view);
+    memcpy(position_m, given ? view->temporal.position_m : view->open_position_m, sizeof none);
+    clip_from_relative(given ? view->temporal.clip_from_view : view->open_clip_from_view,
+                       given ? view->temporal.view_from_world : view->open_view_from_world, none, clip_from_rel);
+}
+
+/* Where the camera of the previous frame saw things, and when. */
+static void fill_temporal(const virga_view *view, virga_view_gpu *out)
+{
+    const virga_temporal *temporal = &view->temporal;
+    const bool given = virga_view_has_previous(view);
+    const double *position = given ? temporal->position_m : view->open_position_m;
+    const double open_s = view->open_camera_s > 0 ? view->open_camera_s : view->shutter_s;
+    double moved[3];
+    for (int i = 0; i < 3; i++)
+        moved[i] = view->position_m[i] - position[i];
+    clip_from_relative(given ? temporal->clip_from_view : view->open_clip_from_view,
+                       given ? temporal->view_from_world : view->open_view_from_world, moved,
+                       out->previous_clip_from_rel);
+    out->ago_s = (float)(temporal->ago_s > 0 ? temporal->ago_s : open_s);
+    memcpy(out->motion_scale, temporal->motion_scale, sizeof out->motion_scale);
+    out->motion_coverage = temporal->motion_coverage;
+    out->reactive_gain = temporal->reactive_gain;
+    out->motion_given = temporal->motion.view != VK_NULL_HANDLE;
+}
+
 void virga_view_fill(const virga_view *view, const virga_lighting *lighting, const double origin_m[3], double state_s,
                      double time_s, virga_view_gpu *out)
 {
@@ -137,6 +196,7 @@ void virga_view_fill(const virga_view *view, const virga_lighting *lighting, con
     out->light_gain = 1;
     out->min_width_px = 1;
     fill_matrices(view, out);
+    fill_temporal(view, out);
     fill_rays(view, out);
     for (int i = 0; i < 3; i++)
         out->origin_offset[i] = (float)(origin_m[i] - view->position_m[i]);

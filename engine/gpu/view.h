@@ -10,6 +10,12 @@
 /* VIRGA_OK, or VIRGA_ERROR_INVALID with a line for what is not a view, or a time that is not finite. */
 virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s);
 
+/* Whether the camera of the previous frame is given; else it is the open one. */
+bool virga_view_has_previous(const virga_view *view);
+
+/* Where the camera of the previous frame was, and clip coordinates of positions relative to it. */
+void virga_view_previous(const virga_view *view, double position_m[3], float clip_from_rel[16]);
+
 /* What a view sees at `time_s` of a state that is of `state_s` and has positions relative to `origin_m`. View and
  * lighting have been checked. Writes all of *out; what is marked (look) there gets neutral values, which the effect
  * replaces by those of its own settings. */

@@ -133,7 +133,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
     return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
                     (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)def.max_streaks * (sizeof(virga_streak_gpu) + 48) + maps + def.max_panes * rain_hits_bytes() +
+           (VkDeviceSize)def.max_streaks * (RAIN_STREAK_BYTES + 48) + maps + def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
@@ -160,7 +160,7 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
          device, "rain.impacts"},
         {&rain->pick_buffer, VIRGA_PICK_BYTES(slots), storage, device, "rain.picks"},
         {&rain->list_buffer, sizeof(virga_list_gpu) + slots * sizeof(uint32_t), indirect, device, "rain.list"},
-        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * sizeof(virga_streak_gpu),
+        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * RAIN_STREAK_BYTES,
          storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, device, "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
         {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
@@ -305,7 +305,7 @@ virga_result virga_rain_create(virga_context *context, const virga_rain_def *def
     /* Vertex shaders read a streak as texels. */
     const uint32_t texels = context->properties.limits.maxTexelBufferElements;
     checked.max_streaks = virga_clamp_setting_u32(&context->log, "rain_def.max_streaks", checked.max_streaks, 256,
-                                                  texels / (uint32_t)(sizeof(virga_streak_gpu) / 16), NULL);
+                                                  texels / (RAIN_STREAK_BYTES / 16), NULL);
     virga_rain *made = NULL;
     result = make_in_budget(context, &checked, &made);
     if (result < 0)

@@ -4,9 +4,17 @@
 #include "shaders/rain_haze_frag.spv.h"
 #include "shaders/rain_haze_vert.spv.h"
 #include "shaders/rain_streak_thin_frag.spv.h"
+#include "shaders/rain_streak_thin_frag_both.spv.h"
+#include "shaders/rain_streak_thin_frag_motion.spv.h"
+#include "shaders/rain_streak_thin_frag_reactive.spv.h"
 #include "shaders/rain_streak_thin_vert.spv.h"
+#include "shaders/rain_streak_thin_vert_motion.spv.h"
 #include "shaders/rain_streak_wide_frag.spv.h"
+#include "shaders/rain_streak_wide_frag_both.spv.h"
+#include "shaders/rain_streak_wide_frag_motion.spv.h"
+#include "shaders/rain_streak_wide_frag_reactive.spv.h"
 #include "shaders/rain_streak_wide_vert.spv.h"
+#include "shaders/rain_streak_wide_vert_motion.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -67,6 +75,15 @@ static void fill_haze(const virga_rain *rain, rain_view_block *out)
     out->look.haze_inner_m = (float)(0.5 * ldexp(rain->classes->side_m, 1 - (int)rain->levels));
 }
 
+/* Whether any target has motion vectors, so that prepare has to find those of streaks. */
+static bool wants_motion(const virga_rain *rain)
+{
+    for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++)
+        if (rain->targets[i].serial && rain->targets[i].motion)
+            return true;
+    return false;
+}
+
 static void fill_look(const virga_rain *rain, rain_view_block *out)
 {
     const virga_rain_settings *settings = &rain->settings;
@@ -79,6 +96,7 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->look.bodies_min_m = settings->bodies_min_mm * 1e-3f;
     fill_haze(rain, out);
     out->look.max_streaks = rain->def.max_streaks;
+    out->look.motion = wants_motion(rain);
 }
 
 static void fill_view(const virga_rain *rain, const virga_view *view, double time_s, rain_view_block *out)
@@ -197,23 +215,27 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
         return virga_wrong_argument(&rain->context->log, "virga_rain_attach: more than %d targets",
                                     VIRGA_RAIN_MAX_TARGETS);
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true};
+    const virga_target_outputs outputs = virga_target_outputs_of(target);
+    virga_graphics_def def = {
+        .layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
     for (uint32_t depth = 0; depth < 2; depth++) {
         def.constant = depth;
-        def.vertex = VIRGA_SPIRV(rain_streak_thin_vert);
-        def.fragment = VIRGA_SPIRV(rain_streak_thin_frag);
+        def.vertex = VIRGA_VERTEX_FORM(rain_streak_thin_vert, outputs);
+        def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_thin_frag, outputs);
         def.name = "rain.thin_streaks";
         TRY(virga_target_pipeline(target, def, &slot->thin[depth]));
-        def.vertex = VIRGA_SPIRV(rain_streak_wide_vert);
-        def.fragment = VIRGA_SPIRV(rain_streak_wide_frag);
+        def.vertex = VIRGA_VERTEX_FORM(rain_streak_wide_vert, outputs);
+        def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_wide_frag, outputs);
         def.name = "rain.wide_streaks";
         TRY(virga_target_pipeline(target, def, &slot->wide[depth]));
     }
     def.vertex = VIRGA_SPIRV(rain_haze_vert);
     def.fragment = VIRGA_SPIRV(rain_haze_frag);
+    def.outputs = VIRGA_OUTPUTS_COLOR; /* haze moves with what it lies over */
     def.depth_test = false;
     def.name = "rain.haze";
     TRY(virga_target_pipeline(target, def, &slot->haze));
+    slot->motion = outputs & VIRGA_OUTPUTS_MOTION;
     slot->serial = target->serial;
     return VIRGA_OK;
 error:

@@ -87,7 +87,11 @@ typedef struct rain_target {
     uint64_t serial;                   /* of the virga_target; 0: free */
     virga_pipeline *thin[2], *wide[2]; /* without and with the scene's depth to read */
     virga_pipeline *haze;
+    bool motion; /* it has motion vectors */
 } rain_target;
+
+/* A streak, and behind all of them its motion: four texels and one. */
+#define RAIN_STREAK_BYTES ((uint32_t)sizeof(virga_streak_gpu) + 16)
 
 enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 

@@ -127,7 +127,7 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * splash_tick_bytes() +
                                                        splash_rules_bytes() + SPLASH_MAX_VIEWS * splash_view_bytes()) +
            VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def.max_droplets + def.max_splashes)) +
-           (VkDeviceSize)splash_max_sprites(&def) * (sizeof(virga_sprite_gpu) + 4) + splash_index_bytes(&def);
+           (VkDeviceSize)splash_max_sprites(&def) * (SPLASH_SPRITE_BYTES + 4) + splash_index_bytes(&def);
 }
 
 /* ---- creating */
@@ -157,7 +157,7 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
          VIRGA_HEAP_DEVICE, "splash.picks"},
         {&splash->lists, 2 * sizeof(virga_list_gpu) + ((VkDeviceSize)sprites + splash_max_crowns(def)) * 4, indirect,
          VIRGA_HEAP_DEVICE, "splash.lists"},
-        {&splash->sprites, sprites * sizeof(virga_sprite_gpu), storage, VIRGA_HEAP_DEVICE, "splash.sprites"},
+        {&splash->sprites, sprites * SPLASH_SPRITE_BYTES, storage, VIRGA_HEAP_DEVICE, "splash.sprites"},
         {&splash->prepared_buffer, sizeof(virga_splash_prepared_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.prepared"},
         {&splash->index_buffer, splash_index_bytes(def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "splash.indices"},

@@ -2,13 +2,29 @@
 #include "splash/splash_internal.h"
 
 #include "shaders/splash_crown_frag.spv.h"
+#include "shaders/splash_crown_frag_both.spv.h"
+#include "shaders/splash_crown_frag_motion.spv.h"
+#include "shaders/splash_crown_frag_reactive.spv.h"
 #include "shaders/splash_crown_pyramid_vert.spv.h"
+#include "shaders/splash_crown_pyramid_vert_motion.spv.h"
 #include "shaders/splash_crown_vert.spv.h"
+#include "shaders/splash_crown_vert_motion.spv.h"
 #include "shaders/splash_pile_pyramid_vert.spv.h"
+#include "shaders/splash_pile_pyramid_vert_motion.spv.h"
 #include "shaders/splash_pyramid_frag.spv.h"
+#include "shaders/splash_pyramid_frag_both.spv.h"
+#include "shaders/splash_pyramid_frag_motion.spv.h"
+#include "shaders/splash_pyramid_frag_reactive.spv.h"
 #include "shaders/splash_sprite_thin_frag.spv.h"
+#include "shaders/splash_sprite_thin_frag_both.spv.h"
+#include "shaders/splash_sprite_thin_frag_motion.spv.h"
+#include "shaders/splash_sprite_thin_frag_reactive.spv.h"
 #include "shaders/splash_sprite_vert.spv.h"
+#include "shaders/splash_sprite_vert_motion.spv.h"
 #include "shaders/splash_sprite_wide_frag.spv.h"
+#include "shaders/splash_sprite_wide_frag_both.spv.h"
+#include "shaders/splash_sprite_wide_frag_motion.spv.h"
+#include "shaders/splash_sprite_wide_frag_reactive.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,9 +50,18 @@ static float handedness(const float clip_from_rel[16])
 {
     const float *m = clip_from_rel; /* columns */
     const float x[3] = {m[0], m[4], m[8]}, y[3] = {m[1], m[5], m[9]}, w[3] = {m[3], m[7], m[11]};
-    const float volume = x[0] * (y[1] * w[2] - y[2] * w[1]) - x[1] * (y[0] * w[2] - y[2] * w[0]) +
-                         x[2] * (y[0] * w[1] - y[1] * w[0]);
+    const float volume =
+        x[0] * (y[1] * w[2] - y[2] * w[1]) - x[1] * (y[0] * w[2] - y[2] * w[0]) + x[2] * (y[0] * w[1] - y[1] * w[0]);
     return volume < 0 ? -1.0f : 1.0f;
+}
+
+/* Whether any target has motion vectors, so that prepare has to find those of sprites. */
+static bool wants_motion(const virga_splash *splash)
+{
+    for (uint32_t i = 0; i < SPLASH_MAX_TARGETS; i++)
+        if (splash->targets[i].serial && splash->targets[i].motion)
+            return true;
+    return false;
 }
 
 static void fill_view(const virga_splash *splash, const virga_view *view, double time_s, splash_view_block *out)
@@ -56,6 +81,7 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .max_sprites = splash_max_sprites(&splash->def),
                                         .max_crowns = splash_max_crowns(&splash->def),
                                         .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
+                                        .motion = wants_motion(splash),
                                         .handed = handedness(out->view.clip_from_rel)};
 }
 
@@ -172,6 +198,25 @@ void splash_targets_destroy(virga_splash *splash)
         target_clear(splash, &splash->targets[i]);
 }
 
+typedef struct draw_row {
+    virga_spirv vertex, fragment;
+    const char *name;
+} draw_row;
+
+static void list_draws(virga_target_outputs outputs, draw_row rows[SPLASH_DRAWS])
+{
+    const virga_spirv sprite = VIRGA_VERTEX_FORM(splash_sprite_vert, outputs);
+    const virga_spirv pyramid = VIRGA_FRAGMENT_FORM(splash_pyramid_frag, outputs);
+    rows[SPLASH_DRAW_THIN] = (draw_row){sprite, VIRGA_FRAGMENT_FORM(splash_sprite_thin_frag, outputs), "splash.thin"};
+    rows[SPLASH_DRAW_WIDE] = (draw_row){sprite, VIRGA_FRAGMENT_FORM(splash_sprite_wide_frag, outputs), "splash.wide"};
+    rows[SPLASH_DRAW_SHEETS] = (draw_row){VIRGA_VERTEX_FORM(splash_crown_vert, outputs),
+                                          VIRGA_FRAGMENT_FORM(splash_crown_frag, outputs), "splash.sheets"};
+    rows[SPLASH_DRAW_PILES] =
+        (draw_row){VIRGA_VERTEX_FORM(splash_pile_pyramid_vert, outputs), pyramid, "splash.pile_pyramids"};
+    rows[SPLASH_DRAW_CROWNS] =
+        (draw_row){VIRGA_VERTEX_FORM(splash_crown_pyramid_vert, outputs), pyramid, "splash.crown_pyramids"};
+}
+
 virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)
 {
     if (!splash)
@@ -186,20 +231,12 @@ virga_result virga_splash_attach(virga_splash *splash, const virga_target *targe
     splash_target *slot = find_target(splash, 0);
     if (!slot)
         return virga_wrong_argument(log, "virga_splash_attach: more than %d targets", SPLASH_MAX_TARGETS);
-    const struct {
-        virga_spirv vertex, fragment;
-        const char *name;
-    } rows[SPLASH_DRAWS] = {
-        [SPLASH_DRAW_THIN] = {VIRGA_SPIRV(splash_sprite_vert), VIRGA_SPIRV(splash_sprite_thin_frag), "splash.thin"},
-        [SPLASH_DRAW_WIDE] = {VIRGA_SPIRV(splash_sprite_vert), VIRGA_SPIRV(splash_sprite_wide_frag), "splash.wide"},
-        [SPLASH_DRAW_SHEETS] = {VIRGA_SPIRV(splash_crown_vert), VIRGA_SPIRV(splash_crown_frag), "splash.sheets"},
-        [SPLASH_DRAW_PILES] = {VIRGA_SPIRV(splash_pile_pyramid_vert), VIRGA_SPIRV(splash_pyramid_frag),
-                               "splash.pile_pyramids"},
-        [SPLASH_DRAW_CROWNS] = {VIRGA_SPIRV(splash_crown_pyramid_vert), VIRGA_SPIRV(splash_pyramid_frag),
-                                "splash.crown_pyramids"},
-    };
+    const virga_target_outputs outputs = virga_target_outputs_of(target);
+    draw_row rows[SPLASH_DRAWS];
+    list_draws(outputs, rows);
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.layout = splash->bindings->layout, .blend_premultiplied = true, .depth_test = true};
+    virga_graphics_def def = {
+        .layout = splash->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
     for (uint32_t i = 0; i < SPLASH_DRAWS * 2; i++) {
         def.constant = i % 2;
         def.vertex = rows[i / 2].vertex;
@@ -208,6 +245,7 @@ virga_result virga_splash_attach(virga_splash *splash, const virga_target *targe
         def.cull_back = i / 2 == SPLASH_DRAW_PILES || i / 2 == SPLASH_DRAW_CROWNS;
         TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
     }
+    slot->motion = outputs & VIRGA_OUTPUTS_MOTION;
     slot->serial = target->serial;
     return VIRGA_OK;
 error:

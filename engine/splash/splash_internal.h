@@ -45,7 +45,11 @@ enum {
 typedef struct splash_target {
     uint64_t serial;                         /* of the virga_target; 0: free */
     virga_pipeline *draws[SPLASH_DRAWS][2];  /* without and with the scene's depth to read */
+    bool motion;                             /* it has motion vectors */
 } splash_target;
+
+/* A sprite, and behind all of them its motion. */
+#define SPLASH_SPRITE_BYTES (sizeof(virga_sprite_gpu) + 16)
 
 struct virga_splash {
     virga_context *context;

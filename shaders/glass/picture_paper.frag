@@ -9,18 +9,27 @@
 #include "picture_surface.glsl"
 #include "picture_plate.glsl"
 #include "picture_path.glsl"
+#include "picture_temporal.glsl"
 
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
     const Water water = water_here();
+    const vec2 pixel = paper_pixel(water);
+#ifdef TEMPORAL
+    const mat2 change = mat2(dFdx(pixel), dFdy(pixel)); // while all pixels of a quad are there
+#endif
     if (water.cover + water.mist <= 0.0 || behind_scene())
         discard;
-    const vec2 pixel = paper_pixel(water), size = vec2(view.viewport[2], view.viewport[3]);
+    const vec2 size = vec2(view.viewport[2], view.viewport[3]);
     const vec2 mirrored = vec2(view.viewport[0], view.viewport[1]) + paper_uv(pixel) * size;
     const vec3 light = view.color_given != 0u ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
                                               : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
     const float alpha = water.cover + water.mist;
     radiance = vec4(light * alpha, alpha);
+#ifdef TEMPORAL
+    const vec2 shown_was = water_before() + pixel - gl_FragCoord.xy;
+    write_temporal(motion_in_water(change, scene_before(pixel), shown_was), alpha);
+#endif
 }

@@ -98,6 +98,19 @@ void find_under(inout Path path, vec3 d, vec3 flat_normal, float height)
     path.ahead = on_picture(vec4(path.from + under, 1.0), path.pixel);
 }
 
+// From the side that the pane is seen from.
+void pass_through(inout Path path, vec3 d, vec3 flat_normal)
+{
+    if (SIDE == VIRGA_GLASS_DRAW_BEHIND)
+        pass_outward(path, d, flat_normal);
+    else if (SIDE == VIRGA_GLASS_DRAW_BEFORE)
+        pass_inward(path, d, flat_normal);
+    else if (dot(d, flat_normal) > 0.0)
+        pass_outward(path, d, flat_normal);
+    else
+        pass_inward(path, d, flat_normal);
+}
+
 // On what is not glass: `opaque` as the pipeline or the settings say.
 Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
 {
@@ -112,14 +125,7 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     }
     if (HAS_DEPTH)
         path.from += glass_shift(d, flat_normal);
-    if (SIDE == VIRGA_GLASS_DRAW_BEHIND)
-        pass_outward(path, d, flat_normal);
-    else if (SIDE == VIRGA_GLASS_DRAW_BEFORE)
-        pass_inward(path, d, flat_normal);
-    else if (dot(d, flat_normal) > 0.0)
-        pass_outward(path, d, flat_normal);
-    else
-        pass_inward(path, d, flat_normal);
+    pass_through(path, d, flat_normal);
     if (HAS_DEPTH)
         find_pixel(path, d, scene_distance(d));
     else

@@ -8,6 +8,7 @@
 #include "picture_surface.glsl"
 #include "picture_plate.glsl"
 #include "picture_path.glsl"
+#include "picture_temporal.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -75,11 +76,21 @@ void main()
 {
     const Water water = water_here();
     const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
+    const vec3 d = normalize(position);
+#ifdef TEMPORAL
+    const Path path = path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE);
+    const mat2 change = mat2(dFdx(path.pixel), dFdy(path.pixel)); // while all pixels of a quad are there
+#endif
     if (water.cover + water.mist <= 0.0 || behind_scene())
         discard;
-    const vec3 d = normalize(position);
     if (SIDE == VIRGA_GLASS_DRAW_OPAQUE && dot(d, cross(along_u, along_v)) > 0.0)
         discard; // the back of what is not glass
-    const vec3 light = shown(path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE), d);
+#ifdef TEMPORAL
+    write_temporal(moves_inside(path, water) ? motion_in_water(change, scene_before(path.pixel), shown_before(path, d))
+                                             : vec2(0.0), water.cover + water.mist);
+#else
+    const Path path = path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE);
+#endif
+    const vec3 light = shown(path, d);
     radiance = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
 }

@@ -5,6 +5,16 @@
 
 vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
 
+// How far it is, in pixels, from where something is on the picture now to where it was in the previous frame's. What the
+// camera had not before it then has not moved.
+vec2 motion_px(vec4 now, vec4 before)
+{
+    if (now.w < NEAR_W || before.w < NEAR_W)
+        return vec2(0.0);
+    const vec2 moved = 0.5 * (before.xy / before.w - now.xy / now.w) * vec2(view.viewport[2], view.viewport[3]);
+    return clamp(moved, vec2(-16384.0), vec2(16384.0)); // within the range of half floats
+}
+
 // Moves the end `a` of a line in clip coordinates to the near plane if it is before it and the other end is not.
 void cut_at_near_plane(inout vec4 a, vec4 b)
 {

@@ -17,6 +17,8 @@ layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
 layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
+// The same buffer: behind `max_streaks` streaks of four texels each lies a texel for each one's motion.
+layout(scalar, set = 0, binding = 7) writeonly buffer Motions { vec4 motions[]; };
 
 #define MOST_COVERAGE 0.25 // of a streak that stands for many: what it would cover beyond is haze, see rain_draw.c
 
@@ -86,7 +88,21 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
     streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * look.oscillation);
 }
 
-virga_streak_gpu make_streak(uint slot_index)
+// From where the drop's way is on the picture to where it was when the previous frame was drawn: the whole streak, which
+// has gone on by what the drop has in between.
+void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
+{
+    if (look.motion == 0u)
+        return;
+    const mat4 now = to_mat(view.clip_from_rel), before = to_mat(view.previous_clip_from_rel);
+    const vec3 way = velocity * view.ago_s;
+    const vec4 clip_head = project(now, head), clip_tail = project(now, tail);
+    const vec2 at_head = motion_px(clip_head, project(before, head - way));
+    const vec2 at_tail = clip_tail.w < NEAR_W ? at_head : motion_px(clip_tail, project(before, tail - way));
+    motions[4u * look.max_streaks + index] = vec4(at_head, at_tail);
+}
+
+virga_streak_gpu make_streak(uint slot_index, uint index)
 {
     virga_streak_gpu streak = empty_streak();
     const uint class_rank = slots[slot_index].class_rank;
@@ -125,6 +141,7 @@ virga_streak_gpu make_streak(uint slot_index)
     streak.distance = float[2](clip_head.w, clip_tail.w);
     streak.width_alpha = halves(max(width_px, view.min_width_px), coverage(width_px, body_px, length(way) / kept, weight));
     streak.id = drop.id;
+    write_motion(index, head, tail, velocity);
     set_light(streak, 0.5 * (head + tail));
     set_wave(streak, mm, body_px, kept);
     return streak;
@@ -133,5 +150,5 @@ virga_streak_gpu make_streak(uint slot_index)
 void main()
 {
     if (gl_GlobalInvocationID.x < list.count)
-        streaks[gl_GlobalInvocationID.x] = make_streak(listed[gl_GlobalInvocationID.x]);
+        streaks[gl_GlobalInvocationID.x] = make_streak(listed[gl_GlobalInvocationID.x], gl_GlobalInvocationID.x);
 }

@@ -5,6 +5,9 @@
 // vertices cost software Vulkan half as much again. The buffer is read as texels: those are fetched for eight vertices
 // at once there, and a storage buffer word by word and vertex by vertex.
 layout(set = 0, binding = 17) uniform usamplerBuffer streaks; // a virga_streak_gpu is four texels
+#ifdef MOTION
+layout(location = 4) noperspective out vec2 motion; // px, see prepare_write.comp
+#endif
 
 struct Streak {
     vec3 centre, rim; // radiance
@@ -50,6 +53,10 @@ Streak streak_corner(uint vertex)
     const vec2 corner = (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // The same w at all corners, so that everything is interpolated without perspective.
     const float depth = uintBitsToFloat(at_head ? depths.x : depths.y);
+#ifdef MOTION
+    const vec4 motions = uintBitsToFloat(texelFetch(streaks, int(4u * look.max_streaks + (vertex >> 2))));
+    motion = at_head ? motions.xy : motions.zw;
+#endif
     streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     return streak;
 }

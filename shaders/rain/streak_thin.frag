@@ -21,4 +21,6 @@ void main()
     if (HAS_DEPTH)
         alpha *= soft_edge(place.w);
     radiance = vec4(light_alpha.rgb * streak_wave(place.z, shape.z) * alpha, alpha);
+    WRITE_MOTION(motion, alpha);
+    WRITE_REACTIVE(alpha, view.reactive_gain);
 }

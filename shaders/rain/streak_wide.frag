@@ -60,4 +60,6 @@ void main()
     const float show = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
     light = mix(light, wide_light(place.x / half_width, along, direction, d) + lamps, show);
     radiance = vec4(light * streak_wave(place.z, rim_wave.w) * alpha, alpha);
+    WRITE_MOTION(motion, alpha);
+    WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -59,6 +59,9 @@ struct virga_glass_picture_gpu {
     uint max_entries;       /* of the tiles' lists, all together */
     uint written_columns;   /* tiles in a row of the list that says what the map holds of them, see below */
     uint masked;            /* the pane has a mask */
+    float previous_from_here[16]; /* to the previous frame's clip coordinates, from where something is relative to the
+                                   * camera that has kept its place on the pane */
+    float eye_before[3];    /* where the camera was then, likewise */
 };
 
 /* What the map holds of a tile: the lowest bit: anything; the next four: each quarter that has something to show; and the next

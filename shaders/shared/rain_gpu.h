@@ -94,6 +94,7 @@ struct virga_rain_look_gpu {
     float haze_inner_m;  /* radius of the innermost box; each next one is twice as wide */
     float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
     uint max_streaks;
+    uint motion;         /* 1: motions are written behind the streaks, a vec4 each: of head and tail (px) */
 };
 
 /* A pane that drops are caught on, at the end of a step. */
@@ -157,7 +158,7 @@ VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 72);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 76);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);

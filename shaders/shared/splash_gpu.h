@@ -95,6 +95,7 @@ struct virga_splash_look_gpu {
     uint max_sprites;
     uint max_crowns;
     uint physical;
+    uint motion;         /* 1: motions are written behind the sprites, a vec4 each: of head and tail (px) */
     float handed;        /* 1, or -1 where the picture is mirrored: which way round faces are the front */
 };
 
@@ -143,7 +144,7 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_PYRAMIDS 10
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 40);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 44);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 84);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);

@@ -46,6 +46,12 @@ struct virga_view_gpu {
     float phase_moment[3];
     float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
     virga_light_gpu lights[VIRGA_MAX_LIGHTS];
+    float previous_clip_from_rel[16]; /* from the same positions, to where the camera of the previous frame saw them */
+    float ago_s;                  /* from then to the shutter's end */
+    float motion_scale[2];
+    float motion_coverage;        /* what covers less leaves the motion vector that is there */
+    float reactive_gain;
+    uint motion_given;
 };
 
 #ifndef VIRGA_GLSL

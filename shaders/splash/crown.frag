@@ -16,6 +16,10 @@ layout(scalar, set = 0, binding = 1) uniform View
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "through.glsl"
+#include "gpu/temporal.glsl"
+#ifdef MOTION
+layout(location = 3) in vec3 before; // in the previous frame's clip coordinates: x, y, w
+#endif
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;
 layout(location = 0) in vec3 position;
@@ -40,4 +44,6 @@ void main()
     const vec3 light = mirror * environment(reflect(d, n), vec2(1.0)) + (1.0 - mirror) * thick * behind + glitter;
     const float there = clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
     radiance = vec4(light * there, body * there);
+    WRITE_MOTION(motion_from(before), body * there);
+    WRITE_REACTIVE(body * there, view.reactive_gain);
 }

@@ -13,11 +13,34 @@ layout(location = 0) out vec3 position; // relative to the camera
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 sheet;    // up its height [0; 1]; share of time that it is there; coverage; view depth
 
+#ifdef MOTION
+layout(location = 3) out vec3 before; // in the previous frame's clip coordinates: x, y, w
+#endif
+
 struct Shape {
     Crown crown;
     vec3 side, across;
-    float height, fingers, turn;
+    float height, low, fingers, turn; // m: as it is drawn, and as it is at the least while the shutter is open
 };
+
+// As it was `ago_s` before the time drawn.
+Shape shape_of(virga_splash_gpu splash, float ago_s)
+{
+    const Crown now = crown_at(splash, view.time_close_s - ago_s), open = crown_at(splash, view.time_open_s - ago_s);
+    Shape s;
+    s.crown = now;
+    // A disk is as it is now; a sheet reaches as high as it did at either end of the shutter.
+    const bool disk = now.model == VIRGA_SPLASH_DISK;
+    if (open.height > now.height && !disk)
+        s.crown.radius = open.radius;
+    s.height = disk ? now.height : max(now.height, open.height);
+    s.low = min(now.height, open.height);
+    s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0) : vec3(now.normal.z, 0.0, -now.normal.x));
+    s.across = cross(s.side, now.normal);
+    s.fingers = float(clamp(now.droplets, 7u, 11u));
+    s.turn = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
+    return s;
+}
 
 // A point at an angle and a share of the height.
 vec3 sheet_point(Shape s, float angle, float up)
@@ -43,18 +66,9 @@ void main()
         return;
     }
     const virga_splash_gpu splash = splashes[slot];
-    const Crown now = crown_at(splash, view.time_close_s), before = crown_at(splash, view.time_open_s);
-    Shape s;
-    s.crown = now;
-    // A disk is as it is now; a sheet reaches as high as it did at either end of the shutter.
+    const Shape s = shape_of(splash, 0.0);
+    const Crown now = s.crown;
     const bool disk = now.model == VIRGA_SPLASH_DISK;
-    if (before.height > now.height && !disk)
-        s.crown.radius = before.radius;
-    s.height = disk ? now.height : max(now.height, before.height);
-    s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0) : vec3(now.normal.z, 0.0, -now.normal.x));
-    s.across = cross(s.side, now.normal);
-    s.fingers = float(clamp(now.droplets, 7u, 11u));
-    s.turn = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
     // Columns in turns left and right of the farthest from the camera.
     const uint vertex = uint(gl_VertexIndex), column = vertex >> 5, j = column >> 1;
     const int from = (column & 1u) == 0u ? int(j) : -int(j) - 1;
@@ -68,10 +82,14 @@ void main()
     normal = cross(around, upward);
     normal = dot(normal, normal) > 0.0 ? normalize(normal) : now.normal;
     position = now.centre + p;
+#ifdef MOTION
+    const Shape then = shape_of(splash, view.ago_s);
+    before = project(to_mat(view.previous_clip_from_rel), then.crown.centre + sheet_point(then, angle, up)).xyw;
+#endif
     // The upper part is there for the share of time that the sheet is as high.
-    const float low = min(now.height, before.height) / max(s.height, 1e-6);
-    const float there = now.model == VIRGA_SPLASH_DISK || low >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - low) + 0.25, 0.0, 1.0);
-    const float fade = now.model == VIRGA_SPLASH_DISK ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
+    const float low = s.low / max(s.height, 1e-6);
+    const float there = disk || low >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - low) + 0.25, 0.0, 1.0);
+    const float fade = disk ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
     gl_Position = project(to_mat(view.clip_from_rel), position);
     const bool seen = s.height > 0.0;
     sheet = vec4(up, there, fade * near_fade(now.centre) * min(now.weight, 1.0) * min(look.gain, 4.0), gl_Position.w);

@@ -6,6 +6,9 @@
 
 layout(location = 0) out vec3 position; // relative to the camera
 layout(location = 1) flat out vec2 shade; // coverage; -
+#ifdef MOTION
+layout(location = 2) out vec3 before; // in the previous frame's clip coordinates: x, y, w
+#endif
 
 // A corner of a pyramid: 0 to 3 its foot, 4 its tip.
 vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
@@ -18,13 +21,14 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
     return base + half_foot * (((corner + 1u) & 2u) == 0u ? side : -side) + half_foot * ((corner & 2u) == 0u ? across : -across);
 }
 
-vec3 crown_corner(uint pyramid, uint corner)
+// Both as they were `ago_s` before the time drawn.
+vec3 crown_corner(uint pyramid, uint corner, float ago_s)
 {
     const uint slot = splash_place(listed[look.max_sprites + pyramid / VIRGA_CROWN_PYRAMIDS]);
     if (slot == NO_PLACE)
         return vec3(0.0);
     const virga_splash_gpu splash = splashes[slot];
-    const Crown crown = crown_at(splash, view.time_close_s);
+    const Crown crown = crown_at(splash, view.time_close_s - ago_s);
     const uint spoke = pyramid % VIRGA_CROWN_PYRAMIDS;
     const float angle = 6.2831853 * (float(spoke) + virga_unit(virga_hash2(crown.random, 5u))) / float(VIRGA_CROWN_PYRAMIDS);
     const vec3 side = normalize(abs(crown.normal.y) > 0.7 ? vec3(crown.normal.y, -crown.normal.x, 0.0)
@@ -38,24 +42,32 @@ vec3 crown_corner(uint pyramid, uint corner)
     return corner_of(base, tip, height > 0.0 ? 0.28 * crown.diameter : 0.0, corner);
 }
 
-vec3 pile_corner(uint pyramid, uint corner)
+vec3 pile_corner(uint pyramid, uint corner, float ago_s)
 {
     const uint slot = slot_of(listed[pyramid]).place;
     if (slot == NO_PLACE)
         return vec3(0.0);
     const virga_droplet_gpu droplet = droplets[slot];
-    const vec4 tip = pile_tip(droplet, view.time_close_s);
+    const vec4 tip = pile_tip(droplet, view.time_close_s - ago_s);
     const float half_foot = droplet.diameter_m * (is_upright(droplet) ? 1.5 : 0.7);
     return corner_of(base_of(droplet), tip.xyz, half_foot * tip.w, corner);
+}
+
+vec3 pyramid_corner(uint pyramid, uint corner, float ago_s)
+{
+#ifdef CROWNS
+    return crown_corner(pyramid, corner, ago_s);
+#else
+    return pile_corner(pyramid, corner, ago_s);
+#endif
 }
 
 void main()
 {
     const uint vertex = uint(gl_VertexIndex);
-#ifdef CROWNS
-    position = crown_corner(vertex >> 3, vertex & 7u);
-#else
-    position = pile_corner(vertex >> 3, vertex & 7u);
+    position = pyramid_corner(vertex >> 3, vertex & 7u, 0.0);
+#ifdef MOTION
+    before = project(to_mat(view.previous_clip_from_rel), pyramid_corner(vertex >> 3, vertex & 7u, view.ago_s)).xyw;
 #endif
     shade = vec2(0.6 * min(look.gain, 1.6) * near_fade(position), 0.0);
     gl_Position = project(to_mat(view.clip_from_rel), position);

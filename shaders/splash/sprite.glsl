@@ -56,12 +56,13 @@ Sprite empty_sprite()
     return sprite;
 }
 
-Sprite droplet_sprite(virga_droplet_gpu droplet)
+// All of these as they were `ago_s` before the time drawn, 0 for now.
+Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
 {
     Sprite sprite = empty_sprite();
     const bool rests = (droplet.kind & VIRGA_DROPLET_ALIVE) == 0u || droplet.age_s + view.time_close_s <= 0.0;
-    sprite.head = droplet_at(droplet, view.time_close_s);
-    sprite.tail = is_film() ? droplet_at(droplet, view.time_open_s) : sprite.head;
+    sprite.head = droplet_at(droplet, view.time_close_s - ago_s);
+    sprite.tail = is_film() ? droplet_at(droplet, view.time_open_s - ago_s) : sprite.head;
     sprite.moves = is_film();
     sprite.widths = vec2(droplet.diameter_m);
     sprite.body = droplet.diameter_m;
@@ -77,10 +78,10 @@ vec2 pile_widths(virga_droplet_gpu droplet, float left)
     return droplet.diameter_m * vec2(0.7, foot) * (is_upright(droplet) ? 1.0 : sqrt(left));
 }
 
-Sprite pile_sprite(virga_droplet_gpu droplet)
+Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
 {
     Sprite sprite = empty_sprite();
-    const vec4 now = pile_tip(droplet, view.time_close_s), before = pile_tip(droplet, view.time_open_s);
+    const vec4 now = pile_tip(droplet, view.time_close_s - ago_s), before = pile_tip(droplet, view.time_open_s - ago_s);
     const vec3 base = base_of(droplet);
     const float now_m = distance(now.xyz, base) * step(1e-4, now.w), before_m = distance(before.xyz, base) * step(1e-4, before.w);
     const bool longer = now_m >= before_m;
@@ -101,11 +102,11 @@ Sprite pile_sprite(virga_droplet_gpu droplet)
 
 // A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they are
 // not followed one by one (a seventh of the drop's water in a dozen of them).
-Sprite puff_sprite(virga_splash_gpu splash)
+Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 {
     Sprite sprite = empty_sprite();
-    const Crown crown = crown_at(splash, 0.5 * (view.time_close_s + view.time_open_s));
-    const float age = max(splash_age(splash, view.time_close_s), 0.0), t = age / splash.life_s;
+    const Crown crown = crown_at(splash, 0.5 * (view.time_close_s + view.time_open_s) - ago_s);
+    const float age = max(splash_age(splash, view.time_close_s - ago_s), 0.0), t = age / splash.life_s;
     const bool alone = crown.droplets == 0u && crown.model != VIRGA_SPLASH_DOT && crown.model != VIRGA_SPLASH_DISK;
     const float spread = alone ? 0.04 * splash.speed_m_s * age : 0.0;
     const float across = 2.0 * (crown.radius + spread), up = max(crown.height + 0.5 * spread, 0.2 * across);
@@ -122,14 +123,14 @@ Sprite puff_sprite(virga_splash_gpu splash)
     return sprite;
 }
 
-Sprite sprite_of(Slot slot)
+Sprite sprite_of(Slot slot, float ago_s)
 {
     if (slot.kind == SLOT_DROPLET)
-        return droplet_sprite(droplets[slot.place]);
+        return droplet_sprite(droplets[slot.place], ago_s);
     if (slot.kind == SLOT_PILE)
-        return pile_sprite(droplets[slot.place]);
+        return pile_sprite(droplets[slot.place], ago_s);
     if (slot.kind == SLOT_SPLASH)
-        return puff_sprite(splashes[slot.place]);
+        return puff_sprite(splashes[slot.place], ago_s);
     return empty_sprite();
 }
 

@@ -5,7 +5,11 @@
 #define VIRGA_GLSL
 #include "shared/splash_gpu.h"
 #include "shared/view_gpu.h"
-layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
+layout(scalar, set = 0, binding = 1) uniform View
+{
+    virga_view_gpu view;
+    virga_splash_look_gpu look;
+};
 #include "sprite_corner.glsl"
 
 void main() { set_corner(uint(gl_VertexIndex)); }

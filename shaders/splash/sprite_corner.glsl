@@ -5,6 +5,11 @@
 // as much again.
 layout(scalar, set = 0, binding = 13) readonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
+#ifdef MOTION
+layout(scalar, set = 0, binding = 13) readonly buffer Motions { vec4 motions[]; }; // behind the sprites
+layout(location = 5) noperspective out vec2 motion; // px
+#endif
+
 layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; view depth; -
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
@@ -29,6 +34,10 @@ void set_corner(uint vertex)
     const float own = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
     const vec2 corner = (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
+#ifdef MOTION
+    const vec4 ends = motions[4u * look.max_sprites + (vertex >> 2)];
+    motion = at_head ? ends.xy : ends.zw;
+#endif
     place = vec4(across, at_head ? way_px + margin : -margin, sprite.distance[at_head ? 0 : 1], 0.0);
     centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
     rim_kind = vec4(light[1].y, light[2], float(sprite.kind));

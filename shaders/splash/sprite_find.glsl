@@ -21,7 +21,7 @@ uint[2] droplet_kinds(uint place)
     if (place >= state.staying)
         return uint[2](NOT_PICKED, NOT_PICKED);
     const virga_droplet_gpu droplet = droplets[place];
-    return uint[2](kind_of(droplet_sprite(droplet)), kind_of(pile_sprite(droplet)));
+    return uint[2](kind_of(droplet_sprite(droplet, 0.0)), kind_of(pile_sprite(droplet, 0.0)));
 }
 
 uint[2] droplet_sets() { return uint[2](0u, state.view_groups[0]); }
@@ -58,7 +58,7 @@ uint[2] splash_kinds(uint entry)
         return uint[2](NOT_PICKED, NOT_PICKED);
     const virga_splash_gpu splash = splashes[place];
     const Crown crown = crown_at(splash, view.time_close_s);
-    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash));
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash, 0.0));
     return uint[2](puff, sheet_kind(splash, crown));
 }
 

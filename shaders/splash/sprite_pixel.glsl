@@ -2,6 +2,10 @@
 #include "gpu/streak_profile.glsl"
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
+#include "gpu/temporal.glsl"
+#ifdef MOTION
+layout(location = 5) noperspective in vec2 motion;
+#endif
 
 layout(constant_id = 0) const bool HAS_DEPTH = true;
 

@@ -12,4 +12,6 @@ void main()
 {
     const float alpha = sprite_cover(), u = min(abs(place.x) / max(shape.x, 0.5), 1.0);
     radiance = vec4(mix(centre_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u) * alpha, alpha);
+    WRITE_MOTION(motion, alpha);
+    WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -33,4 +33,6 @@ void main()
     const float show = clamp((2.0 * half_width - WIDE_PX) / WIDE_PX, 0.0, 1.0);
     const vec3 light = mix(mean, through_ball(d, across) + lamps_in, show);
     radiance = vec4(light * alpha, alpha);
+    WRITE_MOTION(motion, alpha);
+    WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -11,6 +11,8 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
+// The same buffer: behind `max_sprites` sprites of 64 bytes each lies each one's motion.
+layout(scalar, set = 0, binding = 13) writeonly buffer Motions { vec4 motions[]; };
 
 // A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines of
 // those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is white and
@@ -24,12 +26,24 @@ void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
     record.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
+// From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there then
+// comes from where it began.
+void write_motion(uint index, Slot slot, Sprite sprite)
+{
+    const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);
+    const Sprite before = sprite_of(slot, view.ago_s);
+    motions[4u * look.max_sprites + index] =
+        vec4(motion_px(project(now, sprite.head), project(previous, before.head)),
+             motion_px(project(now, sprite.tail), project(previous, before.tail)));
+}
+
 void main()
 {
     const uint index = unwritten(lists[SPRITES]) + gl_GlobalInvocationID.x;
     if (index >= lists[SPRITES].count)
         return;
-    const Sprite sprite = sprite_of(slot_of(listed[index]));
+    const Slot slot = slot_of(listed[index]);
+    const Sprite sprite = sprite_of(slot, 0.0);
     const Projected p = project_sprite(sprite);
     const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
     virga_sprite_gpu record;
@@ -46,4 +60,6 @@ void main()
     const float torn = sprite.kind == VIRGA_SPRITE_PUFF ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
     set_light(record, 0.5 * (sprite.head + sprite.tail), torn);
     sprites[index] = record;
+    if (look.motion != 0u)
+        write_motion(index, slot, sprite);
 }

@@ -2,6 +2,8 @@
  * device fails half-way. */
 #include "gpu_fixture.h"
 
+#include <math.h>
+
 /* ---- create and destroy */
 
 static void context_is_made_and_says_so(void **state)
@@ -370,7 +372,7 @@ static virga_result try_target(void *object, uint32_t size, uint32_t cookie)
     virga_target_def def = virga_default_target_def();
     virga_target *target = NULL;
     def.kind = VIRGA_TARGET_DYNAMIC;
-    def.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
     def.depth_attached = false;
     def.size += size;
     def.cookie ^= cookie;
@@ -441,6 +443,81 @@ static void target_def_is_checked(void **state)
 {
     virga_context *context = gpu_context(*state);
     check_struct(*state, try_target, context);
+    virga_context_destroy(&context);
+}
+
+/* Each is refused with one line that names it. */
+static void attachments_of_motion_and_mask_are_checked(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context *context = gpu_context(f);
+    const struct {
+        uint32_t motion, reactive;
+        VkFormat format;
+        const char *named;
+    } rows[] = {
+        {4, 0, VK_FORMAT_R16G16_SFLOAT, "motion_attachment"},
+        {0, 4, VK_FORMAT_R16G16_SFLOAT, "reactive_attachment"},
+        {2, 2, VK_FORMAT_R16G16_SFLOAT, "reactive_attachment"},
+        {3, 0, VK_FORMAT_UNDEFINED, "color_formats[3]"},
+        {0, 3, VK_FORMAT_R32_UINT, "color_formats[3]"}, /* which can not be blended */
+        {3, 2, VK_FORMAT_R16G16_SFLOAT, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        virga_target_def def = virga_default_target_def();
+        virga_target *target = NULL;
+        def.kind = VIRGA_TARGET_DYNAMIC;
+        def.depth_attached = false;
+        def.color_count = 4;
+        def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
+        def.color_formats[2] = VK_FORMAT_R8G8_UNORM;
+        def.color_formats[3] = rows[i].format;
+        def.motion_attachment = rows[i].motion;
+        def.reactive_attachment = rows[i].reactive;
+        gpu_forget_log(f);
+        assert_int_equal(virga_target_create(context, &def, &target), rows[i].named ? VIRGA_ERROR_INVALID : VIRGA_OK);
+        assert_int_equal(f->errors, rows[i].named ? 1 : 0);
+        if (rows[i].named && !strstr(f->last, rows[i].named))
+            fail_msg("'%s' does not name %s", f->last, rows[i].named);
+        virga_target_destroy(&target);
+    }
+    virga_context_destroy(&context);
+}
+
+static void spoil_view(virga_view *view, uint32_t how)
+{
+    virga_temporal *t = &view->temporal;
+    float *const numbers[] = {&t->motion_scale[0], &t->motion_scale[1], &t->motion_coverage,
+                              &t->motion_coverage, &t->reactive_gain,   &t->clip_from_view[3]};
+    const float wrong[] = {0, NAN, 0, 1.5f, -1, INFINITY};
+    if (how < 6)
+        *numbers[how] = wrong[how];
+    else if (how == 6)
+        t->ago_s = -1;
+    else
+        t->position_m[1] = NAN;
+}
+
+static void views_with_a_wrong_past_are_refused(void **state)
+{
+    gpu_fixture *f = *state;
+    virga_context *context = gpu_context(f);
+    virga_rain *rain = gpu_rain(context);
+    gpu_picture picture;
+    gpu_picture_open(f, context, &picture);
+    VkCommandBuffer cmd = gpu_begin_frame(f, context);
+    for (uint32_t how = 0; how < 8; how++) {
+        virga_view view = gpu_view(&picture);
+        spoil_view(&view, how);
+        gpu_forget_log(f);
+        assert_int_equal(virga_rain_prepare(rain, cmd, &view, 0), VIRGA_ERROR_INVALID);
+        assert_int_equal(f->errors, 1);
+        assert_non_null(strstr(f->last, "view.temporal."));
+    }
+    gpu_submit(f);
+    gpu_wait(f);
+    gpu_picture_close(f, &picture);
+    virga_rain_destroy(&rain);
     virga_context_destroy(&context);
 }
 
@@ -662,6 +739,8 @@ int main(void)
         gpu_test(instance_without_a_function_is_refused),
         gpu_test(context_def_is_checked),
         gpu_test(target_def_is_checked),
+        gpu_test(attachments_of_motion_and_mask_are_checked),
+        gpu_test(views_with_a_wrong_past_are_refused),
         gpu_test(rain_def_is_checked),
         gpu_test(scene_def_is_checked),
         gpu_test(rain_settings_are_checked),

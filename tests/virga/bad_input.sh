@@ -208,6 +208,8 @@ bad 'wrong size' render "$good" -o "$work/out" --size 32
 bad 'wrong frames' render "$good" -o "$work/out" --frames 5-2
 bad 'frames of text' render "$good" -o "$work/out" --frames one
 bad 'no samples' render "$good" -o "$work/out" --samples 0
+bad 'no velocity of water' render "$good" -o "$work/out" --water-velocity 0
+bad 'velocity of more than all' render "$good" -o "$work/out" --water-velocity 101
 bad 'unknown layer' render "$good" -o "$work/out" --layers beuty
 bad 'splash layer without splashes' render "$good" -o "$work/out" --layers splash
 bad 'splash layer where they are off' render "$good" -o "$work/out" --set ground.on=true --set splash.on=false \

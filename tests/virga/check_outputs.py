@@ -98,6 +98,15 @@ def check_headers(paths):
     expect(len({frame["worldToCamera"] for frame in frames}) == 3, "the camera does not move")
 
 
+def check_moving(paths):
+    """With the velocity of water: the plate moves by less than 2 pixels a frame, rain falls by a quarter of a metre."""
+    text = open(paths[0]).read()
+    most = [float(word) for word in re.search("Stats Max: ([^(\n]*)", text)[1].split()]
+    expect("velocity.X, velocity.Y" in text, "there are other channels than velocity.X and velocity.Y")
+    expect("waterVelocity: 1" in text, "the frame does not say that it has the velocity of water")
+    expect(3 < most[1] < 1000, f"rain falls by {most[1]} pixels a frame")
+
+
 def check_pixels(paths):
     for number, path in enumerate(paths, 1):
         text = open(path).read()
@@ -365,7 +374,7 @@ def check_previews(paths):
         expect(struct.unpack(">II", data[16:24]) == SIZE, f"{path} is {struct.unpack('>II', data[16:24])}")
 
 
-CHECKS = {"headers": check_headers, "pixels": check_pixels, "points": check_points, "droplets": check_droplets,
+CHECKS = {"headers": check_headers, "pixels": check_pixels, "moving": check_moving, "points": check_points, "droplets": check_droplets,
           "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)

@@ -51,6 +51,9 @@ if command -v oiiotool >/dev/null; then
             fail "oiiotool frame.000$frame.exr"
     done
     python3 "$here/check_outputs.py" pixels "$work"/pixels.{1,2,3} || fail "pixels of frames"
+    render moving --frames 2 --layers velocity --water-velocity 1
+    oiiotool --info -v --stats "$work/moving/frame.0002.exr" >"$work/moving.pixels" || fail "oiiotool moving"
+    python3 "$here/check_outputs.py" moving "$work/moving.pixels" || fail "velocity of water"
 else
     lacking="$lacking oiiotool"
 fi

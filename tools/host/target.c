@@ -147,6 +147,35 @@ static bool create_color_pass(host_device *device, const VkAttachmentDescription
     return true;
 }
 
+/* The velocity as the plate has left it, ready to be copied, and so again. */
+static bool create_moving_pass(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    VkAttachmentDescription attachments[2] = {drawn(HOST_LAYER), drawn(HOST_VELOCITY)};
+    attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    attachments[0].finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachments[1].initialLayout = attachments[1].finalLayout;
+    const VkAttachmentReference colors[2] = {{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
+                                             {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}};
+    const VkSubpassDescription subpass = {
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 2, .pColorAttachments = colors};
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkAccessFlags wrote = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const VkSubpassDependency dependencies[2] = {
+        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | drawing, drawing, wrote,
+         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | wrote, 0},
+        {0, VK_SUBPASS_EXTERNAL, drawing, VK_PIPELINE_STAGE_TRANSFER_BIT, wrote, VK_ACCESS_TRANSFER_READ_BIT, 0}};
+    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                         .attachmentCount = 2,
+                                         .pAttachments = attachments,
+                                         .subpassCount = 1,
+                                         .pSubpasses = &subpass,
+                                         .dependencyCount = 2,
+                                         .pDependencies = dependencies};
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->moving_pass));
+    return true;
+}
+
 static bool create_layer_passes(host_device *device, host_target *target, char *error, size_t error_size)
 {
     const VkAttachmentDescription layer = drawn(HOST_LAYER);
@@ -258,8 +287,25 @@ bool host_target_add_glass(host_device *device, host_target *target, char *error
                               &target->refraction_framebuffer, error, error_size);
 }
 
+bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size)
+{
+    const host_image_def def = {.format = outputs_table[HOST_LAYER].format,
+                                .extent = {target->width, target->height, 1},
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                .name = "moving water"};
+    if (!create_moving_pass(device, target, error, error_size) ||
+        !host_image_create(device, &def, &target->moving, error, error_size))
+        return false;
+    const VkImageView views[2] = {target->moving.view, target->images[HOST_VELOCITY].view};
+    return create_framebuffer(device, target, target->moving_pass, views, 2, &target->moving_framebuffer, error,
+                              error_size);
+}
+
 void host_target_destroy(host_device *device, host_target *target)
 {
+    vkDestroyFramebuffer(device->device, target->moving_framebuffer, NULL);
+    vkDestroyRenderPass(device->device, target->moving_pass, NULL);
+    host_image_destroy(device, &target->moving);
     vkDestroyFramebuffer(device->device, target->refraction_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->glass_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->behind_framebuffer, NULL);
@@ -367,6 +413,11 @@ void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd
     begin_layer(target, cmd, target->layer_pass, target->refraction_framebuffer);
 }
 
+void host_target_begin_moving(const host_target *target, VkCommandBuffer cmd)
+{
+    begin_layer(target, cmd, target->moving_pass, target->moving_framebuffer);
+}
+
 void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd)
 {
     const VkImageSubresourceLayers all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -430,11 +481,20 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
     def->kind = VIRGA_TARGET_RENDER_PASS;
     def->render_pass = target->layer_pass;
     def->subpass = 0;
-    def->color_format = outputs_table[HOST_LAYER].format;
+    def->color_formats[0] = outputs_table[HOST_LAYER].format;
     def->color_count = 1;
     def->samples = VK_SAMPLE_COUNT_1_BIT;
     def->depth_attached = false; /* tested in the shader, see create_color_pass */
     def->reversed_depth = false;
+}
+
+void host_target_describe_moving(const host_target *target, virga_target_def *def)
+{
+    host_target_describe_layer(target, def);
+    def->render_pass = target->moving_pass;
+    def->color_formats[1] = outputs_table[HOST_VELOCITY].format;
+    def->color_count = 2;
+    def->motion_attachment = 1;
 }
 
 static void copy_image(const host_target *target, VkCommandBuffer cmd, host_output output)

@@ -31,6 +31,9 @@ typedef struct host_target {
     VkRenderPass behind_pass; /* draws over what is there; compatible with layer_pass */
     VkFramebuffer plate_framebuffer, layer_framebuffer, splash_framebuffer;
     VkFramebuffer behind_framebuffer, glass_framebuffer, refraction_framebuffer;
+    VkRenderPass moving_pass; /* draws over the velocity, and a color that nobody keeps; with it: */
+    VkFramebuffer moving_framebuffer;
+    host_image moving;
     host_image behind; /* RGBA float: what panes show, rain over splashes over the plate; there after
                         * host_target_add_glass */
 } host_target;
@@ -45,6 +48,9 @@ bool host_target_add_splash(host_device *device, host_target *target, char *erro
 /* Adds the layers of panes and the picture that they show. One virga_target does for all. */
 bool host_target_add_glass(host_device *device, host_target *target, char *error, size_t error_size);
 
+/* Adds the pass that draws the velocity of water over the plate's. It wants a virga_target of its own. */
+bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size);
+
 /* In place of a plate that is drawn: clears its outputs, depth to far, and takes its color from `pixels`, RGBA floats,
  * rows from the top. */
 void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels);
@@ -57,6 +63,7 @@ void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd); /* over a copy of the plate's color */
 void host_target_begin_glass(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_moving(const host_target *target, VkCommandBuffer cmd); /* after host_target_add_moving */
 void host_target_end_layer(const host_target *target, VkCommandBuffer cmd); /* any of them */
 
 /* The plate's depth and color as Virga sees them while layers are drawn, and the picture that panes show. */
@@ -66,6 +73,9 @@ virga_image host_target_behind(const host_target *target);
 
 /* What virga_target_create needs for the layer pass: fills render pass and formats into a default definition. */
 void host_target_describe_layer(const host_target *target, virga_target_def *def);
+
+/* The same for the pass of host_target_add_moving. */
+void host_target_describe_moving(const host_target *target, virga_target_def *def);
 
 /* Records copies of the outputs whose bit (1u << output) is set and that are there. After rendering; once in a command
  * buffer. */

@@ -27,6 +27,10 @@ static const option_row rows[] = {
      "Default 1; 16 for film",
      false},
     {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
+    {"--water-velocity", 0, "PERCENT",
+     "velocity.X/Y are water's own where rain, splashes and panes cover this share of a pixel, 1 to 100. Default: "
+     "they are the plate's alone",
+     false},
     {"--points", 0, NULL,
      "also write point caches: rain.%04d.ply of the drops and, where the scene has splashes, "
      "splash.%04d.ply of their droplets, where it has panes glass.%04d.ply",
@@ -39,7 +43,7 @@ static const option_row rows[] = {
      false},
     {"--resume", 0, NULL,
      "render only what is not there yet; refuses a folder in which these frames are of another "
-     "scene, seed, size, samples, layers or plate",
+     "scene, seed, size, samples, layers, velocities or plate",
      false},
     {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
@@ -130,7 +134,8 @@ static bool read_ranges(render_job *job)
     job->how.samples = 1;
     if (!options_pair(&job->parsed, "--frames", '-', true, frames->first, 999999, job->frames) ||
         !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size) ||
-        !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples))
+        !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples) ||
+        !options_uint(&job->parsed, "--water-velocity", 1, 100, &job->how.water_velocity))
         return false;
     if (job->frames[1] < job->frames[0])
         return options_complain("render", "--frames: expected A-B with A before B, got %u-%u", job->frames[0],
@@ -198,6 +203,7 @@ static resume_wish wish_of(const render_job *job)
                          .samples = job->how.samples,
                          .layers = job->layers,
                          .plate = job->how.plate,
+                         .water_velocity = job->how.water_velocity,
                          .points = job->points,
                          .preview = job->preview,
                          .stats = job->stats};

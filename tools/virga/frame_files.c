@@ -82,7 +82,7 @@ static const layer_row layer_rows[LAYER_COUNT] = {
                         {"velocity.X", "velocity.Y"},
                         EXR_SAMPLE_HALF,
                         NEEDS_NOTHING,
-                        "of the plate, in pixels a frame, right and down"},
+                        "of the plate, in pixels a frame, right and down; see --water-velocity"},
     [LAYER_NORMAL] =
         {"normal", {"normal.X", "normal.Y", "normal.Z"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "of the plate, in the world"},
     [LAYER_ID] = {"id", {"id.Y"}, EXR_SAMPLE_UINT, NEEDS_NOTHING, "of the plate's objects; the sky is 0"},
@@ -251,6 +251,9 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
         .name = "framesPerSecond", .kind = EXR_ATTRIBUTE_RATIONAL, .rational = {(int32_t)lround(fps * 1000), 1000}};
     if (s->options.plate)
         out[n++] = (exr_attribute){.name = "plate", .kind = EXR_ATTRIBUTE_STRING, .string = s->options.plate};
+    if (s->options.water_velocity)
+        out[n++] = (exr_attribute){
+            .name = "waterVelocity", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)s->options.water_velocity};
     out[n] = (exr_attribute){.name = "worldToCamera", .kind = EXR_ATTRIBUTE_M44F};
     memcpy(out[n++].m44f, camera->view_from_world, sizeof camera->view_from_world);
     return n;
@@ -270,7 +273,7 @@ bool frame_save_exr(shot *s, const host_camera *camera, const char *path, uint32
     for (size_t i = 0; i < pixels; i++)
         distance[i] = (float)host_camera_distance(camera, s->frame.depth[i]);
     exr_parts parts = {.count = 0};
-    exr_attribute attributes[10];
+    exr_attribute attributes[11];
     char hash[32], digits[EXR_UINT_DIGITS];
     collect(s, layers, beauty, distance, &parts);
     const exr_frame file = {.width = s->frame.width,

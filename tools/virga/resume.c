@@ -53,6 +53,11 @@ static bool is_of_wish(const resume_wish *wish, const char *path, const exr_head
         return false;
     if (differs(path, "plate", texts[3].text, wish->plate ? wish->plate : "", error, error_size))
         return false;
+    expected[0] = 0;
+    if (wish->water_velocity)
+        snprintf(expected, sizeof expected, "%u", wish->water_velocity);
+    if (differs(path, "water velocity", texts[4].text, expected, error, error_size))
+        return false;
     snprintf(expected, sizeof expected, "%016llx", (unsigned long long)scene_file_hash(wish->scene));
     return !differs(path, "scene hash", texts[2].text, expected, error, error_size);
 }
@@ -62,13 +67,14 @@ static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, cha
 {
     char path[4096], damage[1024];
     exr_header header;
-    exr_text texts[] = {{.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}, {.name = "plate"}};
+    exr_text texts[] = {
+        {.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}, {.name = "plate"}, {.name = "waterVelocity"}};
     *there = false;
     snprintf(path, sizeof path, "%s/frame.%04u.exr", wish->directory, frame);
     struct stat info;
     if (stat(path, &info))
         return true;
-    if (!exr_read_header(path, &header, texts, 4, damage, sizeof damage)) {
+    if (!exr_read_header(path, &header, texts, 5, damage, sizeof damage)) {
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }

@@ -77,7 +77,8 @@ bool shot_make_target(shot *s, char *error, size_t error_size)
     return made &&
            ((!s->scene->splash.on && !s->options.live) ||
             host_target_add_splash(&s->device, &s->target, error, error_size)) &&
-           (!s->scene->pane_count || host_target_add_glass(&s->device, &s->target, error, error_size));
+           (!s->scene->pane_count || host_target_add_glass(&s->device, &s->target, error, error_size)) &&
+           (!s->options.water_velocity || host_target_add_moving(&s->device, &s->target, error, error_size));
 }
 
 /* The first picture is read at once: most of what can be wrong with one is wrong with all. */
@@ -141,6 +142,8 @@ void shot_close(shot *s)
     if (s->device.device)
         host_wait(&s->device, ignored, sizeof ignored);
     virga_target_destroy(&s->layer);
+    virga_target_destroy(&s->moving);
+    virga_target_destroy(&s->moving);
     virga_scene_destroy(&s->rain_scene);
     virga_context_destroy(&s->context);
     host_renderer_destroy(&s->renderer);

@@ -26,6 +26,7 @@ typedef struct shot_options {
     bool height_maps;   /* panes make what virga_glass_map_get tells of */
     const char *const *window_extensions; /* (live) of the instance, so that the device can present */
     uint32_t window_extension_count;
+    uint32_t water_velocity; /* percent of a pixel from which on water's velocity is its own; 0: it is the plate's */
 } shot_options;
 
 /* Points of the newest step, on their way to the host. */
@@ -72,6 +73,7 @@ typedef struct shot {
     virga_ground *ground; /* NULL: none */
     virga_splash *splash; /* NULL: none */
     virga_target *layer;  /* what rain, splashes and panes draw into, each into a layer of its own */
+    virga_target *moving; /* of the pass that draws the velocity of water; NULL where it is not asked for */
     virga_rain_settings settings;
     shot_read drops_read, droplets_read;
     shot_pane *panes; /* as many as the scene has; NULL before they are made */

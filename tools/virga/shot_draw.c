@@ -36,14 +36,36 @@ static virga_result draw_behind(shot *s, VkCommandBuffer cmd)
 }
 
 /* All panes of a kind of draw, far ones first. */
-static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd,
+static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd, const virga_target *target,
                                    virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
 {
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++)
-        result = draw(s->panes[i].glass, cmd, s->layer);
+        result = draw(s->panes[i].glass, cmd, target);
     host_target_end_layer(&s->target, cmd);
     return result;
+}
+
+/* Now and a frame ago. */
+static void pose_pane(const shot *s, const scene_pane *pane, double camera_s, virga_glass_pose *pose)
+{
+    virga_glass_pose before;
+    const host_camera_path eye = shot_eye(s);
+    const double shot_start = host_camera_shot_start(&eye, camera_s);
+    shot_pane_pose(s, pane, camera_s, pose);
+    shot_pane_pose(s, pane, fmax(camera_s - 1 / s->scene->frames.fps, shot_start), &before);
+    memcpy(pose->before_position_m, before.position_m, sizeof before.position_m);
+    memcpy(pose->before_world_from_pane, before.world_from_pane, sizeof before.world_from_pane);
+}
+
+/* All that was drawn into layers once more, for its velocity. */
+static virga_result draw_moving(shot *s, VkCommandBuffer cmd)
+{
+    host_target_begin_moving(&s->target, cmd);
+    const virga_result splash = s->splash ? virga_splash_draw(s->splash, cmd, s->moving) : VIRGA_OK;
+    const virga_result rain = virga_rain_draw(s->rain, cmd, s->moving);
+    const virga_result panes = draw_each_pane(s, cmd, s->moving, virga_glass_draw); /* ends the pass */
+    return splash < 0 ? splash : rain < 0 ? rain : panes;
 }
 
 /* `camera_s` is where the camera is on its path, `late_s` how long before the newest tick the picture is taken. */
@@ -54,15 +76,15 @@ static virga_result draw_panes(shot *s, VkCommandBuffer cmd, virga_view view, do
     for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++) {
         virga_glass_pose pose;
         const shot_pane *pane = &s->panes[i];
-        shot_pane_pose(s, pane->from, camera_s, &pose);
+        pose_pane(s, pane->from, camera_s, &pose);
         result = virga_glass_prepare(pane->glass, cmd, &view, &pose, virga_glass_time(pane->glass) - late_s);
     }
     if (result < 0)
         return result;
     host_target_begin_glass(&s->target, cmd);
-    result = draw_each_pane(s, cmd, virga_glass_draw);
+    result = draw_each_pane(s, cmd, s->layer, virga_glass_draw);
     host_target_begin_refraction(&s->target, cmd);
-    const virga_result refraction = draw_each_pane(s, cmd, virga_glass_draw_refraction);
+    const virga_result refraction = draw_each_pane(s, cmd, s->layer, virga_glass_draw_refraction);
     return result < 0 ? result : refraction;
 }
 
@@ -103,7 +125,21 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view,
     if (s->scene->pane_count &&
         !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
-    return true;
+    return !s->moving ||
+           shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);
+}
+
+/* Motion vectors as the layer of velocities has them: from a frame ago on, in pixels. */
+static void set_frame_ago(const shot *s, const host_camera *frame_ago, virga_view *view)
+{
+    virga_temporal *temporal = &view->temporal;
+    memcpy(temporal->position_m, frame_ago->position_m, sizeof frame_ago->position_m);
+    memcpy(temporal->view_from_world, frame_ago->view_from_world, sizeof frame_ago->view_from_world);
+    memcpy(temporal->clip_from_view, frame_ago->clip_from_view, sizeof frame_ago->clip_from_view);
+    temporal->ago_s = fmin(1 / s->scene->frames.fps, 1);
+    temporal->motion_scale[0] = temporal->motion_scale[1] = -1;
+    if (s->options.water_velocity)
+        temporal->motion_coverage = 0.01f * (float)s->options.water_velocity;
 }
 
 /* The shutter closes at the frame's time. */
@@ -126,6 +162,7 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&now, &open, part_s, &view);
+    set_frame_ago(s, &frame_ago, &view);
     const moment at = {fmax(close_s, shot_start), time_s - close_s};
     return record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size);
 }

@@ -422,6 +422,7 @@ static frame3 place_of(const shot *s, const scene_pane *pane, double time_s)
 void shot_pane_pose(const shot *s, const scene_pane *pane, double time_s, virga_glass_pose *pose)
 {
     const frame3 f = place_of(s, pane, time_s);
+    memset(pose, 0, sizeof *pose);
     memcpy(pose->position_m, f.origin, sizeof pose->position_m);
     for (int i = 0; i < 9; i++)
         pose->world_from_pane[i] = (float)f.axes[i / 3][i % 3];

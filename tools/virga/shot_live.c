@@ -52,6 +52,7 @@ bool shot_live_draw(shot *s, uint32_t samples, host_camera *camera, char *error,
 static void close_scene(shot *s)
 {
     virga_target_destroy(&s->layer);
+    virga_target_destroy(&s->moving);
     virga_scene_destroy(&s->rain_scene);
     host_renderer_destroy(&s->renderer);
     shot_panes_close(s);

@@ -186,6 +186,17 @@ static bool create_scene(shot *s, char *error, size_t error_size)
     return shot_ok(s, result, "making the rain", error, error_size);
 }
 
+static bool open_moving(shot *s, char *error, size_t error_size)
+{
+    virga_target_def target = virga_default_target_def();
+    if (!s->options.water_velocity)
+        return true;
+    host_target_describe_moving(&s->target, &target);
+    return shot_ok(s, virga_target_create(s->context, &target, &s->moving), "making the velocity's target", error,
+                   error_size) &&
+           shot_ok(s, virga_scene_attach(s->rain_scene, s->moving), "building pipelines", error, error_size);
+}
+
 bool shot_open_rain(shot *s, char *error, size_t error_size)
 {
     if (!create_scene(s, error, error_size))
@@ -206,5 +217,6 @@ bool shot_open_rain(shot *s, char *error, size_t error_size)
     return shot_set_mirror(s, error, error_size) &&
            shot_ok(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
                    error_size) &&
-           shot_ok(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size);
+           shot_ok(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size) &&
+           open_moving(s, error, error_size);
 }

@@ -317,6 +317,8 @@ VIRGA_API void virga_glass_surface(const virga_glass *glass, virga_glass_buffer 
 typedef struct virga_glass_pose {
     double position_m[3];     /* of the pane's origin */
     float world_from_pane[9]; /* as in virga_glass_step_info */
+    double before_position_m[3]; /* the same in the previous frame, for motion vectors (virga_temporal) */
+    float before_world_from_pane[9]; /* all zero: the pane has not moved since */
 } virga_glass_pose;
 
 /* Makes the height map of what a view sees of the pane at `time_s`, normally virga_glass_time or a part of a tick

@@ -205,6 +205,8 @@ typedef struct virga_image {
 /* What draws go into. A target is an object of its own: change formats by making another; simulation state stays. */
 typedef struct virga_target virga_target; /* opaque */
 
+#define VIRGA_MAX_ATTACHMENTS 8
+
 typedef enum virga_target_kind {
     VIRGA_TARGET_RENDER_PASS = 0, /* a host's VkRenderPass and subpass */
     VIRGA_TARGET_DYNAMIC = 1,     /* dynamic rendering (Vulkan 1.3 or VK_KHR_dynamic_rendering, enabled by the host) */
@@ -215,10 +217,20 @@ typedef struct virga_target_def {
     virga_target_kind kind;
     VkRenderPass render_pass; /* (render pass) */
     uint32_t subpass;         /* (render pass) */
-    VkFormat color_format;    /* (dynamic) of attachment 0, which gets premultiplied linear radiance and coverage */
+    VkFormat color_formats[VIRGA_MAX_ATTACHMENTS]; /* (dynamic) of each attachment, VK_FORMAT_UNDEFINED for one that the
+                               * host has left out. Attachment 0 is required: it gets premultiplied linear radiance and
+                               * coverage. (render pass) optional: those given are checked */
     VkFormat depth_format;    /* (dynamic) VK_FORMAT_UNDEFINED: no depth attachment */
     VkFormat stencil_format;  /* (dynamic) */
-    uint32_t color_count;     /* [1; 8] attachments in the pass; others than 0 are not written. Default 1 */
+    uint32_t color_count;     /* [1; VIRGA_MAX_ATTACHMENTS] attachments in the pass; others than 0 and the two below are
+                               * not written. Default 1 */
+    uint32_t motion_attachment; /* [1; color_count - 1], 0: none. Where this attachment of the pass is, draws write
+                               * motion vectors into its first two channels, see virga_temporal. A format of two or
+                               * more floats that can be blended: R16G16_SFLOAT always can. Costs other shaders, some
+                               * 16 bytes and a few operations for each streak, sprite or corner; without it nothing.
+                               * Default 0 */
+    uint32_t reactive_attachment; /* the same for the reactive mask, its first channel; R8_UNORM always can. May not be
+                               * motion_attachment. Default 0 */
     VkSampleCountFlagBits samples; /* default 1 */
     bool depth_attached;      /* a depth attachment is there and drawing is to be tested against it (never written).
                                * Default true; false where the pass has none */
@@ -233,6 +245,54 @@ VIRGA_API virga_result virga_target_create(virga_context *context, const virga_t
 
 /* Destroys it and sets *target to NULL; accepts NULL. What effects built for it stays until they are destroyed. */
 VIRGA_API void virga_target_destroy(virga_target **target);
+
+/* What temporal anti-aliasing and upscaling are told of rain, splashes and panes, for targets with a motion or a
+ * reactive attachment.
+ *
+ * Motion vectors lead from where a point is on the picture to where it was when the previous frame was drawn, in pixels
+ * of the viewport (right, down) times `motion_scale`, without jitter. What is seen through drops on a pane gets the
+ * motion of its picture in the drop, which moves with the scene behind, only less, as much as the drop shrinks it.
+ *
+ * A pixel has one motion vector but, where water covers it in part, two things that move: the vector is water's
+ * where it covers at least `motion_coverage` of the pixel, else it stays what it was, that of the scene. They are never
+ * mixed: halfway between two motions lies what neither shows. Physical rain covers a few hundredths of a pixel, so
+ * for most of its streaks the reactive mask does the work: in tests/rain/test_rain_temporal.c streaks' own vectors from
+ * a coverage of 1/20 on, with a gain of 1, double the error, as they drag the wall behind along.
+ *
+ * The reactive mask is 1 - (1 - coverage)^reactive_gain, laid over what is there: how little the pixel's history is
+ * worth. A gain of 1 is the coverage itself; thin streaks that are much brighter than what is behind them want more, up
+ * to 16, which lets more of the edges behind them flicker. On panes it is coverage, with a gain of 1, times how far the
+ * water's picture moves in a frame against the pane or against what is behind it, all from half a pixel on: at rest
+ * drops keep their history.
+ *
+ *     taker               direction      unit        motion_scale            reactive mask
+ *     FSR 2 and 3         now to before  pixels      1, 1                    reactive, at most 0.9
+ *                                                    (motionVectorScale 1, 1; no jitter cancellation)
+ *     DLSS                now to before  pixels      1, 1                    bias current color
+ *                                                    (InMVScale 1, 1; not jittered)
+ *     TAA, before = uv + m               uv, v down  1 / width, 1 / height   1 - weight of history
+ *     TAA, before = uv - m               uv, v down  -1 / width, -1 / height likewise
+ *     compositing         before to now  pixels      -1, -1                  -
+ *
+ * The mask says where water is, not where it was: a resolve without a neighbourhood clamp keeps what left the pixel.
+ * Let it use the larger of this frame's mask and the last one's, at the pixel's history.
+ *
+ * Draws of one pass order themselves: what is drawn last and covers enough gives the vector. Haze writes neither. */
+typedef struct virga_temporal {
+    double position_m[3];         /* of the camera of the previous frame; these three as open_* of virga_view. */
+    float view_from_world[16];
+    float clip_from_view[16];     /* with this frame's jitter, so that jitter is no motion. All zero (default): the open
+                                   * camera and its time are the previous frame's */
+    double ago_s;                 /* [0; 1] how long before the time drawn it was drawn. 0: open_camera_s or, that 0
+                                   * too, shutter_s. Default 0 */
+    float motion_scale[2];        /* of motion vectors, see the table. Not 0. Default 1, 1 */
+    float motion_coverage;        /* [0; 1] see above; above 0 to 1. Default 0.5 */
+    float reactive_gain;          /* [0; 64] see above. Default 8 */
+    virga_image motion;           /* (optional) motion vectors of the opaque scene, in the target's pixels and with
+                                   * motion_scale, single-sampled, sampled where panes refract; not the attachment that
+                                   * is drawn into. `before` is the layout while drawing, and stays. image
+                                   * VK_NULL_HANDLE: what is behind stands still, and only the camera moves */
+} virga_temporal;
 
 /* What a camera sees, at the end of the shutter time. Fill with virga_default_view. */
 typedef struct virga_view {
@@ -260,6 +320,7 @@ typedef struct virga_view {
                                    * target's pixels, sampled where water refracts what is behind it; layout and
                                    * access while drawing are `before`, and stay. image VK_NULL_HANDLE: refraction
                                    * shows the environment instead */
+    virga_temporal temporal;      /* (motion, reactive) the previous frame, and what is told of it */
 } virga_view;
 
 VIRGA_API virga_view virga_default_view(void);

@@ -1,0 +1,67 @@
+/* glass/glass_temporal.c - where a pane was in the previous frame's picture. */
+#include "glass/glass_picture.h"
+
+#include <string.h>
+
+/* out = a b, of rotations column by column. */
+static void turn(const double a[9], const double b[9], double out[9])
+{
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            out[3 * column + row] = 0;
+            for (int i = 0; i < 3; i++)
+                out[3 * column + row] += a[3 * i + row] * b[3 * column + i];
+        }
+}
+
+/* A pose that the host has not given is that of now. */
+static bool has_before(const virga_glass_pose *pose)
+{
+    for (int i = 0; i < 9; i++)
+        if (pose->before_world_from_pane[i] != 0)
+            return true;
+    return false;
+}
+
+/* What is at x now, relative to the camera, and stays where it is on the pane, was at Q x + t relative to the previous
+ * frame's camera: Q turns the pane's axes now into those of then, and its origin o goes to where it was. */
+static void motion_of_pane(const virga_view *view, const virga_glass_pose *pose, const float world_from_pane[9],
+                           const double camera[3], double rotation[9], double shift[3])
+{
+    double before[9], inverse[9];
+    const bool given = has_before(pose);
+    const double *origin = given ? pose->before_position_m : pose->position_m;
+    for (int i = 0; i < 9; i++) {
+        before[i] = (double)(given ? pose->before_world_from_pane[i] : world_from_pane[i]);
+        inverse[i] = (double)world_from_pane[i % 3 * 3 + i / 3];
+    }
+    turn(before, inverse, rotation);
+    for (int row = 0; row < 3; row++) {
+        shift[row] = origin[row] - camera[row];
+        for (int i = 0; i < 3; i++)
+            shift[row] -= rotation[3 * i + row] * (pose->position_m[i] - view->position_m[i]);
+    }
+}
+
+void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look)
+{
+    double camera[3], rotation[9], shift[3];
+    float clip[16];
+    virga_view_previous(view, camera, clip);
+    motion_of_pane(view, pose, look->world_from_pane, camera, rotation, shift);
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++) {
+            const double *way = column < 3 ? rotation + (size_t)3 * (size_t)column : shift;
+            double sum = column < 3 ? 0 : (double)clip[12 + row];
+            for (int i = 0; i < 3; i++)
+                sum += (double)clip[4 * i + row] * way[i];
+            look->previous_from_here[4 * column + row] = (float)sum;
+        }
+    /* The eye of then: where Q x + t is 0. */
+    for (int column = 0; column < 3; column++) {
+        double sum = 0;
+        for (int i = 0; i < 3; i++)
+            sum -= rotation[3 * column + i] * shift[i];
+        look->eye_before[column] = (float)sum;
+    }
+}
