@@ -125,8 +125,7 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view,
     if (s->scene->pane_count &&
         !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
-    return !s->moving ||
-           shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);
+    return !s->moving || shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);
 }
 
 /* Motion vectors as the layer of velocities has them: from a frame ago on, in pixels. */
