@@ -212,7 +212,8 @@ def leaf_height(u, v):
 def leaf_colour(u, v):
     """In sRGB, bytes: veins are paler, thin ones less so, and the blade is uneven."""
     side, to_side, to_fine = leaf_veins(u, v)
-    vein = max(1.0 - furrow(side, 0.0011), 0.75 * (1.0 - furrow(to_side, 0.0006)), 0.30 * (1.0 - furrow(to_fine, 0.0004)))
+    vein = max(1.0 - furrow(side, 0.0011), 0.75 * (1.0 - furrow(to_side, 0.0006)),
+               0.30 * (1.0 - furrow(to_fine, 0.0004)))
     uneven = cloud_noise(35 * u + 3, 35 * v + 5, 5)
     fine = cloud_noise(400 * u, 400 * v, 3)
     warm = 0.5 + 0.9 * (uneven - 0.5)
