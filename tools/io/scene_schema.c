@@ -526,7 +526,7 @@ static const scene_rule rules[] = {
     {"glass[].wipers[].wear", 0, 1, "0.3", LIVE, "0 wipes evenly; worn blades leave streaks"},
     {"glass[].wipers[].keys", 0, 0, "[]", RESTARTS, "angles of the arm by time (drive: keys)"},
     {"glass[].wipers[].keys[].time_s", -ANY_M, ANY_M, NULL, RESTARTS, "when the arm is there"},
-    {"glass[].wipers[].keys[].angle_deg", -720, 720, NULL, LIVE, "of the arm then"},
+    {"glass[].wipers[].keys[].angle_deg", -720, 720, NULL, RESTARTS, "of the arm then"},
     {"glass[].wipers[].drawn", 0, 0, "true", RESTARTS, "arm and blade are seen"},
     {"glass[].particle_mm", 0.2, 5, "1.5", LIVE, "radius of the particles beside blades"},
     {"glass[].penalty", 0, 1, "0.1", LIVE, "how hard particles push each other apart"},

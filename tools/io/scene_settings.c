@@ -446,9 +446,27 @@ static size_t write_changes(FILE *out, const scene_setting *now, size_t now_coun
         scene_setting_print(&now[i], value, sizeof value);
         if (was)
             scene_setting_print(was, old, sizeof old);
-        if (now[i].kind != SCENE_SETTING_TEXT && was && strcmp(value, old))
+        const bool dropped = strstr(now[i].rule, "wipers[].keys[]"); /* of such a list; or not to be changed at all */
+        if (now[i].kind != SCENE_SETTING_TEXT && !dropped && was && strcmp(value, old))
             changes += append_change(out, now[i].path, value);
     }
+    return changes;
+}
+
+/* Lists that have become empty, or that a wiper's drive has no use for any more, which a file must not have then. */
+static size_t write_empty_lists(FILE *out, const scene_file *now, const scene_file *before)
+{
+    size_t changes = 0;
+    char path[96];
+    if (before->rain.key_count && !now->rain.key_count)
+        changes += append_change(out, "rain.keys", "[]");
+    for (uint32_t p = 0; p < now->pane_count && p < before->pane_count; p++)
+        for (uint32_t w = 0; w < now->panes[p].wiper_count && w < before->panes[p].wiper_count; w++) {
+            const bool unused = now->panes[p].wipers[w].drive != SCENE_WIPER_KEYS;
+            snprintf(path, sizeof path, "glass.%u.wipers.%u.keys", p, w);
+            if (unused && before->panes[p].wipers[w].key_count)
+                changes += append_change(out, path, "[]");
+        }
     return changes;
 }
 
@@ -479,8 +497,7 @@ char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count
     FILE *out = open_memstream(&found.memory, &found.size);
     if (out && new_settings && old_settings) {
         found.count = write_changes(out, new_settings, now_count, old_settings, before_count);
-        if (before->rain.key_count && !now->rain.key_count)
-            found.count += append_change(out, "rain.keys", "[]");
+        found.count += write_empty_lists(out, now, before);
     }
     if (out && !fclose(out) && new_settings && old_settings)
         changes = gather_texts(&found);

@@ -23,7 +23,8 @@ void shot_fill_lights(shot *s)
         }
         to->range_m = (float)from->range_m;
         to->cos_inner = (float)cos(from->inner_deg * M_PI / 180);
-        to->cos_outer = (float)cos(from->outer_deg * M_PI / 180);
+        /* A file has more than the inner angle; while somebody tunes the two, one may be ahead of the other. */
+        to->cos_outer = (float)cos(fmax(from->outer_deg, from->inner_deg + 0.1) * M_PI / 180);
     }
     if (s->renderer)
         host_renderer_set_lights(s->renderer, s->settings.lighting.lights, s->settings.lighting.light_count);

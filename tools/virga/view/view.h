@@ -24,10 +24,9 @@ extern "C" {
 #include "view_presets.h"
 #include "view_window.h"
 
-#define VIEW_HISTORY      180 /* frames that graphs go back */
-#define VIEW_MOST_TIMES   64
-#define VIEW_MOST_CHANGES 512
-#define VIEW_PANEL_PX     430
+#define VIEW_HISTORY    180 /* frames that graphs go back */
+#define VIEW_MOST_TIMES 64
+#define VIEW_PANEL_PX   430
 
 /* The newest VIEW_HISTORY values of something, the oldest first from `next` on. */
 typedef struct view_graph {
@@ -114,6 +113,12 @@ typedef struct viewer {
 
 void view_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool view_assign(viewer *v, const char *assignment);
+
+/* The scene as a file would have it that was saved now; NULL with one line in `error` where that would be none. */
+scene_file *view_load_tuned(viewer *v, char *error, size_t error_size);
+
+/* Whether what was tuned is a scene that a file could hold; says why not. */
+bool view_check(viewer *v);
 bool view_preset_take(viewer *v, const char *name);
 bool view_show(viewer *v, const char *mode, uint32_t layer);
 void view_show_next(viewer *v, int step);

@@ -36,6 +36,49 @@ bool view_assign(viewer *v, const char *assignment)
     return false;
 }
 
+/* The command line's overrides, and what was tuned since: to free(), the pointers alone. NULL where it can not be. */
+static const char **all_changes(viewer *v, char ***changes, size_t *count)
+{
+    size_t tuned = 0;
+    *changes = scene_settings_changes(v->scene, v->loaded, &tuned);
+    const char **all = *changes ? malloc((v->override_count + tuned + 1) * sizeof *all) : NULL;
+    if (!all) {
+        free(*changes);
+        *changes = NULL;
+        return NULL;
+    }
+    memcpy(all, v->overrides, v->override_count * sizeof all[0]);
+    memcpy(all + v->override_count, *changes, tuned * sizeof all[0]);
+    *count = v->override_count + tuned;
+    return all;
+}
+
+scene_file *view_load_tuned(viewer *v, char *error, size_t error_size)
+{
+    size_t count;
+    char **changes;
+    scene_file *tuned = NULL;
+    const char **all = all_changes(v, &changes, &count);
+    if (!all)
+        snprintf(error, error_size, "no more memory");
+    else
+        scene_file_load(v->path, all, count, &tuned, error, error_size);
+    free(all);
+    free(changes);
+    return tuned;
+}
+
+bool view_check(viewer *v)
+{
+    char error[400];
+    scene_file *tuned = view_load_tuned(v, error, sizeof error);
+    const bool good = tuned && shot_check_panes(tuned, error, sizeof error);
+    scene_file_free(tuned);
+    if (!good)
+        view_say(v, "%s", error);
+    return good;
+}
+
 /* Rate and wind are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
 bool view_preset_take(viewer *v, const char *name)
 {
@@ -93,24 +136,19 @@ void view_show_next(viewer *v, int step)
     view_show(v, view_mode(mode)->name, 0);
 }
 
-/* The command line's overrides, and what was tuned since. */
 bool view_save(viewer *v, const char *path)
 {
-    char error[400];
+    char error[400] = "no more memory";
     size_t count = 0;
-    const char *all[VIEW_MOST_CHANGES];
-    char **changes = scene_settings_changes(v->scene, v->loaded, &count);
-    bool saved = false;
-    if (!changes || count + v->override_count > VIEW_MOST_CHANGES) {
-        snprintf(error, sizeof error, changes ? "more than %d settings were changed" : "no more memory",
-                 VIEW_MOST_CHANGES);
-    } else {
-        memcpy(all, v->overrides, v->override_count * sizeof all[0]);
-        memcpy(all + v->override_count, changes, count * sizeof all[0]);
-        saved = scene_settings_save(v->path, all, v->override_count + count, path, error, sizeof error);
-    }
+    char **changes;
+    const char **all = all_changes(v, &changes, &count);
+    const bool saved = all && scene_settings_save(v->path, all, count, path, error, sizeof error);
+    free(all);
     free(changes);
-    view_say(v, saved ? "saved %s with %zu changed settings" : "%s", saved ? path : error, count);
+    if (saved)
+        view_say(v, "saved %s with %zu settings that are not the file's", path, count);
+    else
+        view_say(v, "%s", error);
     return saved;
 }
 

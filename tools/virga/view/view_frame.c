@@ -40,19 +40,11 @@ static bool fit_shot(viewer *v, const float area[4])
 /* The hash of the scene as it is tuned, for the picture's attributes. */
 static void note_hash(viewer *v)
 {
-    size_t count = 0;
-    const char *all[VIEW_MOST_CHANGES];
-    scene_file *tuned = NULL;
     char ignored[256];
-    char **changes = scene_settings_changes(v->scene, v->loaded, &count);
-    if (changes && count + v->override_count <= VIEW_MOST_CHANGES) {
-        memcpy(all, v->overrides, v->override_count * sizeof all[0]);
-        memcpy(all + v->override_count, changes, count * sizeof all[0]);
-        if (scene_file_load(v->path, all, v->override_count + count, &tuned, ignored, sizeof ignored))
-            v->scene->hash = scene_file_hash(tuned);
-    }
+    scene_file *tuned = view_load_tuned(v, ignored, sizeof ignored);
+    if (tuned)
+        v->scene->hash = scene_file_hash(tuned);
     scene_file_free(tuned);
-    free(changes);
 }
 
 static bool write_shot(viewer *v)

@@ -216,6 +216,21 @@ bool edit_value(scene_setting &s)
     }
 }
 
+/* Words and switches may not go together with others: then they stay as they were, and the foot says why. Numbers that
+ * need one another (near and far, ...) are cared for where they are used, as both have to be changed. */
+void change(viewer *v, scene_setting &s)
+{
+    char before[520], ignored[256];
+    const bool bound = s.kind != SCENE_SETTING_NUMBER && s.kind != SCENE_SETTING_WHOLE;
+    scene_setting_print(&s, before, sizeof before);
+    if (!edit_value(s))
+        return;
+    if (bound && !view_check(v))
+        scene_setting_parse(&s, before, ignored, sizeof ignored);
+    else if (s.restarts)
+        v->needs_restart = true;
+}
+
 /* A row: the name with its unit, and the value. */
 void edit_setting(viewer *v, scene_setting &s)
 {
@@ -231,8 +246,7 @@ void edit_setting(viewer *v, scene_setting &s)
         ImGui::TextUnformatted(label);
     ImGui::SameLine(width * 0.44f + ImGui::GetCursorStartPos().x);
     ImGui::SetNextItemWidth(-1);
-    if (edit_value(s) && s.restarts)
-        v->needs_restart = true;
+    change(v, s);
     ImGui::EndGroup();
     describe(v, s);
     ImGui::PopID();
