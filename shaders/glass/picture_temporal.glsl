@@ -1,8 +1,8 @@
 // picture_temporal.glsl - the motion of what drops show, for the forms with motion vectors or a reactive mask. After
 // picture_plate.glsl and picture_path.glsl.
 //
-// A drop shows the place q of the picture at the pixel p. Between p and its neighbours q changes by J, some tens of pixels
-// a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture, where the
+// A drop shows the place q of the picture at the pixel p. Between p and its neighbours q changes by J, some tens of
+// pixels a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture, where the
 // water that is at p now was at p0, and showed q0. There what is at q now was not at p0, but at p0 + J^-1 (q' - q0).
 // So a picture in a drop moves with the pane, and against it only by a small part of what the scene does.
 #include "gpu/temporal.glsl"
@@ -30,7 +30,8 @@ vec2 scene_before(vec2 pixel)
     const bool inside = in_viewport(pixel);
     if (inside && view.motion_given != 0u) {
         const vec2 size = vec2(textureSize(scene_motion, 0));
-        return pixel + textureLod(scene_motion, pixel / size, 0.0).xy / vec2(view.motion_scale[0], view.motion_scale[1]);
+        const vec2 scale = vec2(view.motion_scale[0], view.motion_scale[1]);
+        return pixel + textureLod(scene_motion, pixel / size, 0.0).xy / scale;
     }
     const float stored = HAS_DEPTH && inside ? buffer_depth(pixel) : view.far_depth;
     const vec3 ray = pixel_ray(pixel);
@@ -41,8 +42,8 @@ vec2 scene_before(vec2 pixel)
 // Where the water of this pixel was.
 vec2 water_before() { return pixel_of(to_mat(look.previous_from_here) * vec4(position, 1.0)); }
 
-// How far the picture in the water moves against the water, looking back a frame: J^-1 (q' - q0). Where J is singular the
-// drop focuses, and shows of one place a patch: that stays. Next to it a vector is at most four times the scene's.
+// How far the picture in the water moves against the water, looking back a frame: J^-1 (q' - q0). Where J is singular
+// the drop focuses, and shows of one place a patch: that stays. Next to it a vector is at most four times the scene's.
 vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
 {
     const vec2 flow = scene_was - shown_was;
@@ -54,8 +55,8 @@ vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
     return far > most ? moved * (most / max(far, 1e-6)) : moved;
 }
 
-// What the pane's water showed at this place of it in the previous frame, by Snell: with the eye where it was. The scene
-// is taken to be as far away as now.
+// What the pane's water showed at this place of it in the previous frame, by Snell: with the eye where it was. The
+// scene is taken to be as far away as now.
 vec2 shown_before(Path path, vec3 d)
 {
     const vec3 flat_normal = cross(along_u, along_v), d_before = normalize(position - to_vec(look.eye_before));
@@ -73,8 +74,8 @@ bool moves_inside(Path path, Water water)
     return !opaque && path.ahead && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
 }
 
-// `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into them,
-// whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps still
+// `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into
+// them, whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps still
 // its history is as good as any.
 void write_temporal(vec2 inside, float cover)
 {

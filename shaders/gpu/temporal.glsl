@@ -1,6 +1,6 @@
-// temporal.glsl - what a fragment tells temporal anti-aliasing and upscaling, in the forms of a shader that are compiled
-// with MOTION, REACTIVE or both (see shaders/meson.build). The includer has a block with a member `virga_view_gpu view`.
-// Locations are changed to the attachments of the target, see engine/gpu/pipelines.c.
+// temporal.glsl - what a fragment tells temporal anti-aliasing and upscaling, in the forms of a shader that are
+// compiled with MOTION, REACTIVE or both (see shaders/meson.build). The includer has a block with a member
+// `virga_view_gpu view`. Locations are changed to the attachments of the target, see engine/gpu/pipelines.c.
 
 #ifdef MOTION
 layout(location = 1) out vec4 motion_taken; // times motion_scale; alpha 1: in place of what is there, 0: not

@@ -1,5 +1,5 @@
-/* test_glass_temporal.c - motion vectors of panes: the pane's own in doubles, those of what a drop shows against its measured
- * refraction, and what a temporal resolve makes of drops on a windshield with and without them. */
+/* test_glass_temporal.c - motion vectors of panes: the pane's own in doubles, those of what a drop shows against its
+ * measured refraction, and what a temporal resolve makes of drops on a windshield with and without them. */
 #include "glass_picture_fixture.h"
 
 #include "../host/resolve.h"
@@ -132,8 +132,8 @@ static void shown_at(const float *refraction, size_t pixel, double place[2])
     place[1] = (double)(pixel / WIDTH) + 0.5 + (double)refraction[4 * pixel + 1];
 }
 
-/* Camera and pane rest, the scene moves by M. Then to where its vector leads from a pixel, the drop shows what is M from
- * what it shows at the pixel. Of the lower middle of the drop, where it is steep; above lies its focus.
+/* Camera and pane rest, the scene moves by M. Then to where its vector leads from a pixel, the drop shows what is M
+ * from what it shows at the pixel. Of the lower middle of the drop, where it is steep; above lies its focus.
  * The vector is a first step of Newton's method, and its J that of two pixels: 20 % of M. */
 static void what_a_drop_shows_moves_as_much_as_the_drop_shrinks_it(void **state)
 {

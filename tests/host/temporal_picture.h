@@ -1,5 +1,5 @@
-/* temporal_picture.h - a pass with motion vectors and a reactive mask in the formats that engines use, and read-back. The
- * motion is cleared to a value that no draw writes, so that a test sees where it was left. */
+/* temporal_picture.h - a pass with motion vectors and a reactive mask in the formats that engines use, and read-back.
+ * The motion is cleared to a value that no draw writes, so that a test sees where it was left. */
 #ifndef VIRGA_TESTS_TEMPORAL_PICTURE_H
 #define VIRGA_TESTS_TEMPORAL_PICTURE_H
 

@@ -150,7 +150,7 @@ static uint32_t streak_count(const shot *s)
     return ((const virga_prepared_gpu *)s->prepared.mapped)->streaks;
 }
 
-/* A walking, turning camera with a jitter that must not show, and rain in wind. Float positions of some metres: 0.02 px. */
+/* A walking, turning camera with a jitter that must not show, and rain in wind. Floats of some metres: 0.02 px. */
 static void streaks_come_from_where_doubles_put_their_drops(void **state)
 {
     (void)state;

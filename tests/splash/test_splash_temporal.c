@@ -1,5 +1,5 @@
-/* test_splash_temporal.c - motion vectors of droplets, sheets and pyramids in closed form, and what a temporal resolve makes
- * of splashes with and without them. */
+/* test_splash_temporal.c - motion vectors of droplets and sheets in closed form, and what a temporal
+ * resolve makes of splashes with and without them. */
 #include "splash_fixture.h"
 
 #include "../host/resolve.h"
@@ -150,7 +150,7 @@ static void a_droplet_comes_from_where_its_orbit_was(void **state)
 }
 
 /* A crown's radius goes with the square root of its age until it is highest, so all of it does, as seen from the side:
- * x of before is x of now times the root of the ages. Perspective at 30 times its size, and half floats: 4 %, 0.1 px. */
+ * x of before is x of now times the root of the ages. Perspective at 30 times its size, half floats: 4 %, 0.1 px. */
 static void a_crown_widens_from_its_middle(void **state)
 {
     (void)state;
@@ -179,6 +179,32 @@ static void a_crown_widens_from_its_middle(void **state)
     }
     printf("%u of %u pixels of a crown are as expected\n", taken, all);
     assert_true(taken > 100 && taken > 0.98 * all);
+    close_shot(&s);
+}
+
+/* They stand where they are and rise: vectors lead down or nowhere, and no farther than the pyramids are high. */
+static void pyramids_of_the_papers_style_have_vectors_too(void **state)
+{
+    (void)state;
+    shot s;
+    host_camera now;
+    uint32_t taken = 0;
+    open_shot(&s);
+    s.f.settings.style = VIRGA_SPLASH_STYLE_PAPER;
+    REQUIRE(virga_splash_set(s.f.splash, &s.f.settings) == VIRGA_OK);
+    splash_fixture_spawn(&s.f, 1, VIRGA_GROUND_PUDDLE_10);
+    splash_fixture_step(&s.f, 1);
+    aim(&now, (const double[3]){0, 0.004, 0.3}, (const double[3]){0, 0.004, 0}, 6, NULL);
+    set_cameras(&s, &now, &now, 0);
+    s.view.temporal.ago_s = 0.4 * FRAME_S;
+    draw_frame(&s);
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+        if (!picture_has_motion(&s.picture, i))
+            continue;
+        assert_true(s.picture.motion[2 * i + 1] > -0.5f && s.picture.motion[2 * i + 1] < HEIGHT);
+        taken++;
+    }
+    assert_true(taken > 20);
     close_shot(&s);
 }
 
@@ -239,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_droplet_comes_from_where_its_orbit_was),
         cmocka_unit_test(a_crown_widens_from_its_middle),
+        cmocka_unit_test(pyramids_of_the_papers_style_have_vectors_too),
         cmocka_unit_test(a_resolve_smears_splashes_less_with_the_outputs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -374,7 +374,8 @@ def check_previews(paths):
         expect(struct.unpack(">II", data[16:24]) == SIZE, f"{path} is {struct.unpack('>II', data[16:24])}")
 
 
-CHECKS = {"headers": check_headers, "pixels": check_pixels, "moving": check_moving, "points": check_points, "droplets": check_droplets,
+CHECKS = {"headers": check_headers, "pixels": check_pixels, "moving": check_moving, "points": check_points,
+          "droplets": check_droplets,
           "near": check_near, "mapped": check_mapped, "stats": check_stats, "previews": check_previews}
 CHECKS[sys.argv[1]](sys.argv[2:])
 sys.exit(1 if failures else 0)
