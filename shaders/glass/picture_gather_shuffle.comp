@@ -1,13 +1,11 @@
-// picture_gather_shuffle.comp - the height map, balls handed around by shuffles, where a device has them: the same
-// bits.
+// picture_gather_shuffle.comp - the height map, balls handed around by shuffles, where a device has them: the same bits.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #define SHUFFLE
+#define LANES 64
 #include "picture_gather.glsl"
 
 void main() { gather(); }

@@ -175,7 +175,7 @@ static void the_map_is_that_of_the_reference(void **state)
         s.settings.compress = i % 3 != 0;
         put_balls(&s, balls, PLACES);
         shot_draw(&s, false);
-        REQUIRE(s.columns == 196 && s.rows == 140);
+        REQUIRE(s.columns == 192 && s.rows == 128);
         compare_map(&s, balls, PLACES);
     }
     shot_close(&s);
@@ -262,6 +262,25 @@ static void merged_drops_have_no_crease(void **state)
         if (worst > limit * crease)
             fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
     }
+    shot_close(&s);
+}
+
+/* Beads too small for a shape: two in a cell cover pi (w / c)^(2/3) (f^(2/3) + (1 - f)^(2/3)) of it, with the water w,
+ * that of a cap with a base of 1 m radius c, and a lot f from 0.55 to 1: 1 to 2^(1/3) of what one would. To a level of
+ * the map's bytes, and between cells to what lies between them. */
+static void fine_film_covers_what_its_beads_do(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++)
+        s.film[i] = 20;
+    shot_draw(&s, false);
+    const double cap = glass_cap_volume(glass_rest_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
+    const double one = M_PI * pow(20e-12 / cap, 2.0 / 3) / (cell * cell);
+    for (uint32_t i = 0; i < s.columns * s.rows; i++)
+        if ((double)s.map[4 * i + 2] < one - 1.0 / 255 || (double)s.map[4 * i + 2] > cbrt(2) * one + 1.0 / 255)
+            fail_msg("texel %u: %g of it covered, expected %g to %g", i, (double)s.map[4 * i + 2], one, cbrt(2) * one);
     shot_close(&s);
 }
 
@@ -582,6 +601,7 @@ int main(void)
         cmocka_unit_test(a_drop_alone_is_a_cap),
         cmocka_unit_test(weights_sum_to_one),
         cmocka_unit_test(merged_drops_have_no_crease),
+        cmocka_unit_test(fine_film_covers_what_its_beads_do),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),

@@ -46,7 +46,7 @@ typedef struct bench_splash_choice {
 /* Measure and print. `only` 0: the usual sizes. */
 bool bench_rain(bench *b, uint32_t only);
 bool bench_ground(bench *b);
-bool bench_glass(bench *b);
+bool bench_glass(bench *b, uint32_t only);
 bool bench_splash(bench *b, const bench_splash_choice *choice);
 
 #endif

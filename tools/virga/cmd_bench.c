@@ -11,6 +11,7 @@
 static const option_row rows[] = {
     {"--drops", 0, "N", "rain: measure this many drops only. Default: 1000, 10000, 100000 and 1000000", false},
     {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
+    {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
     {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
@@ -23,7 +24,8 @@ void bench_help(void)
         "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
         "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
         "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's\n"
-        "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with two wipers\n\n"
+        "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with two "
+        "wipers\n\n"
         "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a dispatch and\n"
         "a full fill of the picture in the same run. Absolute times are noisy: compare ratios inside one run.\n\n",
         BENCH_RUNS);
@@ -148,11 +150,16 @@ static bool parse_splash(const options *parsed, bench_splash_choice *choice)
 int bench_run(int argc, char **argv)
 {
     options parsed;
-    uint32_t only = 0;
+    uint32_t only = 0, balls = 0;
     bench_splash_choice splashes;
     if (!options_parse(&parsed, "bench", rows, sizeof rows / sizeof rows[0], argc, argv) ||
-        !options_uint(&parsed, "--drops", 1024, 4194304, &only) || !parse_splash(&parsed, &splashes))
+        !options_uint(&parsed, "--drops", 1024, 4194304, &only) ||
+        !options_uint(&parsed, "--balls", 3000, 100000, &balls) || !parse_splash(&parsed, &splashes))
         return EXIT_USAGE;
+    if (balls && balls != 3000 && balls != 10000 && balls != 100000) {
+        options_complain("bench", "--balls: expected 3000, 10000 or 100000, got %u", balls);
+        return EXIT_USAGE;
+    }
     const char *what = parsed.argument_count == 1 ? parsed.arguments[0] : "";
     if (strcmp(what, "rain") && strcmp(what, "ground") && strcmp(what, "splash") && strcmp(what, "glass")) {
         options_complain("bench", "expected what to measure: rain, ground, splash or glass");
@@ -167,7 +174,7 @@ int bench_run(int argc, char **argv)
     if (good)
         good = !strcmp(what, "rain")     ? bench_rain(b, only)
                : !strcmp(what, "ground") ? bench_ground(b)
-               : !strcmp(what, "glass")  ? bench_glass(b)
+               : !strcmp(what, "glass")  ? bench_glass(b, balls)
                                          : bench_splash(b, &splashes);
     if (b->instance.messages)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
