@@ -30,4 +30,7 @@ vec3 bead_of(ivec2 cell, uint number, uint i, float broken_nl)
 
 // How much of a bead is shape, the rest mist. One alone is seen from half a shape on, where its density reaches the
 // threshold, so half of it is mist until then.
-vec2 bead_shapes(vec2 radii) { return smoothstep(VIRGA_GLASS_BEAD_SEEN, 1.25, radii / max(look.texel_m[0], look.texel_m[1])); }
+vec2 bead_shapes(vec2 radii)
+{
+    return smoothstep(VIRGA_GLASS_BEAD_SEEN, 1.25, radii / max(look.texel_m[0], look.texel_m[1]));
+}

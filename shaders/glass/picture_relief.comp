@@ -1,5 +1,5 @@
-// picture_relief.comp - what the draws read of the height map: slopes, from differences between neighbours, and how they
-// change. Over the tiles that have something to show, and those that had when a view was drawn before.
+// picture_relief.comp - what the draws read of the height map: slopes, from differences between neighbours, and how
+// they change. Over the tiles that have something to show, and those that had when a view was drawn before.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

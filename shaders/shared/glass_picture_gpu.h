@@ -16,7 +16,7 @@ typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #define VIRGA_GLASS_TILE        8  /* texels a side; a workgroup of the gathering pass makes one */
 #define VIRGA_GLASS_TILE_ROW    32768 /* workgroups along x of a dispatch over tiles, at most */
 #define VIRGA_GLASS_MIST_BLOCK  16 /* texels a side of the mist's map that a workgroup makes; drawn as one */
-#define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead of film in cells: none reaches beyond the neighbours */
+#define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead in cells: none reaches beyond the next */
 #define VIRGA_GLASS_BEAD_SEEN   0.75f /* least radius in texels of one that has a shape */
 #define VIRGA_GLASS_MIST_MOST   8192 /* texels a side of it, at most */
 #define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
@@ -99,10 +99,10 @@ struct virga_glass_corners_gpu {
     uint first_instance;
 };
 
-/* How much there is to do: what indirect dispatches and draws read. Followed by numbers: of tiles without film, of tiles with film
- * (from look.max_tiles on), of the mist's blocks with film (from 2 look.max_tiles on), of tiles with
- * something to show (behind those). Lists are in any order: what is
- * done for one of their entries does not depend on another. All zero as a view's passes begin. */
+/* How much there is to do: what indirect dispatches and draws read. Followed by numbers: of tiles without film; from
+ * look.max_tiles on of tiles with film; from 2 look.max_tiles on of the mist's blocks with film; and look.max_blocks
+ * behind these of tiles with something to show. Lists are in any order: what is done for one of their entries does not
+ * depend on another. All zero as a view's passes begin. */
 struct virga_glass_work_gpu {
     uint tile_groups[3];    /* of the gathering pass, over tiles without film */
     uint film_groups[3];    /* and over those with */
