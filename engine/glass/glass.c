@@ -126,7 +126,7 @@ static virga_result check_def(const virga_log *log, const virga_glass_def *given
 }
 
 /* Whole cells over the pane; the last may stick out by a part. */
-static uint32_t cells_along(float length_m, float cell_m)
+uint32_t glass_cells_along(float length_m, float cell_m)
 {
     const double cells = ceil((double)length_m / (double)cell_m - 1e-4);
     return cells < 1 ? 1 : (uint32_t)cells;
@@ -139,7 +139,7 @@ enum { BUFFERS = 17, PASSES = 23 };
 static VkDeviceSize grid_cells(const virga_glass *glass)
 {
     const float least = glass_least_grid_m(&glass->def);
-    return (VkDeviceSize)cells_along(glass->def.width_m, least) * cells_along(glass->def.height_m, least);
+    return (VkDeviceSize)glass_cells_along(glass->def.width_m, least) * glass_cells_along(glass->def.height_m, least);
 }
 
 static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
@@ -284,8 +284,8 @@ static virga_result make(virga_context *context, const void *def, void **glass)
         return virga_out_of_host_memory(context, "a pane");
     made->context = context;
     made->def = *(const virga_glass_def *)def;
-    made->columns = cells_along(made->def.width_m, made->def.cell_m);
-    made->rows = cells_along(made->def.height_m, made->def.cell_m);
+    made->columns = glass_cells_along(made->def.width_m, made->def.cell_m);
+    made->rows = glass_cells_along(made->def.height_m, made->def.cell_m);
     made->settings = virga_default_glass_settings();
     context->effects++;
     const virga_result result = init(made);
@@ -359,8 +359,8 @@ VkDeviceSize virga_glass_estimate(const virga_glass_def *given)
         return 0;
     virga_context context = {.frames_in_flight = VIRGA_MAX_FRAMES_IN_FLIGHT};
     virga_glass glass = {.context = &context, .def = def};
-    glass.columns = cells_along(def.width_m, def.cell_m);
-    glass.rows = cells_along(def.height_m, def.cell_m);
+    glass.columns = glass_cells_along(def.width_m, def.cell_m);
+    glass.rows = glass_cells_along(def.height_m, def.cell_m);
     virga_buffer_row rows[BUFFERS];
     list_buffers(&glass, rows);
     VkDeviceSize sum = glass_picture_estimate(&def);

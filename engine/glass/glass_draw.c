@@ -2,6 +2,8 @@
  * drawing. */
 #include "glass/glass_picture.h"
 
+#include "shaders/glass_picture_mist_frag.spv.h"
+#include "shaders/glass_picture_mist_vert.spv.h"
 #include "shaders/glass_picture_pane_vert.spv.h"
 #include "shaders/glass_picture_paper_frag.spv.h"
 #include "shaders/glass_picture_paper_frag_both.spv.h"
@@ -18,6 +20,7 @@
 
 #define READ_WRITE   (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define TILE         VIRGA_GLASS_TILE
+#define BLOCK        VIRGA_GLASS_MIST_BLOCK
 #define PI           3.14159265358979323846
 #define GRAVITY      9.80665
 #define LEAST_TEXELS 64u /* of the map, along the longer side, however far away the pane is */
@@ -96,6 +99,24 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
     look->written_columns = picture->max_tile_columns;
 }
 
+/* A cell to a texel, or where cells are much smaller than pixels so many that a texel is about one. */
+static void fit_mist(const virga_glass *glass, virga_glass_picture_gpu *look)
+{
+    struct glass_picture *picture = glass->picture;
+    const float texel = look->texel_m[0] > look->texel_m[1] ? look->texel_m[0] : look->texel_m[1];
+    uint32_t cells = 1;
+    picture->beads = VIRGA_GLASS_BEAD_CELLS * glass->def.cell_m > VIRGA_GLASS_BEAD_SEEN * texel;
+    while ((glass->columns - 1) / cells >= picture->max_mist.width ||
+           (glass->rows - 1) / cells >= picture->max_mist.height || 1.5f * (float)cells * glass->def.cell_m < texel)
+        cells *= 2;
+    picture->mist_cells = look->mist_cells = cells;
+    picture->mist_size.width = look->mist_columns = (glass->columns - 1) / cells + 1;
+    picture->mist_size.height = look->mist_rows = (glass->rows - 1) / cells + 1;
+    look->mist_pitch = (look->mist_columns + BLOCK - 1) / BLOCK * BLOCK;
+    look->mist_scale[0] = 1 / ((float)cells * glass->def.cell_m * (float)picture->max_mist.width);
+    look->mist_scale[1] = 1 / ((float)cells * glass->def.cell_m * (float)picture->max_mist.height);
+}
+
 /* ---- numbers of a view */
 
 static void fill_pane(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose,
@@ -147,8 +168,11 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->opaque = s->opaque;
     look->gain = s->gain;
     look->max_tiles = glass->picture->max_tile_columns * glass->picture->max_tile_rows;
+    look->max_blocks = glass->picture->max_mist.width / BLOCK * (glass->picture->max_mist.height / BLOCK);
     look->max_entries = glass->picture->max_entries;
     look->masked = glass->masked;
+    look->whole_map = glass->picture->whole_map;
+    look->sheets = s->style != VIRGA_GLASS_STYLE_PAPER || look->whole_map;
 }
 
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
@@ -161,6 +185,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fill_look(glass, &filled.look);
     glass_fill_before(view, pose, &filled.look);
     fit_map(glass, &filled);
+    fit_mist(glass, &filled.look);
     glass->picture->columns = filled.look.map_columns;
     glass->picture->rows = filled.look.map_rows;
     *block = filled;
@@ -178,15 +203,16 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                                        VK_ACCESS_SHADER_READ_BIT};
+    const virga_image_state copied = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                      VK_ACCESS_TRANSFER_WRITE_BIT};
     virga_image_barrier(context, cmd, picture->relief->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
-    if (picture->map)
-        virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->mist_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, copied);
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
-    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_WRITTEN);
-    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, VK_WHOLE_SIZE,
-                              0); /* from then on, what is read is cleared */
+    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
+                              VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
     picture->cleared = true;
 }
 
@@ -211,7 +237,7 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
-    context->vk.CmdFillBuffer(cmd, picture->counts->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     if (!picture->cleared)
         record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
@@ -232,17 +258,38 @@ static void work_barrier(virga_glass *glass, VkCommandBuffer cmd)
                   VK_ACCESS_INDIRECT_COMMAND_READ_BIT | READ_WRITE);
 }
 
+/* The mist's map, from film; and the tiles that have film with a shape. */
+static void record_film(virga_glass *glass, VkCommandBuffer cmd)
+{
+    virga_context *context = glass->context;
+    const struct glass_picture *picture = glass->picture;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.film");
+    const uint32_t mode = (picture->mist_cells > 1 ? GLASS_MIST_SEVERAL : 0) | (glass->masked ? GLASS_MIST_MASKED : 0);
+    over_tiles(glass, cmd, picture->mist_passes[mode], (picture->mist_size.width + BLOCK - 1) / BLOCK,
+               (picture->mist_size.height + BLOCK - 1) / BLOCK);
+    work_barrier(glass, cmd);
+    over_work(glass, cmd, picture->film_pass, offsetof(virga_glass_work_gpu, block_groups));
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    const VkBufferImageCopy copy = {.bufferRowLength = (picture->mist_size.width + BLOCK - 1) / BLOCK * BLOCK,
+                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                    .imageExtent = {picture->mist_size.width, picture->mist_size.height, 1}};
+    context->vk.CmdCopyBufferToImage(cmd, picture->mist->buffer, picture->mist_map->image, VK_IMAGE_LAYOUT_GENERAL, 1,
+                                     &copy);
+    virga_pass_end(context, cmd, scope);
+}
+
+/* Balls, and the list of each tile's. */
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
-    const uint32_t places = glass->def.max_drops / VIRGA_GLASS_GROUP;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.balls");
-    virga_dispatch(context, cmd, picture->ball_pass, places);
-    virga_dispatch(context, cmd, picture->film_pass,
-                   (glass->columns * glass->rows + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, picture->ball_pass->pipeline);
+    context->vk.CmdDispatchIndirect(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, shown_groups));
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->scan_pass, 1);
+    virga_dispatch(context, cmd, picture->list_pass,
+                   (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
     work_barrier(glass, cmd);
     over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
@@ -268,10 +315,10 @@ static void record_counts(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
     const VkDeviceSize to = context->ring_slot * sizeof(glass_readback) + offsetof(glass_readback, balls);
-    const VkBufferCopy copy = {0, to, 2 * sizeof(uint32_t)};
+    const VkBufferCopy copy = {offsetof(virga_glass_work_gpu, shaped), to, 2 * sizeof(uint32_t)};
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
-    context->vk.CmdCopyBuffer(cmd, glass->picture->counts->buffer, glass->readback_ring->buffer, 1, &copy);
+    context->vk.CmdCopyBuffer(cmd, glass->picture->work->buffer, glass->readback_ring->buffer, 1, &copy);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -293,17 +340,20 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend);
     record_clear(glass, cmd);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
+    record_film(glass, cmd);
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
-    over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM],
+    work_barrier(glass, cmd); /* both say how much the next has to do */
+    over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
-    virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->parts_pass, 1);
+    work_barrier(glass, cmd);
+    over_work(glass, cmd, picture->relief_pass, offsetof(virga_glass_work_gpu, relief_groups));
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
                       VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -420,7 +470,7 @@ void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
     if (!map)
         return;
     *map = (virga_glass_map){0};
-    if (glass && glass->picture->map && glass->picture->columns)
+    if (glass && glass->picture->whole_map && glass->picture->columns)
         *map = (virga_glass_map){glass->picture->map->layer_views[0], glass->picture->map->image,
                                  glass->picture->columns, glass->picture->rows};
 }
@@ -460,14 +510,20 @@ static void target_clear(virga_glass *glass, glass_target *target)
 /* What one of a target's pipelines differs in. */
 static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphics_def *def)
 {
+    const bool mist = i >= GLASS_DRAW_MIST;
+    def->vertex = mist ? VIRGA_SPIRV(glass_picture_mist_vert) : VIRGA_SPIRV(glass_picture_pane_vert);
     def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
-    def->blend_premultiplied = i < GLASS_DRAW_REFRACTION;
+    def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
+    if (mist && i >= GLASS_DRAW_MIST + 2)
+        def->constant |= VIRGA_GLASS_DRAW_OPAQUE;
     def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_picture_physical_frag, outputs)
                     : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_picture_paper_frag, outputs)
+                    : mist                      ? VIRGA_SPIRV(glass_picture_mist_frag)
                                                 : VIRGA_SPIRV(glass_picture_refraction_frag);
     def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
                 : i < GLASS_DRAW_REFRACTION ? "glass.paper"
+                : mist                      ? "glass.mist"
                                             : "glass.refraction";
 }
 
@@ -486,8 +542,7 @@ virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
     if (!slot)
         return virga_wrong_argument(log, "virga_glass_attach: more than %d targets", GLASS_MAX_TARGETS);
     virga_result result = VIRGA_OK;
-    virga_graphics_def def = {
-        .vertex = VIRGA_SPIRV(glass_picture_pane_vert), .layout = glass->picture->bindings->layout, .depth_test = true};
+    virga_graphics_def def = {.layout = glass->picture->bindings->layout, .depth_test = true};
     for (uint32_t i = 0; i < GLASS_DRAWS; i++) {
         describe_draw(i, virga_target_outputs_of(target), &def);
         def.constant |= glass->picture->filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;
@@ -502,22 +557,24 @@ error:
 
 /* ---- draw */
 
-static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, const char *name)
+static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
+{
+    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    glass->context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, arguments, 1,
+                                              sizeof(virga_glass_corners_gpu));
+}
+
+static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
     const float *box = glass->picture->prepared_viewport;
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
     const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
                               {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
-    context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, offsetof(virga_glass_work_gpu, index_count),
-                                       1, sizeof(virga_glass_work_gpu));
-    virga_pass_end(context, cmd, scope);
 }
 
 static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
@@ -540,11 +597,17 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
                            : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
                                ? GLASS_DRAW_PAPER + depth
                                : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
-    const virga_pipeline *used = found->draws[which];
-    const virga_result result = virga_pipelines_ready(&used, 1);
+    const uint32_t solid = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE ? 2 : 0;
+    const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + depth]};
+    const virga_result result = virga_pipelines_ready(used, refraction ? 1 : 2);
     if (result)
         return result;
-    record_draw(glass, cmd, used, refraction ? "glass.refraction" : "glass.draw");
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");
+    begin_draw(glass, cmd);
+    if (!refraction)
+        record_draw(glass, cmd, used[1], offsetof(virga_glass_work_gpu, mist));
+    record_draw(glass, cmd, used[0], offsetof(virga_glass_work_gpu, drops));
+    virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }
 

@@ -30,7 +30,7 @@ static inline float glass_least_grid_m(const virga_glass_def *def)
 /* What the statistics ring reads back for one frame. */
 typedef struct glass_readback {
     virga_glass_state_gpu state;
-    uint32_t balls, balls_cut;
+    uint32_t balls, balls_cut; /* as in virga_glass_work_gpu */
 } glass_readback;
 
 struct virga_glass {
@@ -91,6 +91,9 @@ void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double sh
                        virga_glass_tick_gpu *tick);
 
 /* ---- glass.c */
+
+/* Whole cells over a length; the last may stick out by a part. */
+uint32_t glass_cells_along(float length_m, float cell_m);
 VkDescriptorSet glass_write_set(virga_glass *glass);
 
 /* ---- glass_step.c */

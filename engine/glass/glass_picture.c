@@ -6,9 +6,11 @@
 #include "shaders/glass_picture_fill_comp.spv.h"
 #include "shaders/glass_picture_film_comp.spv.h"
 #include "shaders/glass_picture_gather_comp.spv.h"
+#include "shaders/glass_picture_gather_narrow_comp.spv.h"
 #include "shaders/glass_picture_gather_shuffle_comp.spv.h"
-#include "shaders/glass_picture_parts_comp.spv.h"
-#include "shaders/glass_picture_scan_comp.spv.h"
+#include "shaders/glass_picture_list_comp.spv.h"
+#include "shaders/glass_picture_mist_comp.spv.h"
+#include "shaders/glass_picture_relief_comp.spv.h"
 #include "shaders/glass_picture_shrink_comp.spv.h"
 
 #include <math.h>
@@ -30,25 +32,29 @@ static uint32_t tiles_of(float side_m, float longer_m, uint32_t max_texels)
     return tiles > 1 ? (uint32_t)tiles : 1;
 }
 
-/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than
- * the pane's
- * texels over pi. One that reaches r texels is in (2 r / 16 + 2)^2 tiles at most, and r is three radii. */
+static uint32_t blocks_of(uint32_t cells)
+{
+    while (cells > VIRGA_GLASS_MIST_MOST)
+        cells = (cells + 1) / 2;
+    return (cells + VIRGA_GLASS_MIST_BLOCK - 1) / VIRGA_GLASS_MIST_BLOCK;
+}
+
+/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than the
+ * pane's texels over pi. One that reaches r texels, which is two to three radii, is in (2 r / 8 + 1)^2 tiles on average:
+ * that is a quarter of an entry for each texel of the large ones, and some four entries each for the smallest. */
 static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture)
 {
     const float longer = def->width_m > def->height_m ? def->width_m : def->height_m;
     picture->max_tile_columns = tiles_of(def->width_m, longer, def->max_texels);
     picture->max_tile_rows = tiles_of(def->height_m, longer, def->max_texels);
-    /* As many as a dispatch may have workgroups; only the largest map of a square pane has more. */
-    while (picture->max_tile_columns * picture->max_tile_rows > 65535) {
-        picture->max_tile_columns--;
-        picture->max_tile_rows--;
-    }
     picture->max_columns = picture->max_tile_columns * TILE;
     picture->max_rows = picture->max_tile_rows * TILE;
-    picture->max_entries = picture->max_columns * picture->max_rows / 8 + 16 * def->max_drops;
+    picture->max_entries = picture->max_columns * picture->max_rows / 4 + 16 * def->max_drops;
+    picture->max_mist.width = blocks_of(glass_cells_along(def->width_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
+    picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
-enum { BUFFERS = 9, PASSES = 7 };
+enum { BUFFERS = 8, PASSES = 7 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -56,17 +62,18 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkDeviceSize tiles = (VkDeviceSize)picture->max_tile_columns * picture->max_tile_rows;
+    const VkDeviceSize mist = (VkDeviceSize)picture->max_mist.width * picture->max_mist.height;
+    const VkDeviceSize blocks = mist / (VIRGA_GLASS_MIST_BLOCK * VIRGA_GLASS_MIST_BLOCK);
     const virga_buffer_row wanted[BUFFERS] = {
         {&picture->balls, (VkDeviceSize)def->max_drops * VIRGA_GLASS_DROP_BALLS * sizeof(virga_glass_ball_gpu), storage,
          VIRGA_HEAP_DEVICE, "glass.balls"},
         {&picture->tiles, tiles * sizeof(virga_glass_tile_gpu), storage, VIRGA_HEAP_DEVICE, "glass.tiles"},
         {&picture->entries, (VkDeviceSize)picture->max_entries * 4, storage, VIRGA_HEAP_DEVICE, "glass.entries"},
-        {&picture->mist, tiles * TILE * TILE * 4, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
-        {&picture->counts, 8, storage, VIRGA_HEAP_DEVICE, "glass.ball_counts"},
+        {&picture->mist, mist, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
-        {&picture->work, sizeof(virga_glass_work_gpu) + 2 * tiles * 4, storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-         VIRGA_HEAP_DEVICE, "glass.work"},
-        {&picture->corners, tiles * 4 * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
+        {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + blocks) * 4,
+         storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.work"},
+        {&picture->corners, (tiles + blocks) * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "glass.corners"},
         {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.views"},
@@ -83,8 +90,9 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
     virga_buffer_row rows[BUFFERS];
     fill_sizes(def, &sizes);
     list_buffers(def, VIRGA_MAX_FRAMES_IN_FLIGHT, &sizes, rows);
-    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL * (def->height_map ? 2 : 1) +
-                       (VkDeviceSize)VIRGA_GLASS_COPY_WIDTH * VIRGA_GLASS_COPY * COPY_TEXEL;
+    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL * 2 +
+                       (VkDeviceSize)VIRGA_GLASS_COPY_WIDTH * VIRGA_GLASS_COPY * COPY_TEXEL +
+                       (VkDeviceSize)sizes.max_mist.width * sizes.max_mist.height;
     for (int i = 0; i < BUFFERS; i++)
         sum += rows[i].size;
     return sum;
@@ -106,8 +114,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 balls */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 tiles */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 entries */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 mist */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 counts */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 mist, written */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 list of places */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 11 map */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 relief, read */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 copies of the plate, written */
@@ -118,7 +126,10 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 18 work */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 19 corners to be drawn */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 20 relief, written */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 21 scene motion */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 21 mist, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 22 state of the pane */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                               /* 23 map, read */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 24 scene motion */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -158,8 +169,8 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(picture->tiles),
         whole(picture->entries),
         whole(picture->mist),
-        whole(picture->counts),
-        own_image(picture->map ? picture->map : picture->relief, VK_NULL_HANDLE),
+        whole(glass->list),
+        own_image(picture->map, VK_NULL_HANDLE),
         own_image(picture->relief, picture->filtered ? context->linear : context->nearest),
         own_image(picture->copies, VK_NULL_HANDLE),
         own_image(picture->copies, context->linear),
@@ -169,6 +180,9 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(picture->work),
         whole(picture->corners),
         own_image(picture->relief, VK_NULL_HANDLE),
+        own_image(picture->mist_map, context->linear),
+        whole(glass->state),
+        own_image(picture->map, context->nearest),
         image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
@@ -176,17 +190,16 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
 
 /* ---- creating */
 
-/* Whether compute shaders may shuffle. */
-static bool can_shuffle(const virga_context *context)
+/* Lanes of a subgroup; 0 where compute shaders may not shuffle. */
+static uint32_t shuffled_lanes(const virga_context *context)
 {
     VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                               .pNext = &subgroup};
     context->vk.GetPhysicalDeviceProperties2(context->physical_device, &properties);
-    const VkSubgroupFeatureFlags needed =
-        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
-    return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-           (subgroup.supportedOperations & needed) == needed;
+    const bool can = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                     (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+    return can ? subgroup.subgroupSize : 0;
 }
 
 /* Whether samplers filter four whole floats. */
@@ -202,26 +215,28 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
     const virga_compute_row wanted[PASSES] = {
         {&picture->ball_pass, VIRGA_SPIRV(glass_picture_balls_comp), "glass.balls"},
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
-        {&picture->scan_pass, VIRGA_SPIRV(glass_picture_scan_comp), "glass.scan"},
+        {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
-        {&picture->parts_pass, VIRGA_SPIRV(glass_picture_parts_comp), "glass.parts"},
+        {&picture->relief_pass, VIRGA_SPIRV(glass_picture_relief_comp), "glass.relief"},
         {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
         {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
 
-/* One for each density and blend, without and with film. */
-static virga_result create_gathers(virga_context *context, bool shuffle, struct glass_picture *picture)
+/* For each density and blend: without film, with sheets of it, and with beads too. */
+static virga_result create_gathers(virga_context *context, uint32_t lanes, struct glass_picture *picture)
 {
-    const virga_spirv shader =
-        shuffle ? VIRGA_SPIRV(glass_picture_gather_shuffle_comp) : VIRGA_SPIRV(glass_picture_gather_comp);
+    const virga_spirv shader = !lanes       ? VIRGA_SPIRV(glass_picture_gather_comp)
+                               : lanes <= 8 ? VIRGA_SPIRV(glass_picture_gather_narrow_comp)
+                                            : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < 4 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
-        const uint32_t mode = GLASS_GATHER_MODE(i / 4, i / 2 % 2) | (i % 2 ? GLASS_GATHER_FILM : 0);
+    static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
+    for (uint32_t i = 0; i < 6 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
+        const uint32_t mode = GLASS_GATHER_MODE(i / 6, i / 3 % 2) | films[i % 3];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->layout,
-                                       .constant = mode | (picture->map ? GLASS_GATHER_MAP : 0),
+                                       .constant = mode | (picture->whole_map ? GLASS_GATHER_MAP : 0),
                                        .name = "glass.gather"};
         TRY(virga_compute_pipeline_create(context, &def, &picture->gather_passes[mode]));
     }
@@ -235,7 +250,7 @@ static void retire_gathers(virga_context *context, struct glass_picture *picture
         VIRGA_RETIRE(context, picture->gather_passes[i]);
 }
 
-static virga_result create_images(virga_context *context, bool height_map, struct glass_picture *picture)
+static virga_result create_images(virga_context *context, struct glass_picture *picture)
 {
     virga_result result = VIRGA_OK;
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -244,13 +259,14 @@ static virga_result create_images(virga_context *context, bool height_map, struc
     TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.relief", &picture->relief));
-    if (height_map)
-        TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
-                               sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                               VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
+    TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
+                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, copies, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.copies", &picture->copies));
+    TRY(virga_image_create(context, VK_FORMAT_R8_UNORM, picture->max_mist, 1, sampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.mist_map", &picture->mist_map));
     TRY(virga_image_create(context, VK_FORMAT_D32_SFLOAT, one, 1, sampled, VK_IMAGE_ASPECT_DEPTH_BIT,
                            "glass.blank_depth", &picture->blank_depth));
     TRY(virga_image_create(context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
@@ -269,15 +285,24 @@ virga_result glass_picture_create(virga_glass *glass)
     if (!picture)
         return virga_out_of_host_memory(context, "a pane's picture");
     glass->picture = picture;
+    picture->whole_map = glass->def.height_map;
     fill_sizes(&glass->def, picture);
     list_buffers(&glass->def, context->frames_in_flight, picture, buffers);
     list_passes(picture, passes);
     TRY(virga_buffers_create(context, buffers, BUFFERS));
-    TRY(create_images(context, glass->def.height_map, picture));
+    TRY(create_images(context, picture));
     picture->filtered = can_filter(context);
     TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
     TRY(virga_compute_pipelines_create(context, picture->bindings->layout, &glass->needed, passes, PASSES));
-    TRY(create_gathers(context, can_shuffle(context), picture));
+    for (uint32_t i = 0; i < 4; i++) {
+        const virga_compute_def def = {.shader = VIRGA_SPIRV(glass_picture_mist_comp),
+                                       .layout = picture->bindings->layout,
+                                       .constant = i,
+                                       .group = &glass->needed,
+                                       .name = "glass.mist"};
+        TRY(virga_compute_pipeline_create(context, &def, &picture->mist_passes[i]));
+    }
+    TRY(create_gathers(context, shuffled_lanes(context), picture));
 error:
     return result; /* what was made goes with the pane */
 }
@@ -285,7 +310,7 @@ error:
 virga_result glass_picture_share(virga_glass *glass)
 {
     retire_gathers(glass->context, glass->picture);
-    return create_gathers(glass->context, false, glass->picture);
+    return create_gathers(glass->context, 0, glass->picture);
 }
 
 void glass_picture_destroy(virga_glass *glass)
@@ -300,12 +325,15 @@ void glass_picture_destroy(virga_glass *glass)
     list_passes(picture, passes);
     virga_compute_pipelines_retire(context, passes, PASSES);
     retire_gathers(context, picture);
+    for (uint32_t i = 0; i < 4; i++)
+        VIRGA_RETIRE(context, picture->mist_passes[i]);
     virga_buffers_retire(context, buffers, BUFFERS);
     for (uint32_t i = 0; i < GLASS_MAX_TARGETS * GLASS_DRAWS; i++)
         VIRGA_RETIRE(context, picture->targets[i / GLASS_DRAWS].draws[i % GLASS_DRAWS]);
     VIRGA_RETIRE(context, picture->relief);
     VIRGA_RETIRE(context, picture->map);
     VIRGA_RETIRE(context, picture->copies);
+    VIRGA_RETIRE(context, picture->mist_map);
     VIRGA_RETIRE(context, picture->blank_depth);
     VIRGA_RETIRE(context, picture->blank_color);
     VIRGA_RETIRE(context, picture->bindings);

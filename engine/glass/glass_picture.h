@@ -14,13 +14,22 @@
 #define GLASS_MAX_TARGETS 8
 
 /* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., then the paper's and refraction vectors, each without and
- * with the scene's depth. */
-enum { GLASS_DRAW_PHYSICAL = 0, GLASS_DRAW_PAPER = 16, GLASS_DRAW_REFRACTION = 18, GLASS_DRAWS = 20 };
+ * with the scene's depth; then mist, likewise, and again on what is not glass. */
+enum {
+    GLASS_DRAW_PHYSICAL = 0,
+    GLASS_DRAW_PAPER = 16,
+    GLASS_DRAW_REFRACTION = 18,
+    GLASS_DRAW_MIST = 20,
+    GLASS_DRAWS = 24
+};
 
 #define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
 #define GLASS_GATHER_FILM                 16u /* tiles with film */
 #define GLASS_GATHER_MAP                  32u /* the host wants the map */
-#define GLASS_GATHERS                     32  /* of which those of five densities are made */
+#define GLASS_GATHER_BEADS                64u /* in a view that is near enough to show beads of film as drops */
+#define GLASS_MIST_SEVERAL                1u  /* cells to a texel */
+#define GLASS_MIST_MASKED                 2u  /* there may be cells without glass */
+#define GLASS_GATHERS                     128 /* of which three for each density and blend are made */
 
 typedef struct glass_target {
     uint64_t serial; /* of the virga_target; 0: free */
@@ -37,13 +46,16 @@ struct glass_picture {
     uint32_t max_columns, max_rows;           /* texels of the map */
     uint32_t max_tile_columns, max_tile_rows; /* and tiles */
     uint32_t max_entries;
-    virga_buffer *balls, *tiles, *entries, *mist, *counts, *written, *work, *corners, *view_ring;
-    virga_image_2d *map; /* NULL: the host does not want it */
-    virga_image_2d *relief, *copies;
+    VkExtent2D max_mist; /* texels of the mist's map, whole blocks */
+    virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners, *view_ring;
+    virga_image_2d *map;
+    bool whole_map; /* the host wants it, also where there is only mist */
+    virga_image_2d *relief, *copies, *mist_map;
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *film_pass, *scan_pass, *fill_pass, *parts_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *ball_pass, *film_pass, *list_pass, *fill_pass, *relief_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */
@@ -55,7 +67,10 @@ struct glass_picture {
     virga_glass_style prepared_style;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];
-    uint32_t columns, rows;                             /* texels in use since the newest prepare */
+    uint32_t columns, rows; /* texels in use since the newest prepare */
+    VkExtent2D mist_size;   /* and of the mist's map */
+    uint32_t mist_cells;
+    bool beads;                                         /* may have a shape in this view */
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
 };
 

@@ -1,5 +1,6 @@
 // picture.glsl - what the passes that make and draw the height map share: the view, the settings, and little helpers.
 #define VIRGA_GLSL
+#include "shared/compact.h"
 #include "shared/glass_picture_gpu.h"
 #include "shared/random.h"
 #include "shared/view_gpu.h"

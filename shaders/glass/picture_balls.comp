@@ -1,27 +1,30 @@
 // picture_balls.comp - each drop and particle becomes one to four metaballs (Goto et al. 2009, section 4.7), which
-// count themselves
-// in the tiles that they reach.
+// count themselves in the tiles that they reach.
+//
+// One loop emits all of a drop's balls, whatever becomes of it: software Vulkan runs every place in a shader that
+// writes for every lane, taken or not.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
 #include "picture_density.glsl"
 #include "picture_tiles.glsl"
-#include "picture_mist.glsl"
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Drops { virga_glass_drop_gpu drops[]; };
 layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
-layout(scalar, set = 0, binding = 10) buffer Counts { uint ball_count, cut_count; };
+layout(scalar, set = 0, binding = 10) readonly buffer List { virga_list_gpu list; uint listed[]; };
+layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
 #define SUB_WATER 0.09              // share of a drop's water in each of its three sub-balls as it lands
 #define TEAR_SPEED 0.03             // m/s at which half of a tear has formed
 
-struct Drop {
-    uint id;
-    float radius; // of the base, all water in one cap
-    vec2 middle, sag;
-};
+shared uint widest;
+
+// A drop's balls: the first is its own. Radius 0: there is none.
+vec2 middles[VIRGA_GLASS_DROP_BALLS];
+float radii[VIRGA_GLASS_DROP_BALLS];
+float sub_peak; // of all but the first
 
 // Gravity along the pane's surface, by the nearest node.
 vec2 gravity_at(vec2 middle)
@@ -33,91 +36,103 @@ vec2 gravity_at(vec2 middle)
 }
 
 // A cap on an inclined surface, where it is flat enough: surface tension x laplacian of the height + density x
-// gravity x way down
-// is the same everywhere, and 0 the height at the rim. Its solution is the level cap times 1 + s x, with the way
-// down x over the
-// radius and s = Bond number / (8 height over radius).
+// gravity x way down is the same everywhere, and 0 the height at the rim. Its solution is the level cap times 1 + s x,
+// with the way down x over the radius and s = Bond number / (8 height over radius).
 vec2 sag_of(vec2 middle, float radius)
 {
     const vec2 s = gravity_at(middle) * (998.2 / 0.0728 / 8.0) * radius * radius / look.cap_height;
     return s * min(1.0, 0.6 / max(length(s), 1e-6));
 }
 
-void count_tiles(vec2 middle, float reach_m)
-{
-    ivec2 first, last;
-    tiles_around(middle, reach_m, first, last);
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++)
-            atomicAdd(tiles[tile_number(ivec2(x, y))].count, 1u);
-}
-
-void emit_ball(Drop drop, vec2 middle, float radius, float peak)
-{
-    const float shape = peak * shape_share(radius);
-    if (shape < 1.0 && peak == 1.0) {
-        add_mist(middle, radius, 1.0 - shape);
-        mark_tiles(middle, max(look.texel_m[0], look.texel_m[1]), VIRGA_GLASS_HAS_MIST);
-    }
-    if (shape > 0.0 && radius > 0.0) {
-        balls[atomicAdd(ball_count, 1u)] =
-            virga_glass_ball_gpu(float[2](middle.x, middle.y), radius, radius * look.cap_height,
-                                 float[2](drop.sag.x, drop.sag.y), drop.id, shape);
-        count_tiles(middle, radius * density_reach());
-    }
-}
-
 // Three sub-balls around one that has just landed, which flow in (section 4.7). All have the shape of caps, so that
-// radii are
-// cube roots of the shares of water.
-void emit_landing(Drop drop, float t, uint random)
+// radii are cube roots of the shares of water.
+void shape_landing(float t, uint random)
 {
-    const float left = (1.0 - t) * (1.0 - t), water = SUB_WATER * left;
-    emit_ball(drop, drop.middle, drop.radius * pow(1.0 - 3.0 * water, 1.0 / 3.0), 1.0);
+    const float left = (1.0 - t) * (1.0 - t), water = SUB_WATER * left, radius = radii[0];
     const float turn = 6.2831853 * virga_unit(random);
     for (uint i = 0u; i < 3u; i++) {
         const float angle = turn + 2.0943951 * float(i) + 0.9 * (virga_unit(virga_hash2(random, i)) - 0.5);
-        emit_ball(drop, drop.middle + vec2(cos(angle), sin(angle)) * (drop.radius * 1.15 * left),
-                  drop.radius * pow(water, 1.0 / 3.0), min(4.0 * (1.0 - t), 1.0));
+        middles[i + 1u] = middles[0] + vec2(cos(angle), sin(angle)) * (radius * 1.15 * left);
+        radii[i + 1u] = radius * pow(water, 1.0 / 3.0);
     }
+    radii[0] = radius * pow(1.0 - 3.0 * water, 1.0 / 3.0);
+    sub_peak = min(4.0 * (1.0 - t), 1.0);
 }
 
 // A tear: smaller balls behind, the farther the faster it runs. All together hold its water.
-void emit_tear(Drop drop, vec2 velocity)
+void shape_tear(vec2 velocity)
 {
     const float speed = length(velocity), run = speed / (speed + TEAR_SPEED);
     const vec3 sizes = run * vec3(0.80, 0.60, 0.42);
     const vec3 ways = (0.35 + 0.65 * run) * vec3(0.75, 1.45, 2.05);
-    const float head = drop.radius / pow(1.0 + dot(sizes, sizes * sizes), 1.0 / 3.0);
-    const vec2 back = -velocity / speed;
-    emit_ball(drop, drop.middle, head, 1.0);
-    for (int i = 0; i < 3; i++)
-        emit_ball(drop, drop.middle + back * (head * ways[i]), head * sizes[i], 1.0);
+    const float head = radii[0] / pow(1.0 + dot(sizes, sizes * sizes), 1.0 / 3.0);
+    radii[0] = head;
+    for (int i = 0; i < 3; i++) {
+        middles[i + 1] = middles[0] - velocity / speed * (head * ways[i]);
+        radii[i + 1] = head * sizes[i];
+    }
+}
+
+void count_tiles(vec2 middle, float reach_m)
+{
+    ivec2 first, last;
+    uint reached = 0u;
+    tiles_around(middle, reach_m, first, last);
+    for (int y = first.y; y <= last.y; y++)
+        for (int x = first.x; x <= last.x; x++, reached++)
+            atomicAdd(tiles[tile_number(ivec2(x, y))].count, 1u);
+    atomicAdd(work.entries, reached);
+}
+
+void emit_balls(uint id, vec2 sag)
+{
+    const float texel_m2 = look.texel_m[0] * look.texel_m[1];
+    for (uint i = 0u; i < VIRGA_GLASS_DROP_BALLS; i++) {
+        const float radius = radii[i], shape = shape_share(radius), peak = (i == 0u ? 1.0 : sub_peak) * shape;
+        // A sub-ball that is fading has no mist.
+        const bool misty = i == 0u || sub_peak == 1.0;
+        const float mist = misty ? (1.0 - shape) * min(3.14159265 * radius * radius / texel_m2, 4.0) : 0.0;
+        if (radius > 0.0 && peak + mist > 0.0) {
+            balls[atomicAdd(work.balls, 1u)] = virga_glass_ball_gpu(float[2](middles[i].x, middles[i].y), radius, mist,
+                                                                   float[2](sag.x, sag.y), id, peak);
+            atomicAdd(work.shaped, peak > 0.0 ? 1u : 0u);
+            count_tiles(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
+            atomicMax(widest, floatBitsToUint(radius));
+        }
+    }
 }
 
 void make(uint place)
 {
     const virga_glass_drop_gpu at = drops[place];
-    Drop drop = Drop(at.id, 0.0, vec2(0.0), vec2(0.0));
-    drop.middle = mix(vec2(at.before[0], at.before[1]), vec2(at.position[0], at.position[1]), look.share);
     const bool particle = (at.kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE;
-    drop.radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
-    drop.sag = particle ? vec2(0.0) : sag_of(drop.middle, drop.radius);
+    const float radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
+    for (int i = 0; i < VIRGA_GLASS_DROP_BALLS; i++)
+        radii[i] = 0.0;
+    middles[0] = mix(vec2(at.before[0], at.before[1]), vec2(at.position[0], at.position[1]), look.share);
+    radii[0] = radius;
+    sub_peak = 1.0;
+    const vec2 sag = particle ? vec2(0.0) : sag_of(middles[0], radius);
     const vec2 velocity = vec2(at.velocity[0], at.velocity[1]);
     const float age = max(at.age_s + look.late_s, 0.0);
     const bool lands = !particle && age < look.impact_s && (at.kind & VIRGA_GLASS_TAIL) == 0u;
     const bool runs = !particle && !lands && (at.kind & VIRGA_GLASS_RUNNING) != 0u && dot(velocity, velocity) > 1e-8;
     if (lands)
-        emit_landing(drop, age / look.impact_s, at.random);
+        shape_landing(age / look.impact_s, at.random);
     if (runs)
-        emit_tear(drop, velocity);
-    if (!lands && !runs)
-        emit_ball(drop, drop.middle, drop.radius, 1.0);
+        shape_tear(velocity);
+    emit_balls(at.id, sag);
 }
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
-    if ((drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
+    if (gl_LocalInvocationIndex == 0u)
+        widest = 0u;
+    barrier();
+    const uint i = gl_GlobalInvocationID.x, place = listed[min(i, look.pane.max_drops - 1u)];
+    if (i < state.shown && (drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
         make(place);
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && widest != 0u)
+        atomicMax(work.highest, widest);
 }

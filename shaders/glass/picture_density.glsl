@@ -1,7 +1,5 @@
 // picture_density.glsl - density functions, as functions of x^2, the square of the distance over the ball's radius,
-// scaled so that
-// all are 0.5 at x = 1; and back. x^2 is all that any of them needs but one.
-
+// scaled so that all are 0.5 at x = 1; and back. x^2 is all that any of them needs but one.
 
 // Which one, and whether by Chen and Zhang's weights: constants of a pipeline, as software Vulkan runs all sides of
 // a branch.
@@ -10,6 +8,7 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define DENSITY (MODE & 7u)
 #define WEIGHTED ((MODE & 8u) != 0u)
 #define FILM ((MODE & 16u) != 0u)      // tiles with film
+#define WITH_BEADS ((MODE & 64u) != 0u) // some film is in beads that have a shape
 #define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
 #else
 #define DENSITY look.density
@@ -76,9 +75,8 @@ float density_inverse(float v)
     return reach2 * y2;
 }
 
-// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: compilers leave one alone that
-// has
-// another of unknown length in it, and what it indexes goes to memory.
+// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: see Texel in
+// picture_gather.glsl.
 #define MOST_STEPS 16u
 float compressed(float v)
 {

@@ -1,6 +1,5 @@
 // picture_fill.comp - balls enter themselves in the lists of the tiles that they reach, in any order: the gathering
-// pass adds in
-// whole numbers.
+// pass adds in whole numbers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,14 +10,14 @@
 layout(local_size_x = VIRGA_GLASS_FILL_GROUP) in;
 layout(scalar, set = 0, binding = 8) writeonly buffer Entries { uint entries[]; };
 
-layout(scalar, set = 0, binding = 10) readonly buffer Counts { uint ball_count, cut_count; };
-
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    if (i < ball_count) {
+    const virga_glass_ball_gpu ball = balls[min(i, max(work.balls, 1u) - 1u)];
+    if (i < work.balls) {
         ivec2 first, last;
-        tiles_around(vec2(balls[i].middle[0], balls[i].middle[1]), balls[i].radius_m * density_reach(), first, last);
+        tiles_around(vec2(ball.middle[0], ball.middle[1]),
+                     ball_reach(ball.peak > 0.0 ? ball.radius_m : 0.0, density_reach()), first, last);
         for (int y = first.y; y <= last.y; y++)
             for (int x = first.x; x <= last.x; x++) {
                 const uint tile = tile_number(ivec2(x, y));

@@ -1,136 +1,115 @@
-// picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are
-// added up, in whole
-// numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls around:
-// SHUFFLE or not.
+// picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are added
+// up, in whole numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls
+// around: SHUFFLE or not.
 //
 // Of each ball four sums: its density V; and, with the weight k, k V, k V z and k K, where z is its height, sag and
-// all, over the
-// highest of the tile, and K = 1 / (1 + x^2)^2. With the weight k = z,
+// all, over the highest of the view, and K = 1 / (1 + x^2)^2. With the weight k = z,
 //
-//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and by height, so that a small ball
-// in or under
-//                                     a large one makes no dent
+//     Z = (sum k V z) / (sum k V)     is the mean height, weighted by density and by height, so that a small ball in
+//                                     or under a large one makes no dent
 //     P = 2 - ((sum k K) / Z)^(-1/2)  is 1 - x^2 for a ball alone, smooth wherever balls merge, and below 2 however
-// many do
+//                                     many do
 //
-// and Z P the height. Two drops that become one: P = 1.29 in their middle; for caps of one angle it is 2^(1/3) =
-// 1.26. Near the rim
-// what the density says takes over, the x^2 of a ball alone that has it there, so that the water ends where the
-// density is
-// 1/2. Both are the same for a ball alone. By Chen and Zhang's weights k = t_i is R_i less the distance, sums are
-// divided by
-// that of the weights, and P is made of the weighted mean of K.
+// and Z P the height. Two drops that become one: P = 1.29 in their middle; for caps of one angle it is 2^(1/3) = 1.26.
+// Near the rim what the density says takes over, the x^2 of a ball alone that has it there, so that the water ends
+// where the density is 1/2. Both are the same for a ball alone. By Chen and Zhang's weights k = t_i is R_i less the
+// distance, sums are divided by that of the weights, and P is made of the weighted mean of K.
+//
+// A fifth sum is the mist of drops too small for a shape: each spread over the four texels around its middle by how
+// near they are, all of its area, wherever it lies.
+//
+// Slopes need neighbours: they are the next pass's, picture_relief.comp.
+//
+// A lane has as many texels above one another as it takes; the includer says in LANES how many lanes there are.
 #define DENSITY_SPECIAL
 #include "picture.glsl"
 #include "picture_density.glsl"
 #include "picture_tiles.glsl"
 #include "picture_beads.glsl"
 
-#define LANES 64
-#define OWN 4 // texels of a lane, above one another
+#define TILE VIRGA_GLASS_TILE
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
-#define MOST_CELLS 20 // along a side, that a tile lies on or beside where cells are no smaller than texels
+#define MOST_CELLS 14 // along a side, that a tile lies on or beside where beads have a shape
 
 layout(local_size_x = LANES) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
-layout(scalar, set = 0, binding = 9) buffer Mist { uint mist[]; };
+layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; }; // four texels of its map to a word
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
-layout(set = 0, binding = 20, rgba32f) uniform writeonly image2D relief_out;
-layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
-layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_BLOCKS, _QUARTER
-layout(scalar, set = 0, binding = 18) readonly buffer Work { virga_glass_work_gpu work; uint wet[]; };
+layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_HOLDS_..., tile by tile
 
 struct Ball {
     vec2 middle, sag;
-    float inv_radius, height, peak, radius;
+    float inv_radius, height, peak, mist;
 };
 
-shared uint highest, widest, narrowest, held, bead_count;
-shared float heights[16][16]; // those of the tile, and a texel around it
-shared float film_m[MOST_CELLS * MOST_CELLS];
-shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS]; // in any order, as sums have none
+// Not in an array, which would go to memory: compilers do not unroll a loop that has another of unknown length in it.
+struct Texel {
+    vec2 place;
+    ivec4 sums;
+    int mist;
+};
+
+#if LANES == 8
+Texel texel0, texel1, texel2, texel3, texel4, texel5, texel6, texel7;
+#define FOR_EACH(what) what(0) what(1) what(2) what(3) what(4) what(5) what(6) what(7)
+#else // 64
+Texel texel0;
+#define FOR_EACH(what) what(0)
+#endif
+
+float unit_m, reach; // heights are over the first, distances over a ball's radius below the second
+
 #ifndef SHUFFLE
 shared Ball batch[LANES];
 #endif
-
-ivec4 sums[OWN];
-float tile_height, tile_radius; // largest of a tile
+shared uint bead_count;
+shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS]; // in any order, as sums have none
 
 Ball ball_of(uint entry)
 {
     const virga_glass_ball_gpu b = balls[entries[entry]];
-    return Ball(vec2(b.middle[0], b.middle[1]), vec2(b.sag[0], b.sag[1]), 1.0 / b.radius_m, b.height_m / tile_height,
-                b.peak, b.radius_m / tile_radius);
+    return Ball(vec2(b.middle[0], b.middle[1]), vec2(b.sag[0], b.sag[1]), 1.0 / b.radius_m,
+                b.radius_m * look.cap_height / unit_m, b.peak, b.mist);
 }
 
-void add_at(int own, vec2 place, Ball ball, float reach)
+void add_to(inout Texel texel, Ball ball)
 {
-    const vec2 x = (place - ball.middle) * ball.inv_radius;
+    const vec2 off = texel.place - ball.middle, x = off * ball.inv_radius;
     const float x2 = dot(x, x), once = 1.0 / (1.0 + x2);
     const float density = ball.peak * density_at(x2, reach);
     const float height = ball.height * max(1.0 + dot(ball.sag, x), 0.2);
-    // Chen and Zhang, equations 7 and 8.
-    const float k = WEIGHTED ? ball.radius * max(reach - sqrt(x2), 0.0) / reach : height;
-    const float around = ball.peak * k * density_window(x2, reach) * once * once;
-    const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, around);
-    sums[own] += x2 < reach * reach ? ivec4(each * ONE + 0.5) : ivec4(0);
+    // Chen and Zhang, equations 7 and 8. Radii are over the largest as heights are.
+    const float k = WEIGHTED ? ball.height * max(reach - sqrt(x2), 0.0) / reach : height;
+    const float inner = ball.peak * k * density_window(x2, reach) * once * once;
+    const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, inner);
+    texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(each * ONE + 0.5) : ivec4(0);
+    const vec2 near = max(1.0 - abs(off) / texel_m(), 0.0);
+    texel.mist += int(ball.mist * near.x * near.y * ONE + 0.5);
 }
 
-void add(vec2 place, Ball ball, float reach)
+void add(Ball ball)
 {
-    for (int i = 0; i < OWN; i++)
-        add_at(i, place + vec2(0.0, look.texel_m[1] * float(i)), ball, reach);
+#define ADD(i) add_to(texel##i, ball);
+    FOR_EACH(ADD)
 }
 
-// ---- what a tile holds
-
-bool has_film(virga_glass_tile_gpu tile) { return (tile.film & VIRGA_GLASS_HAS_FILM) != 0u; }
-
-void find_largest(virga_glass_tile_gpu tile)
+void add_balls(virga_glass_tile_gpu tile)
 {
-    if (gl_LocalInvocationIndex == 0u)
-        highest = widest = held = bead_count = 0u;
-    if (gl_LocalInvocationIndex == 0u)
-        narrowest = floatBitsToUint(1e9);
-    barrier();
-    if (gl_LocalInvocationIndex < tile.count) {
-        float height = 0.0, radius = 0.0, least = 1e9;
-        for (uint i = gl_LocalInvocationIndex; i < tile.count; i += LANES) {
-            const uint ball = entries[tile.first + i];
-            height = max(height, balls[ball].height_m);
-            radius = max(radius, balls[ball].radius_m);
-            least = min(least, balls[ball].radius_m);
-        }
-        atomicMin(narrowest, floatBitsToUint(least));
-        atomicMax(highest, floatBitsToUint(height));
-        atomicMax(widest, floatBitsToUint(radius));
-    }
-    barrier();
-    const float radius = max(uintBitsToFloat(widest), has_film(tile) ? BEAD_CELLS * look.pane.cell_m : 0.0);
-    const float height = max(uintBitsToFloat(highest), has_film(tile) ? radius * look.cap_height : 0.0);
-    tile_height = max(height * 1.6, 1e-9); // the fatter side of one that sags
-    tile_radius = max(radius, 1e-9);
-}
-
-void add_balls(virga_glass_tile_gpu tile, vec2 place)
-{
-    const float reach = density_reach();
 #ifdef SHUFFLE
-    // Each lane looks at one ball; those that reach none of the subgroup's texels are left out.
-    const vec2 low = subgroupMin(place), high = subgroupMax(place) + vec2(0.0, look.texel_m[1] * float(OWN - 1));
-    for (uint from = 0u; from < tile.count; from += gl_SubgroupSize) {
+    // Each lane looks at one ball: software Vulkan reads lane by lane, and would read one ball as often. The first are
+    // read outside of the loop, where that is quicker.
+    Ball mine = ball_of(tile.first + min(gl_SubgroupInvocationID, max(tile.count, 1u) - 1u));
+    for (uint from = 0u; from < tile.count;) {
         const uint some = min(tile.count - from, gl_SubgroupSize);
-        const Ball mine = ball_of(tile.first + from + min(gl_SubgroupInvocationID, some - 1u));
-        const vec2 apart = (mine.middle - clamp(mine.middle, low, high)) * mine.inv_radius;
         const vec4 ends = vec4(mine.middle, mine.sag);
-        const vec4 sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.radius);
-        uvec4 near = subgroupBallot(gl_SubgroupInvocationID < some && dot(apart, apart) < reach * reach);
-        while (near != uvec4(0u)) {
-            const uint i = subgroupBallotFindLSB(near);
-            near &= ~(uvec4(i / 32u == 0u, i / 32u == 1u, i / 32u == 2u, i / 32u == 3u) << (i % 32u));
+        const vec4 sizes = vec4(mine.inv_radius, mine.height, mine.peak, mine.mist);
+        for (uint i = 0u; i < some; i++) {
             const vec4 e = subgroupShuffle(ends, i), s = subgroupShuffle(sizes, i);
-            add(place, Ball(e.xy, e.zw, s.x, s.y, s.z, s.w), reach);
+            add(Ball(e.xy, e.zw, s.x, s.y, s.z, s.w));
         }
+        from += gl_SubgroupSize;
+        if (from < tile.count)
+            mine = ball_of(tile.first + min(from + gl_SubgroupInvocationID, tile.count - 1u));
     }
 #else
     for (uint from = 0u; from < tile.count; from += LANES) {
@@ -140,77 +119,83 @@ void add_balls(virga_glass_tile_gpu tile, vec2 place)
             batch[gl_LocalInvocationIndex] = ball_of(tile.first + from + gl_LocalInvocationIndex);
         barrier();
         for (uint i = 0u; i < some; i++)
-            add(place, batch[i], reach);
+            add(batch[i]);
     }
 #endif
 }
 
 // ---- film
 
-bool cells_are_wide() { return look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]); }
-
-ivec2 first_cell(ivec2 tile) { return ivec2(floor((vec2(tile) * tile_m() - texel_m()) / look.pane.cell_m)) - 1; }
-
-float sheet_m(uint cell)
+// Thickness of the sheet on a cell. Without a branch: in one, software Vulkan reads lane by lane.
+float sheet_m(ivec2 cell)
 {
-    return float(film[cell]) * film_fresh(cell) * 1e-12 / (look.pane.cell_m * look.pane.cell_m);
+    const ivec2 most = ivec2(look.pane.columns, look.pane.rows) - 1, near = clamp(cell, ivec2(0), most);
+    const uint number = uint(near.x) + uint(near.y) * look.pane.columns;
+    const float nl = float(film[number]) * film_fresh(passed[number]);
+    return cell == near ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
 
-bool is_cell(ivec2 cell)
+// Between the middles of four cells; of the nearest where cells are smaller than texels.
+float sheet_at(vec2 place)
 {
-    return all(greaterThanEqual(cell, ivec2(0))) && cell.x < int(look.pane.columns) && cell.y < int(look.pane.rows);
+    if (!FILM)
+        return 0.0;
+    const bool wide = look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]);
+    const vec2 at = place / look.pane.cell_m - 0.5, low = wide ? floor(at) : floor(at + 0.5);
+    const vec2 t = wide ? at - low : vec2(0.0);
+    const ivec2 cell = ivec2(low);
+    return mix(mix(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), t.x),
+               mix(sheet_m(cell + ivec2(0, 1)), sheet_m(cell + ivec2(1, 1)), t.x), t.y);
 }
 
-// The tile's cells, and those beside it, with those of their beads that have a shape.
-void load_cells(ivec2 tile)
+// Beads with a shape of the tile's cells, and of those beside it.
+void load_beads(ivec2 tile)
 {
-    const ivec2 corner = first_cell(tile);
-    const ivec2 span = min(ivec2(floor((vec2(tile + 1) * tile_m() + texel_m()) / look.pane.cell_m)) + 2 - corner,
-        ivec2(MOST_CELLS));
+    const ivec2 corner = ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1;
+    const ivec2 span = min(ivec2(floor(vec2(tile + 1) * tile_m() / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
+    const ivec2 size = ivec2(look.pane.columns, look.pane.rows);
     for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
-        const ivec2 at = ivec2(int(i) % span.x, int(i) / span.x), cell = corner + at;
+        const ivec2 cell = corner + ivec2(int(i) % span.x, int(i) / span.x);
+        if (any(lessThan(cell, ivec2(0))) || any(greaterThanEqual(cell, size)))
+            continue;
         const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
-        const bool wet_cell = is_cell(cell) && film[number] != 0u;
-        film_m[at.x + at.y * MOST_CELLS] = 0.0;
-        if (wet_cell) {
-            film_m[at.x + at.y * MOST_CELLS] = sheet_m(number);
-            const float broken_nl = float(film[number]) * (1.0 - film_fresh(number));
-            for (uint k = 0u; k < BEADS; k++) {
-                const vec3 bead = bead_of(cell, number, k, broken_nl);
-                if (shape_share(bead.z) > 0.0)
-                    beads[atomicAdd(bead_count, 1u)] = bead;
-            }
-        }
+        const float broken_nl = float(film[number]) * (1.0 - film_fresh(passed[number]));
+        const vec2 shapes = bead_shapes(bead_radii(number, broken_nl));
+        for (uint k = 0u; k < BEADS; k++)
+            if (shapes[k] > 0.0)
+                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, k, broken_nl);
     }
 }
 
-uint shared_cell(ivec2 cell)
+void add_beads(ivec2 tile)
 {
-    const ivec2 at = clamp(cell, ivec2(0), ivec2(MOST_CELLS - 1));
-    return uint(at.x) + uint(at.y) * MOST_CELLS;
-}
-
-void add_beads(vec2 place)
-{
-    const float reach = density_reach();
+    if (gl_LocalInvocationIndex == 0u)
+        bead_count = 0u;
+    barrier();
+    load_beads(tile);
+    barrier();
     for (uint i = 0u; i < bead_count; i++) {
         const vec3 bead = beads[i];
-        add(place, Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / tile_height,
-                        shape_share(bead.z), bead.z / tile_radius), reach);
+        add(Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / unit_m, bead_shapes(bead.zz).x, 0.0));
     }
 }
 
-// Thickness of the sheet, between the middles of four cells.
-float sheet_at(ivec2 tile, vec2 place)
+// (map) What the mist's map has there, as the draw of it filters it.
+float film_mist(ivec2 texel)
 {
-    if (!cells_are_wide()) {
-        const ivec2 cell = ivec2(floor(place / look.pane.cell_m));
-        return is_cell(cell) ? sheet_m(uint(cell.x) + uint(cell.y) * look.pane.columns) : 0.0;
+    if (!WITH_MAP)
+        return 0.0;
+    const vec2 most = vec2(look.mist_columns, look.mist_rows) - 1.0;
+    const vec2 at = clamp((vec2(texel) + 0.5) * texel_m() / (look.pane.cell_m * float(look.mist_cells)) - 0.5,
+                          vec2(0.0), most);
+    const uvec2 low = uvec2(at), high = min(low + 1u, uvec2(most));
+    vec4 four;
+    for (uint i = 0u; i < 4u; i++) {
+        const uvec2 from = uvec2((i & 1u) != 0u ? high.x : low.x, (i & 2u) != 0u ? high.y : low.y);
+        four[i] = unpackUnorm4x8(mist[(from.x + from.y * look.mist_pitch) / 4u])[from.x & 3u];
     }
-    const vec2 at = place / look.pane.cell_m - 0.5, low = floor(at), t = at - low;
-    const ivec2 cell = ivec2(low) - first_cell(tile);
-    return mix(mix(film_m[shared_cell(cell)], film_m[shared_cell(cell + ivec2(1, 0))], t.x),
-               mix(film_m[shared_cell(cell + ivec2(0, 1))], film_m[shared_cell(cell + ivec2(1, 1))], t.x), t.y);
+    const vec2 t = at - vec2(low);
+    return mix(mix(four.x, four.y, t.x), mix(four.z, four.w, t.x), t.y);
 }
 
 // ---- what sums come to
@@ -219,120 +204,65 @@ float sheet_at(ivec2 tile, vec2 place)
 vec2 blended(ivec4 sum)
 {
     const vec4 s = vec4(sum);
-    if (sum.y <= 0)
-        return vec2(WEIGHTED ? 0.0 : s.x / ONE, 0.0);
     const bool weighted = WEIGHTED;
-    const float density = weighted ? s.y / s.x : s.x / ONE, mean = s.z / s.y;
-    const float around = max(weighted ? s.w / s.x : s.w / ONE / max(mean, 1e-6), 1e-4);
-    const float inner = 2.0 - inversesqrt(around), rim = 1.0 - density_inverse(density);
+    const float density = weighted ? s.y / max(s.x, 1.0) : s.x / ONE, mean = s.z / max(s.y, 1.0);
+    const float inside = max(weighted ? s.w / max(s.x, 1.0) : s.w / ONE / max(mean, 1e-6), 1e-4);
+    const float inner = 2.0 - inversesqrt(inside), rim = 1.0 - density_inverse(density);
     const float profile = mix(rim, inner, smoothstep(0.55, 0.9, density));
-    return vec2(density, tile_height * mean * clamp(profile, -1.0, 2.0));
+    const float height = unit_m * mean * clamp(profile, -1.0, 2.0);
+    return sum.y > 0 ? vec2(density, height) : vec2(weighted ? 0.0 : s.x / ONE, 0.0);
 }
 
-// Red: density, compressed. Green: height (m). Blue: mist. Alpha: thickness of the sheet of film (m).
-vec4 texel_of(ivec4 sum, float sheet, float mist_share)
+// Writes a texel; true if it may have anything to show. Red: density, compressed. Green: height (m). Blue: mist.
+// Alpha: thickness of the sheet of film (m).
+bool put(ivec2 at, Texel texel)
 {
-    const vec2 water = blended(sum);
-    const float film_there = smoothstep(0.0, 3e-6, sheet);
-    return vec4(compressed(water.x), mix(water.y, max(water.y, 0.0), film_there) + sheet, mist_share, sheet);
+    const vec2 water = blended(texel.sums);
+    const float sheet = sheet_at(texel.place), film_there = smoothstep(0.0, 3e-6, sheet);
+    const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
+    imageStore(map_out, at, vec4(density, mix(water.y, max(water.y, 0.0), film_there) + sheet,
+                                 WITH_MAP ? min(drops_mist + film_mist(at), 1.0) : drops_mist, sheet));
+    // Below the threshold, as a pixel between this texel and a neighbour may be above it.
+    return density > 0.2 * look.threshold || drops_mist > 1.0 / 512.0 || (look.style != 0u && sheet > 1e-6);
 }
 
-bool on_tile(ivec2 at) { return all(greaterThan(at, ivec2(0))) && all(lessThanEqual(at, ivec2(VIRGA_GLASS_TILE))); }
-
-// Taken away as it is read, so that the next view finds none. Looked up without a branch, as is_glass.
-float take_mist(ivec2 texel, bool there)
+// Lists the tile for the next pass, by the first lane that finds a reason.
+void list_tile(uint number, bool shown)
 {
-    const uint at = there ? uint(texel.x) + uint(texel.y) * look.map_columns : 0u;
-    const uint held_there = mist[at], found = there ? held_there : 0u;
-    if (found != 0u)
-        mist[at] = 0u;
-    return min(float(found) / float(VIRGA_GLASS_MIST_ONE), 1.0);
+    const uint before = atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u));
+    if ((before & VIRGA_GLASS_LISTED) == 0u) {
+        const uint turn = atomicAdd(work.relief_tiles, 1u);
+        wet[2u * look.max_tiles + look.max_blocks + turn] = number;
+        atomicMax(work.relief_groups[0], min(turn + 1u, VIRGA_GLASS_TILE_ROW));
+        atomicMax(work.relief_groups[1], turn / VIRGA_GLASS_TILE_ROW + 1u);
+    }
 }
 
-// The least density that a texel beside a rim has, or less. Where beads may be, or other densities than Goto's, as for
-// the
-// smallest drops.
-float shown_from()
-{
-    const float step = max(look.texel_m[0], look.texel_m[1]) / max(uintBitsToFloat(narrowest), 1e-6);
-    const float x = 1.0 + 1.1 * step, x2 = x * x;
-    return look.threshold * (FILM || DENSITY != DENSITY_GOTO ? 0.2 : clamp(2.0 / (1.0 + x2 * x2), 0.1, 0.7));
-}
-
-// What the draws read: see picture_surface.glsl.
-vec4 relief_of(vec4 texel, vec2 slope, float bend)
-{
-    const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, texel.w) : 0.0; // the paper has no film
-    const float density = max(texel.x, 2.0 * look.threshold * film_cover);
-    const float inner = look.opaque != 0u ? max(texel.y, 0.0) : bend;
-    return vec4(density, slope, density > 0.7 * look.threshold ? -inner : texel.z);
-}
-
-// Looked up without a branch: in one, software Vulkan reads lane by lane.
-bool is_glass(ivec2 texel)
-{
-    const vec2 at = (vec2(texel) + 0.5) * texel_m() / look.pane.cell_m;
-    const uvec2 cell = uvec2(clamp(at, vec2(0.0), vec2(look.pane.columns, look.pane.rows) - 1.0));
-    const uint known = surface[look.masked != 0u ? cell.x + cell.y * look.pane.columns : 0u];
-    return look.masked == 0u || (known & 0x1000000u) != 0u;
-}
-
+// No branch around all of it: in one, software Vulkan reads lane by lane. A workgroup beyond the list's end does its
+// last tile once more.
 void gather()
 {
-    const uint number = wet[gl_WorkGroupID.x + (FILM ? look.max_tiles : 0u)], lane = gl_LocalInvocationIndex;
+    const uint turn = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
+    const uint number = wet[min(turn, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
     const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
-    const virga_glass_tile_gpu at = tiles[number];
-    const ivec2 own = ivec2(lane % 16u, lane / 16u * OWN), first = tile * VIRGA_GLASS_TILE + own - 1;
-    const vec2 place = (vec2(first) + 0.5) * texel_m();
-    find_largest(at);
-    for (int i = 0; i < OWN; i++)
-        sums[i] = ivec4(0);
-    add_balls(at, place);
-    if (FILM) {
-        if (cells_are_wide())
-            load_cells(tile);
-        barrier();
-        add_beads(place);
-    }
-    vec4 texels[OWN];
-    for (int i = 0; i < OWN; i++) {
-        float sheet = 0.0;
-        if (FILM)
-            sheet = sheet_at(tile, place + vec2(0.0, look.texel_m[1] * float(i)));
-        const bool misty = (at.film & VIRGA_GLASS_HAS_MIST) != 0u && on_tile(own + ivec2(0, i));
-        const float share = take_mist(first + ivec2(0, i), misty);
-        texels[i] = texel_of(sums[i], sheet, share);
-        heights[own.y + i][own.x] = look.style == 0u ? texels[i].x : texels[i].y;
-    }
-    barrier();
-    bool any = false, shown = false;
-    const int left = max(own.x - 1, 0), right = min(own.x + 1, 15), below = max(own.y - 1, 0),
-        above = min(own.y + OWN, 15);
-    float column[OWN + 2];
-    column[0] = heights[below][own.x];
-    column[OWN + 1] = heights[above][own.x];
-    for (int i = 0; i < OWN; i++)
-        column[i + 1] = look.style == 0u ? texels[i].x : texels[i].y;
-    for (int i = 0; i < OWN; i++) {
-        const int row = own.y + i;
-        const vec2 before = vec2(heights[row][left], column[i]), after = vec2(heights[row][right], column[i + 2]);
-        const vec2 slope = 0.5 * (after - before) / texel_m();
-        const vec2 bend = abs(after + before - 2.0 * column[i + 1]) / (texel_m() * texel_m());
-        const vec4 relief = is_glass(first + ivec2(0, i)) ? relief_of(texels[i], slope, max(bend.x,
-            bend.y)) : vec4(0.0);
-        if (on_tile(ivec2(own.x, row))) {
-            imageStore(relief_out, first + ivec2(0, i), relief);
-            if (WITH_MAP)
-                imageStore(map_out, first + ivec2(0, i), texels[i]);
-            any = any || dot(abs(texels[i]), vec4(1.0)) > 0.0;
-            // Below the threshold, as a neighbour's rim may reach over.
-            shown = shown || relief.x > shown_from() || relief.w > 0.0;
-        }
-    }
-    const uint quarter = VIRGA_GLASS_QUARTER << (own.x > 7 ? 1 : 0);
-    if (any)
-        atomicOr(held, VIRGA_GLASS_WRITTEN | (shown ? quarter << (lane >= 32u ? 2 : 0) : 0u));
-    barrier();
-    if (lane == 0u)
-        written[uint(tile.x) + uint(tile.y) * look.written_columns] = held;
+    const ivec2 first = tile * TILE + ivec2(gl_LocalInvocationIndex % TILE, gl_LocalInvocationIndex / TILE);
+    const uint count = tiles[number].count;
+    const uint holds = uint(tile.x) + uint(tile.y) * look.written_columns, held = written[holds];
+    reach = density_reach();
+    // 1.6: the fatter side of one that sags.
+    unit_m = max(uintBitsToFloat(work.highest), WITH_BEADS ? VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m : 1e-6) *
+             look.cap_height * 1.6;
+#define BEGIN(i) texel##i = Texel((vec2(first + ivec2(0, i)) + 0.5) * texel_m(), ivec4(0), 0);
+    FOR_EACH(BEGIN)
+    add_balls(tiles[number]);
+    if (WITH_BEADS)
+        add_beads(tile);
+    bool shown = false;
+#define PUT(i) shown = put(first + ivec2(0, i), texel##i) || shown;
+    FOR_EACH(PUT)
+    const bool leads = gl_LocalInvocationIndex == 0u;
+    if (leads)
+        written[holds] = (held & VIRGA_GLASS_HOLDS_RELIEF) | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
+    if (shown || (leads && (held & VIRGA_GLASS_HOLDS_RELIEF) != 0u))
+        list_tile(number, shown);
 }

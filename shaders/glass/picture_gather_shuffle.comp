@@ -5,9 +5,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #define SHUFFLE
+#define LANES 64
 #include "picture_gather.glsl"
 
 void main() { gather(); }

@@ -10,7 +10,7 @@
 #if defined(MOTION) || defined(REACTIVE)
 #define TEMPORAL
 
-layout(set = 0, binding = 21) uniform sampler2D scene_motion;
+layout(set = 0, binding = 24) uniform sampler2D scene_motion;
 
 vec2 pixel_of(vec4 clip)
 {

@@ -1,7 +1,8 @@
-// picture_tiles.glsl - balls, and the tiles of the map that they reach.
+// picture_tiles.glsl - balls, the tiles of the map that they reach, and how much there is to do.
 // In any order: what they come to is added up in whole numbers.
 layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; };
 layout(scalar, set = 0, binding = 7) buffer Tiles { virga_glass_tile_gpu tiles[]; };
+layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; uint wet[]; };
 
 vec2 tile_m() { return texel_m() * float(VIRGA_GLASS_TILE); }
 
@@ -14,3 +15,9 @@ void tiles_around(vec2 middle, float reach_m, out ivec2 first, out ivec2 last)
 }
 
 uint tile_number(ivec2 tile) { return uint(tile.x) + uint(tile.y) * look.tile_columns; }
+
+// A ball's reach: mist is spread over a texel.
+float ball_reach(float radius_m, float density_reach)
+{
+    return max(radius_m * density_reach, max(look.texel_m[0], look.texel_m[1]));
+}

@@ -35,6 +35,9 @@ void main()
         ranks[i] = occupant != 0u ? JOINS | (occupant - 1u) : needed != 0u ? rank : NO_RANK;
         rank += needed;
     }
-    if (lane == 0u)
+    if (lane == 0u) {
         state.placed = min(total.x, state.free);
+        state.shown = state.alive + state.placed; // free places are taken from the list's first free one on
+        state.shown_groups = uint[3]((state.shown + VIRGA_GLASS_GROUP - 1u) / VIRGA_GLASS_GROUP, 1u, 1u);
+    }
 }

@@ -149,6 +149,8 @@ struct virga_glass_state_gpu {
     virga_glass_count_gpu counts[VIRGA_GLASS_COUNTS];
     virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (blades' bins too) */
     uint bins_nl[512];     /* VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS: film gathered along each blade */
+    uint shown;            /* places from the list's first on that may hold drops at the tick's end */
+    uint shown_groups[3];  /* of a dispatch over them */
 };
 
 /* Water that wants a place at the tick's end: first the tick's arrivals, then one for each awake
@@ -167,11 +169,11 @@ struct virga_glass_seed_gpu {
 /* One two-dimensional metaball of the height map, 32 bytes. */
 struct virga_glass_ball_gpu {
     float middle[2];       /* m on the pane */
-    float radius_m;        /* where one alone has the density 0.5 */
-    float height_m;        /* of the water in its middle, above the glass */
+    float radius_m;        /* where one alone has the density 0.5; its water is so high by the cap's shape */
+    float mist;            /* texels that it covers besides its shape, as it is hardly larger than one */
     float sag[2];          /* height is multiplied by 1 + dot(sag, offset / radius): fatter to that side */
     uint id;
-    float peak;            /* density in its middle: 1, or less for what is hardly larger than a texel */
+    float peak;            /* density in its middle: 1, or less for what is hardly larger than a texel; 0: no shape */
 };
 
 #ifndef VIRGA_GLSL
@@ -183,6 +185,7 @@ VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 32);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 196);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 292);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 2344);
 #undef uint
 #endif
 

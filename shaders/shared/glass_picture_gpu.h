@@ -10,17 +10,21 @@
 typedef struct virga_glass_picture_gpu virga_glass_picture_gpu;
 typedef struct virga_glass_tile_gpu virga_glass_tile_gpu;
 typedef struct virga_glass_work_gpu virga_glass_work_gpu;
+typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #endif
 
-#define VIRGA_GLASS_TILE        14 /* texels a side; a workgroup of the gathering pass makes one, and a texel more on each side
-                                    * for the slopes */
+#define VIRGA_GLASS_TILE        8  /* texels a side; a workgroup of the gathering pass makes one */
+#define VIRGA_GLASS_TILE_ROW    32768 /* workgroups along x of a dispatch over tiles, at most */
+#define VIRGA_GLASS_MIST_BLOCK  16 /* texels a side of the mist's map that a workgroup makes; drawn as one */
+#define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead in cells: none reaches beyond the next */
+#define VIRGA_GLASS_BEAD_SEEN   0.75f /* least radius in texels of one that has a shape */
+#define VIRGA_GLASS_MIST_MOST   8192 /* texels a side of it, at most */
 #define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls of a workgroup that fills lists */
 #define VIRGA_GLASS_COPY        256 /* texels a side of the plate's largest copy; the others lie to its right */
 #define VIRGA_GLASS_COPY_WIDTH  392 /* 256 and 128 and 8 */
 #define VIRGA_GLASS_COPY_LEVELS 7   /* down to 4 x 4 */
 #define VIRGA_GLASS_COPY_PAPER  2   /* that of 64 x 64 */
-#define VIRGA_GLASS_MIST_ONE    65536 /* a texel that is all covered, in the mist's whole numbers */
 
 /* A view of the pane: its pose, its map's resolution, and the settings that matter to it. */
 struct virga_glass_picture_gpu {
@@ -57,17 +61,20 @@ struct virga_glass_picture_gpu {
     float gain;
     uint max_tiles;         /* tiles that the lists have places for */
     uint max_entries;       /* of the tiles' lists, all together */
-    uint written_columns;   /* tiles in a row of the list that says what the map holds of them, see below */
+    uint written_columns;   /* tiles in a row of the list that says which ones the map holds anything of */
+    uint max_blocks;        /* of the mist's map that the list of those with film has places for */
+    uint mist_columns;      /* texels of the mist's map, of mist_cells x mist_cells cells each */
+    uint mist_rows;
+    uint mist_cells;
+    uint mist_pitch;        /* texels from one row to the next: whole blocks */
+    float mist_scale[2];    /* of its texture, per metre */
+    uint sheets;            /* sheets of film are shown */
+    uint whole_map;         /* the host wants the map: all of it */
     uint masked;            /* the pane has a mask */
     float previous_from_here[16]; /* to the previous frame's clip coordinates, from where something is relative to the
                                    * camera that has kept its place on the pane */
     float eye_before[3];    /* where the camera was then, likewise */
 };
-
-/* What the map holds of a tile: the lowest bit: anything; the next four: each quarter that has something to show; and the next
- * four: each that has drops. */
-#define VIRGA_GLASS_WRITTEN 1u
-#define VIRGA_GLASS_QUARTER 2u
 
 /* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else either. */
 #define VIRGA_GLASS_DRAW_DEPTH   1u  /* the scene's depth is there to read */
@@ -78,20 +85,44 @@ struct virga_glass_picture_gpu {
 #define VIRGA_GLASS_DRAW_SIDE    12u /* mask of the three */
 #define VIRGA_GLASS_DRAW_BY_HAND 16u /* the device does not filter the map */
 
-/* A tile's `film`. */
-#define VIRGA_GLASS_HAS_FILM 1u
-#define VIRGA_GLASS_HAS_MIST 2u
+/* For the pass that makes slopes; and there is something to draw. */
+#define VIRGA_GLASS_LISTED 2u
+#define VIRGA_GLASS_SHOWN  4u
 
-/* How much there is to do: what indirect dispatches and draws read. Followed by the numbers of tiles to be worked on. */
-struct virga_glass_work_gpu {
-    uint tile_groups[3];    /* of the gathering pass, over tiles without film */
-    uint film_groups[3];    /* and over those with; their numbers begin in the middle of the list */
-    uint ball_groups[3];    /* of the pass that fills the lists */
-    uint index_count;       /* of the quarters to be drawn */
+/* What the images hold of a tile since it was last written, and so has to be taken away. */
+#define VIRGA_GLASS_HOLDS_WATER  1u /* the map */
+#define VIRGA_GLASS_HOLDS_RELIEF 2u /* what draws read */
+
+/* The arguments of an indirect draw, as Vulkan has them. */
+struct virga_glass_corners_gpu {
+    uint index_count;
     uint instance_count;
     uint first_index;
     int vertex_offset;
     uint first_instance;
+};
+
+/* How much there is to do: what indirect dispatches and draws read. Followed by numbers: of tiles without film; from
+ * look.max_tiles on of tiles with film; from 2 look.max_tiles on of the mist's blocks with film; and look.max_blocks
+ * behind these of tiles with something to show. Lists are in any order: what is done for one of their entries does not
+ * depend on another. All zero as a view's passes begin. */
+struct virga_glass_work_gpu {
+    uint tile_groups[3];    /* of the gathering pass, over tiles without film */
+    uint film_groups[3];    /* and over those with */
+    uint ball_groups[3];    /* of the pass that fills the lists */
+    uint block_groups[3];   /* of the pass over blocks with film */
+    uint relief_groups[3];  /* of the pass over tiles that have something to show, or had */
+    virga_glass_corners_gpu drops; /* tiles to be drawn */
+    virga_glass_corners_gpu mist;  /* blocks to be drawn */
+    uint tiles;             /* in each of the first two lists */
+    uint film_tiles;
+    uint relief_tiles;
+    uint shaped;            /* balls with a shape, for the statistics; and entries that tiles were left without */
+    uint cut;
+    uint balls;
+    uint entries;           /* of the lists of all tiles, were there room for any number */
+    uint used;              /* that they were given */
+    uint highest;           /* a float's bits: the largest radius of a ball */
 };
 
 /* What lies over a tile of the map. */
@@ -99,13 +130,16 @@ struct virga_glass_tile_gpu {
     uint count;             /* balls that reach it */
     uint first;             /* entry of its list */
     uint filled;            /* entries so far */
-    uint film;              /* VIRGA_GLASS_HAS_... */
+    uint film;              /* 1: film with a shape, or a sheet of it; and VIRGA_GLASS_LISTED and _SHOWN */
 };
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 56);
-VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, index_count, 36);
+VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 136);
+VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
+VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
+VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);
 VIRGA_ASSERT_OFFSET(virga_glass_picture_gpu, map_columns, 80);
 #undef uint
 #endif

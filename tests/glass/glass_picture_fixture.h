@@ -234,8 +234,16 @@ static inline void shot_put(shot *s, VkCommandBuffer cmd)
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->drops->buffer, 1, &drops);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->film->buffer, 1, &film);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->passed->buffer, 1, &passed);
-    shot_memory(cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                VK_ACCESS_SHADER_READ_BIT);
+    uint32_t places[4096],
+        shown[4] = {s->drop_count, (s->drop_count + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP, 1, 1};
+    REQUIRE(g->def.max_drops <= 4096);
+    for (uint32_t i = 0; i < g->def.max_drops; i++)
+        places[i] = i;
+    vkCmdUpdateBuffer(cmd, g->list->buffer, sizeof(virga_list_gpu), g->def.max_drops * 4ull, places);
+    vkCmdUpdateBuffer(cmd, g->state->buffer, offsetof(virga_glass_state_gpu, shown), sizeof shown, shown);
+    shot_memory(cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 static inline void shot_record_plate(const shot *s, VkCommandBuffer cmd)

@@ -175,7 +175,7 @@ static void the_map_is_that_of_the_reference(void **state)
         s.settings.compress = i % 3 != 0;
         put_balls(&s, balls, PLACES);
         shot_draw(&s, false);
-        REQUIRE(s.columns == 196 && s.rows == 140);
+        REQUIRE(s.columns == 192 && s.rows == 128);
         compare_map(&s, balls, PLACES);
     }
     shot_close(&s);
@@ -300,34 +300,63 @@ static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
     shot_close(&s);
 }
 
-/* Lists of tiles that do not fit are left out whole and counted: with 200 drops over each of T tiles in order, the ones
- * from the floor of room / 200 on. They show nothing; those before show all. */
+/* Where all lists do not fit, those with more than an equal share are left out whole, and counted; the others show all:
+ * here one wide drop over every tile, and as many small ones as are too much over the middle. */
 static void tiles_without_room_are_counted_and_empty(void **state)
 {
     (void)state;
-    enum { MANY = 200, TILE = 14 };
+    enum { MANY = 240 };
+    static float alone[WIDTH * HEIGHT * 4];
     shot s;
     virga_glass_def def = shot_def();
     def.max_drops = 256;
     shot_open(&s, &def, WIDTH, HEIGHT, false);
     shot_face(&s, 1, 30);
-    for (int i = 0; i < MANY; i++)
-        shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.06));
+    shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.06));
     shot_draw(&s, false);
-    const uint32_t across = s.columns / TILE, tiles = across * (s.rows / TILE);
-    const uint32_t fit = s.glass->picture->max_entries / MANY;
-    REQUIRE(s.columns % TILE == 0 && s.rows % TILE == 0 && fit > across && fit < tiles);
-    assert_int_equal(s.ball_count, MANY);
-    assert_int_equal(s.cut_count, (tiles - fit) * MANY);
-    for (uint32_t i = 0; i < tiles; i++) {
-        const float *middle = texel(&s, i % across * TILE + TILE / 2, i / across * TILE + TILE / 2);
-        REQUIRE(i < fit ? middle[0] > 0.5f : middle[0] == 0);
+    assert_int_equal(s.cut_count, 0);
+    REQUIRE(s.columns * s.rows <= WIDTH * HEIGHT);
+    for (uint32_t i = 0; i < s.columns * s.rows; i++)
+        alone[i] = s.map[4 * i];
+    for (int i = 0; i < MANY; i++)
+        shot_drop(&s, 0.048, 0.032, shot_water(&s, 0.008));
+    shot_draw(&s, false);
+    assert_int_equal(s.ball_count, MANY + 1);
+    assert_true(s.cut_count >= MANY + 1 && s.cut_count % (MANY + 1) == 0);
+    uint32_t shown = 0, empty = 0;
+    for (uint32_t i = 0; i < s.columns * s.rows; i++) {
+        const bool cut = s.map[4 * i] == 0;
+        empty += cut;
+        shown += !cut;
+        if (!cut && s.map[4 * i] != alone[i])
+            fail_msg("texel %u: density %g, expected 0 or %g", i, (double)s.map[4 * i], (double)alone[i]);
     }
+    assert_int_equal(empty * (MANY + 1), s.cut_count * VIRGA_GLASS_TILE * VIRGA_GLASS_TILE);
+    assert_true(shown > 0);
     shot_step(&s, 1); /* which takes the counts of completed frames in */
     virga_glass_stats stats;
     virga_glass_stats_get(s.glass, &stats);
-    assert_int_equal(stats.balls, MANY);
+    assert_int_equal(stats.balls, MANY + 1);
     assert_int_equal(stats.balls_cut, s.cut_count);
+    shot_close(&s);
+}
+
+/* Beads too small for a shape: two in a cell cover pi (w / c)^(2/3) (f^(2/3) + (1 - f)^(2/3)) of it, with the water w,
+ * that of a cap with a base of 1 m radius c, and a lot f from 0.55 to 1: 1 to 2^(1/3) of what one would. To a level of
+ * the map's bytes, and between cells to what lies between them. */
+static void fine_film_covers_what_its_beads_do(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++)
+        s.film[i] = 20;
+    shot_draw(&s, false);
+    const double cap = glass_cap_volume(glass_rest_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
+    const double one = M_PI * pow(20e-12 / cap, 2.0 / 3) / (cell * cell);
+    for (uint32_t i = 0; i < s.columns * s.rows; i++)
+        if ((double)s.map[4 * i + 2] < one - 1.0 / 255 || (double)s.map[4 * i + 2] > cbrt(2) * one + 1.0 / 255)
+            fail_msg("texel %u: %g of it covered, expected %g to %g", i, (double)s.map[4 * i + 2], one, cbrt(2) * one);
     shot_close(&s);
 }
 
@@ -650,6 +679,7 @@ int main(void)
         cmocka_unit_test(merged_drops_have_no_crease),
         cmocka_unit_test(sub_balls_flow_into_their_drop_and_keep_its_water),
         cmocka_unit_test(tiles_without_room_are_counted_and_empty),
+        cmocka_unit_test(fine_film_covers_what_its_beads_do),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),

@@ -55,7 +55,7 @@ typedef struct bench_splash_choice {
 /* Measure and print. `only` 0: the usual sizes. */
 bool bench_rain(bench *b, uint32_t only);
 bool bench_ground(bench *b);
-bool bench_glass(bench *b);
+bool bench_glass(bench *b, uint32_t only);
 bool bench_frames(bench *b, const char *device); /* opens *b anew several times */
 bool bench_splash(bench *b, const bench_splash_choice *choice);
 

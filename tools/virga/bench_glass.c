@@ -13,10 +13,12 @@
 #define PAPER_LOW   30
 #define PAPER_HIGH  40
 
-enum { MOTION, BALLS, SPLAT, PLATE, DRAW, PASSES };
+enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, PASSES };
 
-static const char *const names[PASSES] = {"motion", "balls", "splat, compression, normals", "plate", "draw (compose)"};
-static const char *const passes[PASSES] = {NULL, "glass.balls", "glass.splat", "glass.plate", "glass.draw"};
+static const char *const names[PASSES] = {"motion", "film",          "balls", "splat, compression, normals",
+                                          "plate",  "draw (compose)"};
+static const char *const passes[PASSES] = {NULL,          "glass.film",  "glass.balls",
+                                           "glass.splat", "glass.plate", "glass.draw"};
 
 /* Panes of about a texel a pixel. */
 static const struct row {
@@ -190,10 +192,11 @@ static bool measure(bench *b, const struct row *row)
     return good;
 }
 
-bool bench_glass(bench *b)
+bool bench_glass(bench *b, uint32_t only)
 {
     bool good = true;
     for (size_t i = 0; good && !interrupt_asked() && i < sizeof rows / sizeof rows[0]; i++)
-        good = measure(b, &rows[i]);
+        if (!only || rows[i].balls == only)
+            good = measure(b, &rows[i]);
     return good;
 }

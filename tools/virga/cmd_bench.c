@@ -11,6 +11,7 @@
 static const option_row rows[] = {
     {"--drops", 0, "N", "rain: measure this many drops only. Default: 1000, 10000, 100000 and 1000000", false},
     {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
+    {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
     {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
@@ -172,11 +173,16 @@ static bool is_bench(const char *what)
 int bench_run(int argc, char **argv)
 {
     options parsed;
-    uint32_t only = 0;
+    uint32_t only = 0, balls = 0;
     bench_splash_choice splashes;
     if (!options_parse(&parsed, "bench", rows, sizeof rows / sizeof rows[0], argc, argv) ||
-        !options_uint(&parsed, "--drops", 1024, 4194304, &only) || !parse_splash(&parsed, &splashes))
+        !options_uint(&parsed, "--drops", 1024, 4194304, &only) ||
+        !options_uint(&parsed, "--balls", 3000, 100000, &balls) || !parse_splash(&parsed, &splashes))
         return EXIT_USAGE;
+    if (balls && balls != 3000 && balls != 10000 && balls != 100000) {
+        options_complain("bench", "--balls: expected 3000, 10000 or 100000, got %u", balls);
+        return EXIT_USAGE;
+    }
     const char *what = parsed.argument_count == 1 ? parsed.arguments[0] : "";
     if (!is_bench(what)) {
         options_complain("bench", "expected what to measure: rain, ground, splash, glass or frames");

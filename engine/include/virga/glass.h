@@ -51,10 +51,10 @@ typedef struct virga_glass_def {
                                    * Default 32768 */
     float affinity_m;             /* [0.0005; 0.1] width of the spots that the glass is uneven in. Default 0.006 */
     uint32_t max_texels;          /* [64; 4096] of the height map along the pane's longer side; it is made as large as
-                                   * the pane shows on the picture, up to this, in tiles of 14 of which there are 65,535
-                                   * at most. 22 bytes each. Default 1024 */
-    bool height_map;              /* make what virga_glass_map_get tells of: 16 bytes more a texel, and time. Default
-                                   * false */
+                                   * the pane shows on the picture, up to this, in tiles of 8. 34 bytes each. Default
+                                   * 1024 */
+    bool height_map;              /* make what virga_glass_map_get tells of, also where there is only fine film: time
+                                   * for every texel, not only where drops are. Default false */
     uint32_t max_ticks_per_step;  /* [1; 64] the same as rain's. Default 16 */
     double tick_s;                /* [1/1000; 1/20] the same as rain's. Default 1/60 */
 } virga_glass_def;
@@ -366,7 +366,8 @@ typedef struct virga_glass_stats {
     uint64_t crowded;          /* drops that found no place: their water joined the film */
     uint32_t drops, particles, held; /* now; held: particles that wait to become drops (section 4.6) */
     uint32_t balls, balls_cut; /* metaballs of the newest prepare; and places in the lists of tiles
-                                * that found no room: such a tile shows no drops */
+                                * that found no room: then tiles with more than an equal share of the places
+                                * show no drops */
 } virga_glass_stats;
 
 VIRGA_API void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats);

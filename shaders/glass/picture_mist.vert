@@ -1,0 +1,15 @@
+// picture_mist.vert - corners of the blocks that have mist to show.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "picture.glsl"
+#include "gpu/light.glsl"
+#include "picture_corner.glsl"
+
+void main()
+{
+    const uint columns = look.mist_pitch / VIRGA_GLASS_MIST_BLOCK + 1u, number = uint(gl_VertexIndex);
+    const float block_m = float(VIRGA_GLASS_MIST_BLOCK * look.mist_cells) * look.pane.cell_m;
+    const vec2 at = vec2(number % columns, number / columns) * block_m;
+    place_corner(min(at / vec2(look.pane.width_m, look.pane.height_m), vec2(1.0)));
+}
