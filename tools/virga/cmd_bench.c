@@ -197,7 +197,7 @@ int bench_run(int argc, char **argv)
     if (good)
         good = !strcmp(what, "rain")     ? bench_rain(b, only)
                : !strcmp(what, "ground") ? bench_ground(b)
-               : !strcmp(what, "glass")  ? bench_glass(b)
+               : !strcmp(what, "glass")  ? bench_glass(b, balls)
                : !strcmp(what, "frames") ? bench_frames(b, options_value(&parsed, "--device"))
                                          : bench_splash(b, &splashes);
     if (b->instance.messages)
