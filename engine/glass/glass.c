@@ -449,6 +449,8 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
     const virga_log *log = &glass->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_glass_set: NULL argument");
+    if (glass->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     const virga_result result = virga_settings_check(log, "glass_settings", settings->size, sizeof *settings,
                                                      settings->cookie, SETTINGS_COOKIE);
     if (result)

@@ -390,7 +390,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_style = glass->settings.style;
     picture->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
 
 void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)

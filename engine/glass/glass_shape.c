@@ -376,6 +376,8 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_context *context = glass->context;
     if (!shape)
         return virga_wrong_argument(&context->log, "virga_glass_shape_set: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = check_shape(&context->log, shape);
     if (result)
         return result;
@@ -389,9 +391,10 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
         goto error;
     }
     fill_cells(glass, shape, cells->memory.block.mapped);
-    remember(glass, nodes->memory.block.mapped);
     virga_buffer_flush(context, cells, 0, cells->size);
     virga_buffer_flush(context, nodes, 0, nodes->size);
+    TRY(virga_uploaded(context));
+    remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);
     glass->surface_upload = cells;

@@ -580,5 +580,5 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     if (info->ticks)
         record_ticks(glass, cmd, info);
     record_readback(glass, cmd);
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }

@@ -266,10 +266,10 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
     virga_graveyard_sweep(context, false);
     virga_timer_slot *slot = &context->timers[context->ring_slot];
-    virga_timers_collect(context, slot);
+    const virga_result result = virga_timers_collect(context, slot);
     slot->count = 0;
     slot->reset = false;
-    return VIRGA_OK;
+    return result;
 }
 
 virga_result virga_frame_completed(virga_context *context, uint64_t completed_index)
@@ -285,14 +285,16 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
                       (unsigned long long)context->frame_index);
         return VIRGA_ERROR_INVALID;
     }
+    virga_result result = VIRGA_OK;
     context->completed_index = completed_index;
-    for (uint32_t i = 0; i < context->frames_in_flight; i++)
+    for (uint32_t i = 0; i < context->frames_in_flight && result >= 0; i++)
         if (context->timers[i].count && context->timers[i].frame_index <= completed_index) {
-            virga_timers_collect(context, &context->timers[i]);
+            const virga_result collected = virga_timers_collect(context, &context->timers[i]);
+            result = collected ? collected : result;
             context->timers[i].count = 0;
             context->timers[i].reset = false;
         }
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_memory_get(const virga_context *context, virga_memory_stats *stats)

@@ -80,6 +80,7 @@ struct virga_context {
     uint32_t frames_in_flight;
     bool debug_names;
     bool lost;
+    virga_result upload_failed; /* the newest flush that did, see virga_uploaded */
 
     VkSampler nearest, linear; /* clamped to the edge */
     uint64_t frame_index, completed_index;
@@ -165,9 +166,13 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **image);
 
-/* Makes what the host wrote visible to the device, or what the device wrote visible to the host. */
+/* Makes what the host wrote visible to the device, or what the device wrote visible to the host. Where that fails it is
+ * said in the log, and the call of the API that it is done in ends with virga_uploaded. */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
+
+/* The error of flushes since the last call, VIRGA_OK if there was none; that of a lost device stays. */
+virga_result virga_uploaded(virga_context *context);
 
 /* Lets go of a resource (buffer, image, pipeline): at once where every frame begun has completed, else when the newest
  * has. The macro sets the pointer to NULL, and accepts NULL. */
@@ -312,7 +317,8 @@ void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage im
 /* Before the passes of a call that records outside rendering. */
 void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
 
-void virga_timers_collect(virga_context *context, virga_timer_slot *slot);
+/* VIRGA_DEGRADED where the times can not be had, VIRGA_ERROR_DEVICE_LOST where the device is lost. */
+virga_result virga_timers_collect(virga_context *context, virga_timer_slot *slot);
 
 /* ---- target.c */
 struct virga_target {

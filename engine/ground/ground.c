@@ -341,6 +341,8 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
     const virga_log *log = &ground->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_ground_set: NULL argument");
+    if (ground->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = virga_settings_check(log, "ground_settings", settings->size, sizeof *settings,
                                                settings->cookie, SETTINGS_COOKIE);
     if (result)

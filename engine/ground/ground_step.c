@@ -496,5 +496,5 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         measure(ground, cmd);
     write_maps(ground, cmd);
     record_readback(ground, cmd);
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }

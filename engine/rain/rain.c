@@ -247,6 +247,7 @@ static virga_result init(virga_rain *rain)
     list_passes(rain, passes);
     TRY(virga_buffers_create(rain->context, buffers, BUFFERS));
     fill_host_buffers(rain);
+    TRY(virga_uploaded(rain->context));
     TRY(virga_image_create(rain->context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){1, 1}, 1,
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                            VK_IMAGE_ASPECT_DEPTH_BIT, "rain.blank", &rain->blank));
@@ -447,6 +448,8 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
     const virga_log *log = &rain->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_rain_set: NULL settings");
+    if (rain->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result =
         virga_settings_check(log, "rain_settings", settings->size, sizeof *settings, settings->cookie, SETTINGS_COOKIE);
     if (!result)

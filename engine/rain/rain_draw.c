@@ -150,7 +150,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->prepared_depth = has_depth;
     rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
     rain->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(rain->context);
 }
 
 /* ---- attach and draw */

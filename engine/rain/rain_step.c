@@ -328,7 +328,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain->ticks_of_step = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
 
 virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points, uint32_t *count,

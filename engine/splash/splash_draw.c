@@ -143,7 +143,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     memcpy(splash->prepared_viewport, view->viewport, sizeof splash->prepared_viewport);
     splash->prepared_style = splash->settings.style;
     splash->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
 
 /* ---- attach */

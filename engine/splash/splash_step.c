@@ -302,5 +302,5 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(splash, cmd, info, i);
     record_readback(splash, cmd);
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
