@@ -305,10 +305,11 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_counts(glass, cmd);
 }
 
-static bool pose_is_finite(const virga_log *log, const virga_glass_pose *pose)
+virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)
 {
-    return !virga_settings_finite_double(log, "glass_pose.position_m", pose->position_m, 3) &&
-           !virga_settings_finite(log, "glass_pose.world_from_pane", pose->world_from_pane, 9);
+    if (virga_settings_places(log, "glass_pose.position_m", pose->position_m, 3))
+        return VIRGA_ERROR_INVALID;
+    return glass_axes_check(log, "glass_pose.world_from_pane", pose->world_from_pane);
 }
 
 /* A place for a view in this frame's ring. */
@@ -368,12 +369,12 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     picture->prepared = false;
-    virga_result result = virga_view_check(&context->log, view, time_s);
+    virga_result result = virga_view_check(context, view, time_s);
     if (result)
         return result;
-    if (!pose_is_finite(&context->log, pose))
+    if (glass_pose_check(&context->log, pose))
         return VIRGA_ERROR_INVALID;
-    if (!glass->started || view->viewport[2] < 1 || view->viewport[3] < 1)
+    if (!glass->started)
         return VIRGA_NOT_READY;
     uint32_t place = 0;
     result = take_place(glass, &place);

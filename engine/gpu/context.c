@@ -71,6 +71,16 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
     return VIRGA_ERROR_INVALID;
 }
 
+/* Numbers of ticks wrap around, after years. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
+{
+    if (!ticks || !last || (int32_t)(first - *last) > 0)
+        return VIRGA_OK;
+    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER, "step_info.first_tick: %u after %u, expected one behind it", first,
+                  *last);
+    return VIRGA_ERROR_INVALID;
+}
+
 /* ---- create and destroy */
 
 virga_context_def virga_default_context_def(void)
@@ -99,13 +109,26 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     return VIRGA_OK;
 }
 
+/* Out of range it would be found out at the first submit only. */
+static virga_result check_family(const virga_context *context, uint32_t family, const VkQueueFamilyProperties *families,
+                                 uint32_t count)
+{
+    const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    if (family < count && (families[family].queueFlags & both) == both)
+        return VIRGA_OK;
+    return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute", family);
+}
+
 static virga_result create_timers(virga_context *context, const virga_context_def *def)
 {
     virga_result result = VIRGA_OK;
     VkQueueFamilyProperties families[64];
     uint32_t count = 64;
     context->vk.GetPhysicalDeviceQueueFamilyProperties(context->physical_device, &count, families);
-    const uint32_t bits = def->queue_family < count ? families[def->queue_family].timestampValidBits : 0;
+    result = check_family(context, def->queue_family, families, count);
+    if (result)
+        return result;
+    const uint32_t bits = families[def->queue_family].timestampValidBits;
     context->timings = def->timings && bits > 0;
     if (!context->timings)
         return VIRGA_OK;

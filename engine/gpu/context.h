@@ -128,6 +128,10 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 /* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
+/* Whether the ticks of a step follow those before it: VIRGA_ERROR_INVALID with a line where they do not. `last` is NULL
+ * before the first. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);
+
 /* ---- memory.c */
 virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequirements *requirements,
                                    VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool for_image,

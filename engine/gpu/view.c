@@ -10,6 +10,12 @@
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
 
+/* Of the first two diagonal elements of a projection, the cotangents of half the angles that it sees: from 179.99 degrees
+ * to a tenth of a microradian. Larger elements have no use, and their products leave the range of floats. */
+#define LEAST_PROJECTION 1e-4f
+#define MOST_PROJECTION  1e7f
+#define MOST_TIME_S      1e9
+
 virga_view virga_default_view(void)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -21,24 +27,64 @@ virga_view virga_default_view(void)
     return view;
 }
 
-virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s)
+/* A projection with w = -z: finite, and neither a point nor endless in what it sees, so that rays can be had from it. */
+static virga_result check_projection(const virga_log *log, const char *name, const float p[16])
 {
+    bool sound = p[11] == -1;
+    for (int i = 0; i < 16; i++)
+        sound = sound && fabsf(p[i]) <= MOST_PROJECTION;
+    if (!sound || !(fabsf(p[0]) >= LEAST_PROJECTION) || !(fabsf(p[5]) >= LEAST_PROJECTION))
+        return virga_wrong_argument(log, "%s: expected a perspective projection with w = -z", name);
+    return VIRGA_OK;
+}
+
+static virga_result check_camera(const virga_log *log, const virga_view *view)
+{
+    if (virga_settings_places(log, "view.position_m", view->position_m, 3) ||
+        virga_settings_places(log, "view.open_position_m", view->open_position_m, 3) ||
+        virga_settings_rotation(log, "view.view_from_world", view->view_from_world, 4) ||
+        virga_settings_rotation(log, "view.open_view_from_world", view->open_view_from_world, 4) ||
+        check_projection(log, "view.clip_from_view", view->clip_from_view) ||
+        check_projection(log, "view.open_clip_from_view", view->open_clip_from_view))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+/* What Vulkan allows for one of this device. */
+static virga_result check_viewport(const virga_context *context, const float box[4])
+{
+    const VkPhysicalDeviceLimits *limits = &context->properties.limits;
+    const virga_log *log = &context->log;
+    if (virga_settings_finite(log, "view.viewport", box, 4))
+        return VIRGA_ERROR_INVALID;
+    for (int axis = 0; axis < 2; axis++)
+        if (box[axis] < limits->viewportBoundsRange[0] || box[axis] + box[2 + axis] > limits->viewportBoundsRange[1] ||
+            box[2 + axis] > (float)limits->maxViewportDimensions[axis])
+            return virga_wrong_argument(log, "view.viewport: %g x %g pixels at (%g, %g) are more than the device allows",
+                                        (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
+    if (box[2] >= 1 && box[3] >= 1)
+        return VIRGA_OK;
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT, "view.viewport: %g x %g pixels, there is nothing to draw",
+                  (double)box[2], (double)box[3]);
+    return VIRGA_NOT_READY;
+}
+
+virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s)
+{
+    const virga_log *log = &context->log;
     const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
     if (result)
         return result;
-    if (virga_settings_finite_double(log, "view.position_m", view->position_m, 3) ||
-        virga_settings_finite_double(log, "view.open_position_m", view->open_position_m, 3) ||
-        virga_settings_finite(log, "view.view_from_world", view->view_from_world, 16) ||
-        virga_settings_finite(log, "view.clip_from_view", view->clip_from_view, 16) ||
-        virga_settings_finite(log, "view.open_view_from_world", view->open_view_from_world, 16) ||
-        virga_settings_finite(log, "view.open_clip_from_view", view->open_clip_from_view, 16) ||
-        virga_settings_finite(log, "view.viewport", view->viewport, 4))
+    if (check_camera(log, view))
         return VIRGA_ERROR_INVALID;
-    if (!(view->shutter_s >= 0 && view->shutter_s <= 1) || !(view->open_camera_s >= 0) || !isfinite(time_s))
+    if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
-    if (view->clip_from_view[0] == 0 || view->clip_from_view[5] == 0 || view->clip_from_view[11] != -1)
-        return virga_wrong_argument(log, "view.clip_from_view: expected a perspective projection with w = -z");
-    return VIRGA_OK;
+    if (!(view->open_camera_s >= 0 && view->open_camera_s <= MOST_TIME_S))
+        return virga_wrong_argument(log, "view.open_camera_s: expected 0 to %g s, got %g", MOST_TIME_S,
+                                    view->open_camera_s);
+    if (!(fabs(time_s) <= MOST_TIME_S))
+        return virga_wrong_argument(log, "time_s: expected a time within %g s, got %g", MOST_TIME_S, time_s);
+    return check_viewport(context, view->viewport);
 }
 
 /* out = projection x rotation x translation(offset), column-major. */

@@ -346,8 +346,8 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
         if (virga_settings_finite(log, floats[i].name, floats[i].values, floats[i].count))
             return VIRGA_ERROR_INVALID;
-    if (virga_settings_finite_double(log, "rain.wind_min_m", s->wind_min_m, 3) ||
-        virga_settings_finite_double(log, "rain.wind_max_m", s->wind_max_m, 3))
+    if (virga_settings_places(log, "rain.wind_min_m", s->wind_min_m, 3) ||
+        virga_settings_places(log, "rain.wind_max_m", s->wind_max_m, 3))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }

@@ -119,10 +119,10 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     splash->prepared = false;
-    const virga_result result = virga_view_check(&context->log, view, time_s);
+    const virga_result result = virga_view_check(context, view, time_s);
     if (result)
         return result;
-    if (!splash->ticks || view->viewport[2] < 1 || view->viewport[3] < 1)
+    if (!splash->ticks)
         return VIRGA_NOT_READY;
     if (splash->view_frame != context->frame_index)
         splash->ring_views = 0;
