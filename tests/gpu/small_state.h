@@ -10,6 +10,7 @@
 #include "host.h"
 #include "memory.h"
 
+#include <virga/shared/drop.h>
 #include <virga/virga.h>
 
 enum { SMALL_MOST_PARTS = 8 };
