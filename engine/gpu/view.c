@@ -58,7 +58,8 @@ static virga_result check_viewport(const virga_context *context, const float box
     if (virga_settings_finite(log, "view.viewport", box, 4))
         return VIRGA_ERROR_INVALID;
     for (int axis = 0; axis < 2; axis++)
-        if (box[axis] < limits->viewportBoundsRange[0] || box[axis] + box[2 + axis] > limits->viewportBoundsRange[1] ||
+        if (box[axis] < limits->viewportBoundsRange[0] ||
+            (double)box[axis] + (double)box[2 + axis] > (double)limits->viewportBoundsRange[1] ||
             box[2 + axis] > (float)limits->maxViewportDimensions[axis])
             return virga_wrong_argument(log, "view.viewport: %g x %g pixels at (%g, %g) are more than the device allows",
                                         (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
