@@ -38,8 +38,8 @@ static virga_result check_floats(const virga_log *log, const char *owner, const 
 
 static virga_result check_light(const virga_log *log, const char *owner, const virga_light *light)
 {
-    if (virga_settings_finite_double(NULL, "position_m", light->position_m, 3))
-        return virga_settings_finite_double(log, name_field(owner, "lights.position_m").text, light->position_m, 3);
+    if (virga_settings_places(NULL, "position_m", light->position_m, 3))
+        return virga_settings_places(log, name_field(owner, "lights.position_m").text, light->position_m, 3);
     if (check_floats(log, owner, "lights.intensity", light->intensity, 3) ||
         check_floats(log, owner, "lights.direction", light->direction, 3) ||
         check_floats(log, owner, "lights.range_m", &light->range_m, 1) ||

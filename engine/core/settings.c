@@ -82,3 +82,53 @@ virga_result virga_settings_finite_double(const virga_log *log, const char *name
     }
     return VIRGA_OK;
 }
+
+virga_result virga_settings_places(const virga_log *log, const char *name, const double *values, uint32_t count)
+{
+    if (virga_settings_finite_double(log, name, values, count)) {
+        return VIRGA_ERROR_INVALID;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (fabs(values[i]) > VIRGA_FARTHEST_M) {
+            virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
+                          "%s[%" PRIu32 "]: is %g, expected no more than %g m from the world's origin", name, i,
+                          values[i], VIRGA_FARTHEST_M);
+            return VIRGA_ERROR_INVALID;
+        }
+    }
+    return VIRGA_OK;
+}
+
+virga_result virga_settings_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride)
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        for (uint32_t k = 0; k <= i; k++) {
+            double product = 0;
+            for (uint32_t axis = 0; axis < 3; axis++) {
+                product += (double)m[stride * i + axis] * (double)m[stride * k + axis];
+            }
+            if (!(fabs(product - (i == k ? 1 : 0)) <= 0.04)) {
+                virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
+                              "%s: expected a rotation, columns of unit length at right angles", name);
+                return VIRGA_ERROR_INVALID;
+            }
+        }
+    }
+    return VIRGA_OK;
+}
+
+void virga_clamp_vector(const virga_log *log, const char *name, float v[3], float most, bool *changed)
+{
+    const float given[3] = {v[0], v[1], v[2]};
+    bool moved = false;
+    for (int axis = 0; axis < 3; axis++) {
+        v[axis] = virga_clamp_setting_float(NULL, name, v[axis], -most, most, &moved);
+    }
+    if (!moved) {
+        return;
+    }
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s: (%g, %g, %g) is outside [%g; %g], (%g, %g, %g) is used",
+                  name, (double)given[0], (double)given[1], (double)given[2], -(double)most, (double)most, (double)v[0],
+                  (double)v[1], (double)v[2]);
+    *changed = true;
+}

@@ -402,7 +402,7 @@ static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool
         {&w->pivot_m[0], -20, 20, "glass_wiper.pivot_m[0]"},
         {&w->pivot_m[1], -20, 20, "glass_wiper.pivot_m[1]"},
         {&w->reach_m, 0.01f, 10, "glass_wiper.reach_m"},
-        {&w->blade_m, 0.01f, w->reach_m > 0.01f ? w->reach_m : 0.01f, "glass_wiper.blade_m"},
+        {&w->blade_m, 0.01f, fminf(fmaxf(w->reach_m, 0.01f), 10), "glass_wiper.blade_m"},
         {&w->width_m, 0.001f, 0.1f, "glass_wiper.width_m"},
         {&w->low_deg, -720, 720, "glass_wiper.low_deg"},
         {&w->high_deg, -720, 720, "glass_wiper.high_deg"},
@@ -424,7 +424,7 @@ static virga_result check_numbers(const virga_log *log, virga_glass_settings *s,
 {
     const number_row rows[] = {
         {&s->advancing_deg, 5, 175, "glass_settings.advancing_deg"},
-        {&s->receding_deg, 1, s->advancing_deg, "glass_settings.receding_deg"},
+        {&s->receding_deg, 1, fminf(fmaxf(s->advancing_deg, 5), 175), "glass_settings.receding_deg"},
         {&s->drag, 0.01f, 100, "glass_settings.drag"},
         {&s->run_hold, 0, 1, "glass_settings.run_hold"},
         {&s->affinity, 0, 2, "glass_settings.affinity"},
@@ -457,7 +457,6 @@ static virga_result check_numbers(const virga_log *log, virga_glass_settings *s,
     };
     if (check_rows(log, rows, sizeof rows / sizeof rows[0], changed))
         return VIRGA_ERROR_INVALID;
-    s->receding_deg = s->receding_deg > s->advancing_deg ? s->advancing_deg : s->receding_deg;
     s->hold_back_cells =
         virga_clamp_setting_u32(log, "glass_settings.hold_back_cells", s->hold_back_cells, 0, 8, changed);
     s->compress_steps =
@@ -477,6 +476,8 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
     const virga_log *log = &glass->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_glass_set: NULL argument");
+    if (glass->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     const virga_result result = virga_settings_check(log, "glass_settings", settings->size, sizeof *settings,
                                                      settings->cookie, SETTINGS_COOKIE);
     if (result)

@@ -372,12 +372,14 @@ static virga_result ready_to_prepare(const virga_glass *glass)
     return result ? result : virga_pipelines_ready(gathers, 2);
 }
 
-static bool pose_is_finite(const virga_log *log, const virga_glass_pose *pose)
+virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)
 {
-    return !virga_settings_finite_double(log, "glass_pose.position_m", pose->position_m, 3) &&
-           !virga_settings_finite(log, "glass_pose.world_from_pane", pose->world_from_pane, 9) &&
-           !virga_settings_finite_double(log, "glass_pose.before_position_m", pose->before_position_m, 3) &&
-           !virga_settings_finite(log, "glass_pose.before_world_from_pane", pose->before_world_from_pane, 9);
+    if (virga_settings_places(log, "glass_pose.position_m", pose->position_m, 3))
+        return VIRGA_ERROR_INVALID;
+    if (virga_settings_places(log, "glass_pose.before_position_m", pose->before_position_m, 3))
+        return VIRGA_ERROR_INVALID;
+    const virga_result now = glass_axes_check(log, "glass_pose.world_from_pane", pose->world_from_pane);
+    return now ? now : glass_axes_check(log, "glass_pose.before_world_from_pane", pose->before_world_from_pane);
 }
 
 /* A place for a view in this frame's ring. */
@@ -437,12 +439,12 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     picture->prepared = false;
-    virga_result result = virga_view_check(&context->log, view, time_s);
+    virga_result result = virga_view_check(context, view, time_s);
     if (result)
         return result;
-    if (!pose_is_finite(&context->log, pose))
+    if (glass_pose_check(&context->log, pose))
         return VIRGA_ERROR_INVALID;
-    if (!glass->started || view->viewport[2] < 1 || view->viewport[3] < 1)
+    if (!glass->started)
         return VIRGA_NOT_READY;
     result = ready_to_prepare(glass);
     if (result)
@@ -462,7 +464,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_style = glass->settings.style;
     picture->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
 
 void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)

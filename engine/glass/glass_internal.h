@@ -90,6 +90,9 @@ virga_result glass_shape_init(virga_glass *glass);
 void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double share_from, double share_to,
                        virga_glass_tick_gpu *tick);
 
+/* ---- glass_draw.c */
+virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose);
+
 /* ---- glass.c */
 
 /* Whole cells over a length; the last may stick out by a part. */
@@ -98,6 +101,7 @@ VkDescriptorSet glass_write_set(virga_glass *glass);
 
 /* ---- glass_step.c */
 uint32_t glass_tick_bytes(void);
+virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9]); /* all zero: none */
 void glass_take_statistics(virga_glass *glass);
 void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
                       float sizes_m[VIRGA_GLASS_SIZES]);

@@ -8,6 +8,8 @@
 
 #define SHAPE_COOKIE VIRGA_COOKIE(13)
 #define NODES        VIRGA_GLASS_NODES
+#define MOST_GRID    1025    /* columns and rows of positions */
+#define MOST_PLACE_M 1000.0f /* from the origin of a pane's own frame */
 
 virga_glass_shape virga_default_glass_shape(void)
 {
@@ -29,7 +31,9 @@ virga_glass_shape virga_default_glass_shape(void)
 void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
                             uint32_t rows, float *positions)
 {
-    if (!positions || columns < 2 || rows < 2)
+    const float numbers[4] = {width_m, height_m, rake_deg, bend_m};
+    if (!positions || columns < 2 || rows < 2 || columns > MOST_GRID || rows > MOST_GRID ||
+        virga_settings_finite(NULL, "windshield", numbers, 4))
         return;
     const double rake = (double)rake_deg * 3.14159265358979323846 / 180;
     for (uint32_t row = 0; row < rows; row++)
@@ -50,7 +54,7 @@ static bool barycentric(const float *a, const float *b, const float *c, const do
     const double ab[2] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1]};
     const double ac[2] = {(double)c[0] - (double)a[0], (double)c[1] - (double)a[1]};
     const double ap[2] = {p[0] - (double)a[0], p[1] - (double)a[1]}, area = ab[0] * ac[1] - ab[1] * ac[0];
-    if (fabs(area) < 1e-14)
+    if (!(fabs(area) >= 1e-14))
         return false;
     out[1] = (ap[0] * ac[1] - ap[1] * ac[0]) / area;
     out[2] = (ab[0] * ap[1] - ab[1] * ap[0]) / area;
@@ -68,7 +72,7 @@ static bool cover(const float *positions, const float *uvs, const uint32_t corne
         for (uint32_t column = 0; column < columns; column++) {
             const double p[2] = {(double)width_m * column / (columns - 1.0), (double)height_m * row / (rows - 1.0)};
             double share[3];
-            if (!barycentric(a, b, c, p, share) || share[0] < -1e-6 || share[1] < -1e-6 || share[2] < -1e-6)
+            if (!barycentric(a, b, c, p, share) || !(share[0] >= -1e-6 && share[1] >= -1e-6 && share[2] >= -1e-6))
                 continue;
             float *out = grid + 3 * (row * columns + column);
             for (int axis = 0; axis < 3; axis++)
@@ -81,32 +85,57 @@ static bool cover(const float *positions, const float *uvs, const uint32_t corne
     return any;
 }
 
-/* Grid points beside the mesh go on as the nearest covered ones: their frames must be sound for drops at the rim. */
+/* The covered column nearest to `column` in a row, the left one of two; -1 where there is none. */
+static float nearest_in_row(const uint8_t *row, uint32_t columns, uint32_t column)
+{
+    for (uint32_t away = 0; away < columns; away++) {
+        if (column >= away && row[column - away])
+            return (float)(column - away);
+        if (column + away < columns && row[column + away])
+            return (float)(column + away);
+    }
+    return -1;
+}
+
+/* The covered point nearest to one that is not, the first in order of rows where several are: of each row's nearest.
+ * Uncovered points hold them as x. */
+static uint32_t nearest_covered(uint32_t columns, uint32_t rows, const float *grid, const uint8_t *mask, uint32_t i)
+{
+    const double column = i % columns, row = i / columns;
+    double least = INFINITY;
+    uint32_t nearest = 0;
+    for (uint32_t k = 0; k < rows; k++) {
+        const uint32_t above = k * columns + i % columns;
+        const double found = mask[above] ? column : (double)grid[3 * above], x = found - column, y = k - row;
+        if (found >= 0 && x * x + y * y < least) {
+            least = x * x + y * y;
+            nearest = k * columns + (uint32_t)found;
+        }
+    }
+    return nearest;
+}
+
+/* Grid points beside the mesh go on as the nearest covered ones: their frames must be sound for drops at the rim. What
+ * is found is kept where the points will be, so that the largest grid takes seconds and not hours. */
 static void fill_uncovered(uint32_t columns, uint32_t rows, float *grid, const uint8_t *mask)
 {
-    for (uint32_t i = 0; i < columns * rows; i++) {
-        if (mask[i])
-            continue;
-        uint32_t nearest = 0;
-        double least = INFINITY;
-        for (uint32_t k = 0; k < columns * rows; k++) {
-            const double x = (double)(i % columns) - (double)(k % columns),
-                         y = (double)(i / columns) - (double)(k / columns);
-            if (mask[k] && x * x + y * y < least) {
-                least = x * x + y * y;
-                nearest = k;
-            }
-        }
-        memcpy(grid + 3 * i, grid + 3 * nearest, 3 * sizeof *grid);
-    }
+    for (uint32_t i = 0; i < columns * rows; i++)
+        if (!mask[i])
+            grid[3 * i] = nearest_in_row(mask + i / columns * columns, columns, i % columns);
+    for (uint32_t i = 0; i < columns * rows; i++)
+        if (!mask[i])
+            grid[3 * i + 1] = (float)nearest_covered(columns, rows, grid, mask, i);
+    for (uint32_t i = 0; i < columns * rows; i++)
+        if (!mask[i])
+            memcpy(grid + 3 * i, grid + 3 * (uint32_t)grid[3 * i + 1], 3 * sizeof *grid);
 }
 
 virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
                                    const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
                                    uint32_t columns, uint32_t rows, float *grid, uint8_t *mask)
 {
-    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || !(width_m > 0) ||
-        !(height_m > 0))
+    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || columns > MOST_GRID ||
+        rows > MOST_GRID || !(width_m > 0 && width_m <= 10) || !(height_m > 0 && height_m <= 10))
         return VIRGA_ERROR_INVALID;
     memset(mask, 0, (size_t)columns * rows);
     bool any = false;
@@ -298,7 +327,7 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
         virga_settings_check(log, "glass_shape", shape->size, sizeof *shape, shape->cookie, SHAPE_COOKIE);
     if (result)
         return result;
-    if (shape->positions && (shape->columns < 2 || shape->rows < 2 || shape->columns > 1025 || shape->rows > 1025))
+    if (shape->positions && (shape->columns < 2 || shape->rows < 2 || shape->columns > MOST_GRID || shape->rows > MOST_GRID))
         return virga_wrong_argument(log, "glass_shape: expected 2 to 1025 columns and rows, got %u x %u",
                                     shape->columns, shape->rows);
     if (shape->mask &&
@@ -315,9 +344,10 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
                                     (double)shape->bump_width_m, (double)shape->bump_height_m);
     if (!(shape->bump_pull >= 0 && shape->bump_pull <= 10))
         return virga_wrong_argument(log, "glass_shape.bump_pull: expected 0 to 10, got %g", (double)shape->bump_pull);
-    if (shape->positions &&
-        virga_settings_finite(log, "glass_shape.positions", shape->positions, 3 * shape->columns * shape->rows))
-        return VIRGA_ERROR_INVALID;
+    for (uint32_t i = 0; shape->positions && i < 3 * shape->columns * shape->rows; i++)
+        if (!(fabsf(shape->positions[i]) <= MOST_PLACE_M))
+            return virga_wrong_argument(log, "glass_shape.positions[%u]: is %g, expected no more than %g m from the "
+                                             "pane's origin", i, (double)shape->positions[i], (double)MOST_PLACE_M);
     if (shape->bumps_m &&
         virga_settings_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
         return VIRGA_ERROR_INVALID;
@@ -376,6 +406,8 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_context *context = glass->context;
     if (!shape)
         return virga_wrong_argument(&context->log, "virga_glass_shape_set: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = check_shape(&context->log, shape);
     if (result)
         return result;
@@ -389,9 +421,10 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
         goto error;
     }
     fill_cells(glass, shape, cells->memory.block.mapped);
-    remember(glass, nodes->memory.block.mapped);
     virga_buffer_flush(context, cells, 0, cells->size);
     virga_buffer_flush(context, nodes, 0, nodes->size);
+    TRY(virga_uploaded(context));
+    remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);
     glass->surface_upload = cells;

@@ -104,6 +104,14 @@ static void to_pane(const virga_glass_step_info *info, const double world[3], do
                       : (double)m[3 * i] * world[0] + (double)m[3 * i + 1] * world[1] + (double)m[3 * i + 2] * world[2];
 }
 
+virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9])
+{
+    bool none = true;
+    for (int i = 0; i < 9; i++)
+        none = none && axes[i] == 0;
+    return none ? VIRGA_OK : virga_settings_rotation(log, name, axes, 3);
+}
+
 static double length_of(const double v[3])
 {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -513,7 +521,8 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
     if (info->ticks > glass->def.max_ticks_per_step)
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
                                     glass->def.max_ticks_per_step, info->ticks);
-    if (virga_settings_finite(log, "step_info.world_from_pane", info->world_from_pane, 9) ||
+    if (virga_ticks_check(log, info->first_tick, info->ticks, glass->ticks ? &glass->last_tick : NULL) ||
+        glass_axes_check(log, "step_info.world_from_pane", info->world_from_pane) ||
         virga_settings_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
         virga_settings_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
         virga_settings_finite(log, "step_info.turn_rad_s", info->turn_rad_s, 3) ||
@@ -521,7 +530,24 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
         return VIRGA_ERROR_INVALID;
     if (!(info->rate_mm_h >= 0 && info->rate_mm_h <= 200))
         return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
+    if (!(info->air_density >= 0 && info->air_density <= 100))
+        return virga_wrong_argument(log, "step_info.air_density: expected 0 to 100, got %g", (double)info->air_density);
+    if (info->sizes && info->sizes->kind != VIRGA_SIZES_MARSHALL_PALMER && info->sizes->kind != VIRGA_SIZES_BEST &&
+        virga_sizes_densities(info->sizes, 1, (double)info->air_density, 0, NULL, NULL))
+        return virga_wrong_argument(log, "step_info.sizes: expected Marshall-Palmer, Best, or a table of 2 to 256 "
+                                         "rising diameters with numbers >= 0");
     return virga_group_ready(&glass->needed);
+}
+
+/* The motion of pane and air in its ranges. */
+static bool clamp_motion(const virga_log *log, virga_glass_step_info *info)
+{
+    bool changed = false;
+    virga_clamp_vector(log, "step_info.velocity_m_s", info->velocity_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
+    virga_clamp_vector(log, "step_info.turn_rad_s", info->turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
+    virga_clamp_vector(log, "step_info.wind_m_s", info->wind_m_s, VIRGA_FASTEST_M_S, &changed);
+    return changed;
 }
 
 static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
@@ -548,12 +574,15 @@ static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_gl
     record_measure(glass, cmd);
 }
 
-virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
+virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *given)
 {
-    const virga_result result = check_step(glass, cmd, info);
+    const virga_result result = check_step(glass, cmd, given);
     if (result)
         return result;
     virga_context *context = glass->context;
+    virga_glass_step_info taken = *given;
+    const virga_glass_step_info *info = &taken;
+    const bool changed = clamp_motion(&context->log, &taken);
     virga_timers_reset(context, cmd);
     glass_take_statistics(glass);
     glass->ring_frame = context->frame_index;
@@ -580,5 +609,6 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     if (info->ticks)
         record_ticks(glass, cmd, info);
     record_readback(glass, cmd);
-    return VIRGA_OK;
+    const virga_result uploaded = virga_uploaded(context);
+    return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

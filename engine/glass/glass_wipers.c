@@ -33,7 +33,7 @@ double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s)
         return (double)wiper->host_deg;
     if (wiper->drive == VIRGA_GLASS_PARKED)
         return low;
-    const double sweep = (double)wiper->sweep_s, pause = (double)wiper->pause_s;
+    const double sweep = fmax((double)wiper->sweep_s, 0.1), pause = fmax((double)wiper->pause_s, 0);
     const double cycle = 2 * sweep + (wiper->drive == VIRGA_GLASS_INTERMITTENT ? pause : 0);
     const double into = fmod(fmax(time_s + (double)wiper->phase_s, 0), cycle);
     const double turn = into < 2 * sweep ? into / sweep : 0;

@@ -71,6 +71,16 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
     return VIRGA_ERROR_INVALID;
 }
 
+/* Numbers of ticks wrap around, after years. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
+{
+    if (!ticks || !last || (int32_t)(first - *last) > 0)
+        return VIRGA_OK;
+    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER, "step_info.first_tick: %u after %u, expected one behind it", first,
+                  *last);
+    return VIRGA_ERROR_INVALID;
+}
+
 /* ---- create and destroy */
 
 virga_context_def virga_default_context_def(void)
@@ -104,13 +114,26 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     return VIRGA_OK;
 }
 
+/* Out of range it would be found out at the first submit only. */
+static virga_result check_family(const virga_context *context, uint32_t family, const VkQueueFamilyProperties *families,
+                                 uint32_t count)
+{
+    const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    if (family < count && (families[family].queueFlags & both) == both)
+        return VIRGA_OK;
+    return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute", family);
+}
+
 static virga_result create_timers(virga_context *context, const virga_context_def *def)
 {
     virga_result result = VIRGA_OK;
     VkQueueFamilyProperties families[64];
     uint32_t count = 64;
     context->vk.GetPhysicalDeviceQueueFamilyProperties(context->physical_device, &count, families);
-    const uint32_t bits = def->queue_family < count ? families[def->queue_family].timestampValidBits : 0;
+    result = check_family(context, def->queue_family, families, count);
+    if (result)
+        return result;
+    const uint32_t bits = families[def->queue_family].timestampValidBits;
     context->timings = def->timings && bits > 0;
     if (!context->timings)
         return VIRGA_OK;
@@ -275,10 +298,10 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     virga_builds_collect(context); /* a failure is its effect's to say */
     virga_graveyard_sweep(context, false);
     virga_timer_slot *slot = &context->timers[context->ring_slot];
-    virga_timers_collect(context, slot);
+    const virga_result result = virga_timers_collect(context, slot);
     slot->count = 0;
     slot->reset = false;
-    return VIRGA_OK;
+    return result;
 }
 
 virga_result virga_frame_completed(virga_context *context, uint64_t completed_index)
@@ -294,14 +317,16 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
                       (unsigned long long)context->frame_index);
         return VIRGA_ERROR_INVALID;
     }
+    virga_result result = VIRGA_OK;
     context->completed_index = completed_index;
-    for (uint32_t i = 0; i < context->frames_in_flight; i++)
+    for (uint32_t i = 0; i < context->frames_in_flight && result >= 0; i++)
         if (context->timers[i].count && context->timers[i].frame_index <= completed_index) {
-            virga_timers_collect(context, &context->timers[i]);
+            const virga_result collected = virga_timers_collect(context, &context->timers[i]);
+            result = collected ? collected : result;
             context->timers[i].count = 0;
             context->timers[i].reset = false;
         }
-    return VIRGA_OK;
+    return result;
 }
 
 void virga_memory_get(const virga_context *context, virga_memory_stats *stats)

@@ -100,6 +100,7 @@ struct virga_context {
     virga_pipelines_when pipelines_when;
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* pipelines to be built, in the order they were asked for */
+    virga_result upload_failed; /* the newest flush that did, see virga_uploaded */
 
     VkSampler nearest, linear; /* clamped to the edge */
     uint64_t frame_index, completed_index;
@@ -146,6 +147,10 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 
 /* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
+
+/* Whether the ticks of a step follow those before it: VIRGA_ERROR_INVALID with a line where they do not. `last` is NULL
+ * before the first. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);
 
 /* ---- memory.c */
 virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequirements *requirements,
@@ -202,9 +207,13 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **image);
 
-/* Makes what the host wrote visible to the device, or what the device wrote visible to the host. */
+/* Makes what the host wrote visible to the device, or what the device wrote visible to the host. Where that fails it is
+ * said in the log, and the call of the API that it is done in ends with virga_uploaded. */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
+
+/* The error of flushes since the last call, VIRGA_OK if there was none; that of a lost device stays. */
+virga_result virga_uploaded(virga_context *context);
 
 /* Lets go of a resource (buffer, image, pipeline): at once where every frame begun has completed, else when the newest
  * has. The macro sets the pointer to NULL, and accepts NULL. */
@@ -407,7 +416,8 @@ void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage im
 /* Before the passes of a call that records outside rendering. */
 void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
 
-void virga_timers_collect(virga_context *context, virga_timer_slot *slot);
+/* VIRGA_DEGRADED where the times can not be had, VIRGA_ERROR_DEVICE_LOST where the device is lost. */
+virga_result virga_timers_collect(virga_context *context, virga_timer_slot *slot);
 
 /* ---- target.c */
 struct virga_target {

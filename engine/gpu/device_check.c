@@ -33,7 +33,8 @@ static const struct {
 
 const virga_feature *virga_required_features(uint32_t *count)
 {
-    *count = (uint32_t)(sizeof required / sizeof required[0]);
+    if (count)
+        *count = (uint32_t)(sizeof required / sizeof required[0]);
     return required;
 }
 

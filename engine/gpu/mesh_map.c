@@ -7,6 +7,8 @@
 
 #include <virga/shared/mesh_map.h>
 
+#include <math.h>
+
 static void mesh_map_destroy(virga_context *context, virga_resource *resource)
 {
     virga_mesh_map *map = (virga_mesh_map *)resource;
@@ -152,6 +154,11 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
                                    virga_pipeline_group *group, virga_mesh_map **map)
 {
     virga_result result = VIRGA_OK;
+    const uint32_t most = context->properties.limits.maxVertexInputBindingStride;
+    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
+        if (strides[i] > most)
+            return virga_wrong_argument(&context->log, "%s: occluder_strides: the device allows %u, got %u", name, most,
+                                        strides[i]);
     virga_mesh_map *made = virga_alloc(&context->heap, sizeof *made);
     if (!made)
         return virga_out_of_host_memory(context, name);
@@ -192,19 +199,36 @@ static virga_pipeline *pipeline_for(const virga_mesh_map *map, uint32_t stride)
     return NULL;
 }
 
+static virga_result check_mesh(const virga_log *log, const virga_occluder *mesh, uint32_t i)
+{
+    if (!mesh->vertices || !mesh->indices)
+        return virga_wrong_argument(log, "occluder %u: expected a vertex and an index buffer", i);
+    if (mesh->index_type != VK_INDEX_TYPE_UINT16 && mesh->index_type != VK_INDEX_TYPE_UINT32)
+        return virga_wrong_argument(log, "occluder %u: index_type: expected UINT16 or UINT32, got %d", i,
+                                    (int)mesh->index_type);
+    if (mesh->vertex_offset % 4 || mesh->index_offset % (mesh->index_type == VK_INDEX_TYPE_UINT16 ? 2 : 4))
+        return virga_wrong_argument(log, "occluder %u: expected offsets in whole floats and whole indices", i);
+    if (mesh->material > 255)
+        return virga_wrong_argument(log, "occluder %u: material: expected 0 to 255, got %u", i, mesh->material);
+    if (!(mesh->cover >= 0 && mesh->cover <= 1))
+        return virga_wrong_argument(log, "occluder %u: cover: expected 0 to 1, got %g", i, (double)mesh->cover);
+    for (int k = 0; k < 12; k++)
+        if (!(fabs((double)mesh->world_from_mesh[k]) <= VIRGA_FARTHEST_M))
+            return virga_wrong_argument(log, "occluder %u: world_from_mesh[%d]: is %g, expected no more than %g", i, k,
+                                        (double)mesh->world_from_mesh[k], VIRGA_FARTHEST_M);
+    return VIRGA_OK;
+}
+
 virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh_map *map,
                                   const virga_occluder *occluders, uint32_t count)
 {
     const virga_log *log = &context->log;
     for (uint32_t i = 0; i < count; i++) {
-        if (!occluders[i].vertices || !occluders[i].indices)
-            return virga_wrong_argument(log, "occluder %u: expected a vertex and an index buffer", i);
+        if (check_mesh(log, &occluders[i], i))
+            return VIRGA_ERROR_INVALID;
         if (!pipeline_for(map, occluders[i].vertex_stride))
             return virga_wrong_argument(log, "occluder %u: vertex_stride %u is not among def.occluder_strides", i,
                                         occluders[i].vertex_stride);
-        if (occluders[i].material > 255)
-            return virga_wrong_argument(log, "occluder %u: material: expected 0 to 255, got %u", i,
-                                        occluders[i].material);
     }
     return VIRGA_OK;
 }

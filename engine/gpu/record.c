@@ -134,12 +134,19 @@ void virga_timers_reset(virga_context *context, VkCommandBuffer cmd)
     slot->frame_index = context->frame_index;
 }
 
-void virga_timers_collect(virga_context *context, virga_timer_slot *slot)
+virga_result virga_timers_collect(virga_context *context, virga_timer_slot *slot)
 {
     uint64_t ticks[VIRGA_MAX_QUERIES];
-    if (!slot->count || context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks,
-                                                        ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
-        return;
+    if (!slot->count)
+        return VIRGA_OK;
+    const VkResult got = context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks,
+                                                         ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT);
+    if (got < 0)
+        return virga_vulkan_failed(context, got, "vkGetQueryPoolResults") == VIRGA_ERROR_DEVICE_LOST
+                   ? VIRGA_ERROR_DEVICE_LOST
+                   : VIRGA_DEGRADED;
+    if (got != VK_SUCCESS)
+        return VIRGA_OK; /* not there: the host recorded into a command buffer that it never submitted */
     for (uint32_t i = 0; i < slot->count / 2; i++) {
         virga_pass_time *time = &context->pass_times[slot->names[i]];
         if (time->frame_index != slot->frame_index)
@@ -148,6 +155,7 @@ void virga_timers_collect(virga_context *context, virga_timer_slot *slot)
         const uint64_t passed = (ticks[2 * i + 1] - ticks[2 * i]) & context->timestamp_mask;
         time->milliseconds += (double)passed * context->timestamp_ns * 1e-6;
     }
+    return VIRGA_OK;
 }
 
 uint32_t virga_timings_get(const virga_context *context, virga_pass_time *times, uint32_t capacity)

@@ -140,15 +140,28 @@ static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buff
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size)
 {
     const VkMappedMemoryRange range = mapped_range(context, buffer, offset, size);
-    if (!buffer->coherent)
-        context->vk.FlushMappedMemoryRanges(context->device, 1, &range);
+    if (buffer->coherent || context->lost)
+        return;
+    const VkResult result = context->vk.FlushMappedMemoryRanges(context->device, 1, &range);
+    if (result != VK_SUCCESS)
+        context->upload_failed = virga_vulkan_failed(context, result, "vkFlushMappedMemoryRanges");
 }
 
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
 {
     const VkMappedMemoryRange range = mapped_range(context, buffer, 0, buffer->size);
-    if (!buffer->coherent)
-        context->vk.InvalidateMappedMemoryRanges(context->device, 1, &range);
+    if (buffer->coherent || context->lost)
+        return;
+    const VkResult result = context->vk.InvalidateMappedMemoryRanges(context->device, 1, &range);
+    if (result != VK_SUCCESS)
+        virga_vulkan_failed(context, result, "vkInvalidateMappedMemoryRanges"); /* statistics stay as they were */
+}
+
+virga_result virga_uploaded(virga_context *context)
+{
+    const virga_result result = context->upload_failed;
+    context->upload_failed = VIRGA_OK;
+    return context->lost ? VIRGA_ERROR_DEVICE_LOST : result;
 }
 
 /* ---- images */

@@ -57,6 +57,11 @@ static virga_result check_def(const virga_log *log, const virga_target_def *def)
         virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie, TARGET_COOKIE);
     if (result)
         return result;
+    if ((uint32_t)def->kind > VIRGA_TARGET_DYNAMIC)
+        return virga_wrong_argument(log, "target_def.kind: there is no kind %d", (int)def->kind);
+    if (!def->samples || (uint32_t)def->samples > 64 || (def->samples & (def->samples - 1)))
+        return virga_wrong_argument(log, "target_def.samples: expected a power of two up to 64, got %u",
+                                    (unsigned)def->samples);
     if (def->color_count < 1 || def->color_count > VIRGA_MAX_ATTACHMENTS)
         return virga_wrong_argument(log, "target_def.color_count: expected 1 to 8, got %u", def->color_count);
     if (def->kind == VIRGA_TARGET_RENDER_PASS && !def->render_pass)

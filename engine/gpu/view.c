@@ -10,6 +10,12 @@
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
 
+/* Of the first two diagonal elements of a projection, the cotangents of half the angles that it sees: from 179.99 degrees
+ * to a tenth of a microradian. Larger elements have no use, and their products leave the range of floats. */
+#define LEAST_PROJECTION 1e-4f
+#define MOST_PROJECTION  1e7f
+#define MOST_TIME_S      1e9
+
 virga_view virga_default_view(void)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -22,13 +28,40 @@ virga_view virga_default_view(void)
     return view;
 }
 
+/* A projection with w = -z: finite, and neither a point nor endless in what it sees, so that rays can be had from it. */
+static virga_result check_projection(const virga_log *log, const char *name, const float p[16])
+{
+    bool sound = p[11] == -1;
+    for (int i = 0; i < 16; i++)
+        sound = sound && fabsf(p[i]) <= MOST_PROJECTION;
+    if (!sound || !(fabsf(p[0]) >= LEAST_PROJECTION) || !(fabsf(p[5]) >= LEAST_PROJECTION))
+        return virga_wrong_argument(log, "%s: expected a perspective projection with w = -z", name);
+    return VIRGA_OK;
+}
+
+static virga_result check_camera(const virga_log *log, const virga_view *view)
+{
+    if (virga_settings_places(log, "view.position_m", view->position_m, 3) ||
+        virga_settings_places(log, "view.open_position_m", view->open_position_m, 3) ||
+        virga_settings_rotation(log, "view.view_from_world", view->view_from_world, 4) ||
+        virga_settings_rotation(log, "view.open_view_from_world", view->open_view_from_world, 4) ||
+        check_projection(log, "view.clip_from_view", view->clip_from_view) ||
+        check_projection(log, "view.open_clip_from_view", view->open_clip_from_view))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
 static virga_result check_temporal(const virga_log *log, const virga_temporal *temporal)
 {
     const float *scale = temporal->motion_scale;
-    if (virga_settings_finite_double(log, "view.temporal.position_m", temporal->position_m, 3) ||
-        virga_settings_finite(log, "view.temporal.view_from_world", temporal->view_from_world, 16) ||
-        virga_settings_finite(log, "view.temporal.clip_from_view", temporal->clip_from_view, 16) ||
-        virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
+    bool given = false; /* all zero: the open camera */
+    for (int i = 0; i < 16; i++)
+        given = given || temporal->clip_from_view[i] != 0;
+    if (given && (virga_settings_places(log, "view.temporal.position_m", temporal->position_m, 3) ||
+                  virga_settings_rotation(log, "view.temporal.view_from_world", temporal->view_from_world, 4) ||
+                  check_projection(log, "view.temporal.clip_from_view", temporal->clip_from_view)))
+        return VIRGA_ERROR_INVALID;
+    if (virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
         return VIRGA_ERROR_INVALID;
     if (!(temporal->ago_s >= 0 && temporal->ago_s <= 1))
         return virga_wrong_argument(log, "view.temporal.ago_s: expected 0 to 1 s, got %g", temporal->ago_s);
@@ -43,24 +76,43 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     return VIRGA_OK;
 }
 
-virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s)
+/* What Vulkan allows for one of this device. */
+static virga_result check_viewport(const virga_context *context, const float box[4])
 {
+    const VkPhysicalDeviceLimits *limits = &context->properties.limits;
+    const virga_log *log = &context->log;
+    if (virga_settings_finite(log, "view.viewport", box, 4))
+        return VIRGA_ERROR_INVALID;
+    for (int axis = 0; axis < 2; axis++)
+        if (box[axis] < limits->viewportBoundsRange[0] ||
+            (double)box[axis] + (double)box[2 + axis] > (double)limits->viewportBoundsRange[1] ||
+            box[2 + axis] > (float)limits->maxViewportDimensions[axis])
+            return virga_wrong_argument(log, "view.viewport: %g x %g pixels at (%g, %g) are more than the device allows",
+                                        (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
+    if (box[2] >= 1 && box[3] >= 1)
+        return VIRGA_OK;
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT, "view.viewport: %g x %g pixels, there is nothing to draw",
+                  (double)box[2], (double)box[3]);
+    return VIRGA_NOT_READY;
+}
+
+virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s)
+{
+    const virga_log *log = &context->log;
     const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
     if (result)
         return result;
-    if (virga_settings_finite_double(log, "view.position_m", view->position_m, 3) ||
-        virga_settings_finite_double(log, "view.open_position_m", view->open_position_m, 3) ||
-        virga_settings_finite(log, "view.view_from_world", view->view_from_world, 16) ||
-        virga_settings_finite(log, "view.clip_from_view", view->clip_from_view, 16) ||
-        virga_settings_finite(log, "view.open_view_from_world", view->open_view_from_world, 16) ||
-        virga_settings_finite(log, "view.open_clip_from_view", view->open_clip_from_view, 16) ||
-        virga_settings_finite(log, "view.viewport", view->viewport, 4))
+    if (check_camera(log, view))
         return VIRGA_ERROR_INVALID;
-    if (!(view->shutter_s >= 0 && view->shutter_s <= 1) || !(view->open_camera_s >= 0) || !isfinite(time_s))
+    if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
-    if (view->clip_from_view[0] == 0 || view->clip_from_view[5] == 0 || view->clip_from_view[11] != -1)
-        return virga_wrong_argument(log, "view.clip_from_view: expected a perspective projection with w = -z");
-    return check_temporal(log, &view->temporal);
+    if (!(view->open_camera_s >= 0 && view->open_camera_s <= MOST_TIME_S))
+        return virga_wrong_argument(log, "view.open_camera_s: expected 0 to %g s, got %g", MOST_TIME_S,
+                                    view->open_camera_s);
+    if (!(fabs(time_s) <= MOST_TIME_S))
+        return virga_wrong_argument(log, "time_s: expected a time within %g s, got %g", MOST_TIME_S, time_s);
+    const virga_result temporal = check_temporal(log, &view->temporal);
+    return temporal ? temporal : check_viewport(context, view->viewport);
 }
 
 /* out = projection x rotation x translation(offset), column-major. */

@@ -7,8 +7,9 @@
 #include <virga/light.h>
 #include <virga/shared/view_gpu.h>
 
-/* VIRGA_OK, or VIRGA_ERROR_INVALID with a line for what is not a view, or a time that is not finite. */
-virga_result virga_view_check(const virga_log *log, const virga_view *view, double time_s);
+/* VIRGA_OK; VIRGA_ERROR_INVALID with a line for what is not a view, or not a time; VIRGA_NOT_READY with a line for a
+ * viewport of no pixels. */
+virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s);
 
 /* Whether the camera of the previous frame is given; else it is the open one. */
 bool virga_view_has_previous(const virga_view *view);

@@ -67,14 +67,14 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     def->cells = virga_clamp_setting_u32(log, "ground_def.cells", def->cells, 128, 4096, NULL);
     if (def->cells & (def->cells - 1))
         return virga_wrong_argument(log, "ground_def.cells: expected a power of two, got %u", def->cells);
-    def->cell_m = (float)virga_clamp_setting(log, "ground_def.cell_m", (double)def->cell_m, 0.01, 0.1, NULL);
+    def->cell_m = virga_clamp_setting_float(log, "ground_def.cell_m", def->cell_m, 0.01f, 0.1f, NULL);
     def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 60000, NULL);
     def->kept_tiles = least_kept(def->cells / VIRGA_GROUND_TILE, def->kept_tiles);
     if (virga_settings_finite(log, "ground_def.ripple_texel_m", &def->ripple_texel_m, 1))
         return VIRGA_ERROR_INVALID;
     def->ripple_texels = virga_clamp_setting_u32(log, "ground_def.ripple_texels", def->ripple_texels, 64, 4096, NULL);
     def->ripple_texel_m =
-        (float)virga_clamp_setting(log, "ground_def.ripple_texel_m", (double)def->ripple_texel_m, 0.002, 0.05, NULL);
+        virga_clamp_setting_float(log, "ground_def.ripple_texel_m", def->ripple_texel_m, 0.002f, 0.05f, NULL);
     def->tick_s = virga_clamp_setting(log, "ground_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     def->flow_ticks = virga_clamp_setting_u32(log, "ground_def.flow_ticks", def->flow_ticks, 1, 60, NULL);
     def->max_impacts = virga_clamp_setting_u32(log, "ground_def.max_impacts", def->max_impacts, 256, 4194240, NULL);
@@ -82,6 +82,10 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     def->max_returns = virga_clamp_setting_u32(log, "ground_def.max_returns", def->max_returns, 0, 4194240, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "ground_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
+    for (int i = 0; i < 4; i++)
+        if (def->occluder_strides[i] && (def->occluder_strides[i] < 12 || def->occluder_strides[i] % 4))
+            return virga_wrong_argument(log, "ground_def.occluder_strides: expected multiples of 4 from 12, got %u",
+                                        def->occluder_strides[i]);
     return VIRGA_OK;
 }
 
@@ -374,6 +378,8 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
     const virga_log *log = &ground->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_ground_set: NULL argument");
+    if (ground->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = virga_settings_check(log, "ground_settings", settings->size, sizeof *settings,
                                                settings->cookie, SETTINGS_COOKIE);
     if (result)

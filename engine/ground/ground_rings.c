@@ -88,6 +88,7 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
                             "ground.waves_upload", &ripples->upload));
     ring_table_fill(ripples->upload->memory.block.mapped, 0.5 * texel_m);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
+    TRY(virga_uploaded(context));
 error:
     return result;
 }

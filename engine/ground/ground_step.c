@@ -447,10 +447,11 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
     if (info->ticks > ground->def.max_ticks_per_step)
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
                                     ground->def.max_ticks_per_step, info->ticks);
-    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
-        virga_settings_finite_double(log, "step_info.focus_m", info->focus_m, 3) ||
-        virga_settings_finite_double(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
-        virga_settings_finite_double(log, "step_info.materials.high_m", info->materials.high_m, 2))
+    if (virga_ticks_check(log, info->first_tick, info->ticks, ground->ticks ? &ground->last_tick : NULL) ||
+        virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
+        virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
+        virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
+        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2))
         return VIRGA_ERROR_INVALID;
     const virga_result result =
         virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
@@ -498,5 +499,5 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         measure(ground, cmd);
     write_maps(ground, cmd);
     record_readback(ground, cmd);
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }

@@ -35,9 +35,9 @@ void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATER
         materials[i] = table[i < sizeof table / sizeof table[0] ? i : VIRGA_MATERIAL_DEFAULT];
 }
 
-static void check(const virga_log *log, float *value, double low, double high, const char *name, bool *changed)
+static void check(const virga_log *log, float *value, float low, float high, const char *name, bool *changed)
 {
-    *value = (float)virga_clamp_setting(log, name, (double)*value, low, high, changed);
+    *value = virga_clamp_setting_float(log, name, *value, low, high, changed);
 }
 
 virga_result ground_check_settings(const virga_log *log, virga_ground_settings *settings)
@@ -54,9 +54,9 @@ virga_result ground_check_settings(const virga_log *log, virga_ground_settings *
         check(log, &m->retention_mm, 0, 50, "ground_settings.materials.retention_mm", &changed);
         check(log, &m->infiltration_mm_h, 0, 10000, "ground_settings.materials.infiltration_mm_h", &changed);
         check(log, &m->drying, 0, 10, "ground_settings.materials.drying", &changed);
-        check(log, &m->manning_n, 0.005, 1, "ground_settings.materials.manning_n", &changed);
+        check(log, &m->manning_n, 0.005f, 1, "ground_settings.materials.manning_n", &changed);
         check(log, &m->bumps_mm, 0, 50, "ground_settings.materials.bumps_mm", &changed);
-        check(log, &m->bump_m, 0.2, 50, "ground_settings.materials.bump_m", &changed);
+        check(log, &m->bump_m, 0.2f, 50, "ground_settings.materials.bump_m", &changed);
     }
     if (virga_settings_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1) ||
         virga_settings_finite(log, "ground_settings.start_wetness", &settings->start_wetness, 1) ||

@@ -246,6 +246,7 @@ static virga_result init(virga_rain *rain)
     list_passes(rain, passes);
     TRY(virga_buffers_create(rain->context, buffers, BUFFERS));
     fill_host_buffers(rain);
+    TRY(virga_uploaded(rain->context));
     TRY(virga_image_create(rain->context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){1, 1}, 1,
                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                            VK_IMAGE_ASPECT_DEPTH_BIT, "rain.blank", &rain->blank));
@@ -367,8 +368,8 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
         if (virga_settings_finite(log, floats[i].name, floats[i].values, floats[i].count))
             return VIRGA_ERROR_INVALID;
-    if (virga_settings_finite_double(log, "rain.wind_min_m", s->wind_min_m, 3) ||
-        virga_settings_finite_double(log, "rain.wind_max_m", s->wind_max_m, 3))
+    if (virga_settings_places(log, "rain.wind_min_m", s->wind_min_m, 3) ||
+        virga_settings_places(log, "rain.wind_max_m", s->wind_max_m, 3))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -469,6 +470,8 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
     const virga_log *log = &rain->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_rain_set: NULL settings");
+    if (rain->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_result result =
         virga_settings_check(log, "rain_settings", settings->size, sizeof *settings, settings->cookie, SETTINGS_COOKIE);
     if (!result)

@@ -145,12 +145,12 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     if (rain->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     rain->prepared = false;
-    virga_result result = virga_view_check(&rain->context->log, view, time_s);
+    virga_result result = virga_view_check(rain->context, view, time_s);
     if (!result)
         result = virga_group_ready(&rain->needed);
     if (result)
         return result;
-    if (!rain->stepped || view->viewport[2] < 1 || view->viewport[3] < 1)
+    if (!rain->stepped)
         return VIRGA_NOT_READY;
     rain_begin_frame(rain, cmd);
     if (rain->ring_views >= VIRGA_RAIN_MAX_VIEWS)
@@ -170,7 +170,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->prepared_depth = has_depth;
     rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
     rain->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(rain->context);
 }
 
 /* ---- attach and draw */
@@ -268,7 +268,8 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     virga_context *context = rain->context;
     const float *box = rain->prepared_viewport;
     const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{(int32_t)box[0], (int32_t)box[1]}, {(uint32_t)box[2], (uint32_t)box[3]}};
+    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
+                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);

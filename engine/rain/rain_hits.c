@@ -26,7 +26,7 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
         return virga_wrong_argument(log, "virga_rain_hits: NULL argument");
     if (rain->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (virga_settings_finite_double(log, "rain_pane.corner_m", pane->corner_m, 3) ||
+    if (virga_settings_places(log, "rain_pane.corner_m", pane->corner_m, 3) ||
         virga_settings_finite(log, "rain_pane.velocity_m_s", pane->velocity_m_s, 3))
         return VIRGA_ERROR_INVALID;
     if (!unit_length(pane->along_u) || !unit_length(pane->along_v))
@@ -117,9 +117,12 @@ virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_
         rain->hits_panes = 0;
     rain->hits_frame = rain->context->frame_index;
     rain->hits_offset = (uint32_t)(rain->hits_panes++ * rain_hits_bytes());
-    const virga_rain_pane_gpu known = pane_of(rain, pane);
-    record(rain, cmd, &known);
+    virga_rain_pane known = *pane;
+    bool changed = false;
+    virga_clamp_vector(&rain->context->log, "rain_pane.velocity_m_s", known.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
+    const virga_rain_pane_gpu pushed = pane_of(rain, &known);
+    record(rain, cmd, &pushed);
     *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, HITS_SIZE};
     rain->hits_offset = 0;
-    return VIRGA_OK;
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

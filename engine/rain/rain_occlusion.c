@@ -132,7 +132,7 @@ static virga_result check_call(const virga_rain *rain, const double camera_m[3])
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->def.occlusion_size)
         return VIRGA_NOT_READY;
-    return camera_m ? virga_settings_finite_double(&rain->context->log, "camera_m", camera_m, 3) : VIRGA_OK;
+    return camera_m ? virga_settings_places(&rain->context->log, "camera_m", camera_m, 3) : VIRGA_OK;
 }
 
 /* The same for calls that record: what they use belongs to a frame. */

@@ -236,7 +236,7 @@ static void advance(virga_rain *rain)
 }
 
 /* Whole ticks that host time completes; the rest is kept, or dropped where a step can not run that many. */
-static uint32_t take_ticks(virga_rain *rain, double dt_s)
+static uint32_t take_ticks(virga_rain *rain, double dt_s, bool *dropped)
 {
     rain->left_over_s += dt_s;
     /* A tick that is short by rounding alone counts, or 1/24 s at a tick of 1/48 s would run 1, 2, 3, 2, ... */
@@ -247,6 +247,7 @@ static uint32_t take_ticks(virga_rain *rain, double dt_s)
                       "a step of %g s at ticks of %g s: only %g are run (max_ticks_per_step)", dt_s, rain->def.tick_s,
                       whole);
         rain->left_over_s = whole * rain->def.tick_s;
+        *dropped = true;
     }
     rain->left_over_s -= whole * rain->def.tick_s;
     rain->left_over_s = rain->left_over_s < 0 ? 0 : rain->left_over_s;
@@ -264,12 +265,10 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->context->frame_index)
         return virga_wrong_argument(log, "virga_rain_step: expected virga_frame_begin before it");
-    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3))
+    if (virga_settings_places(log, "step_info.camera_m", info->camera_m, 3))
         return VIRGA_ERROR_INVALID;
     if (!(info->dt_s >= 0 && info->dt_s <= MOST_STEP_S))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 10 s, got %g", info->dt_s);
-    if (fabs(info->camera_m[0]) > 1e9 || fabs(info->camera_m[1]) > 1e9 || fabs(info->camera_m[2]) > 1e9)
-        return virga_wrong_argument(log, "step_info.camera_m: expected less than 1e9 m from the origin");
     if (rain->ring_frame == rain->context->frame_index && rain->ring_ticks >= rain->def.max_ticks_per_step)
         return virga_wrong_argument(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
     return virga_group_ready(&rain->needed);
@@ -310,7 +309,8 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-    const uint32_t ticks = take_ticks(rain, info->dt_s);
+    bool dropped = false;
+    const uint32_t ticks = take_ticks(rain, info->dt_s, &dropped);
     for (uint32_t i = 0; i < ticks; i++) {
         advance(rain);
         push_tick(rain, i);
@@ -328,7 +328,8 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain->ticks_of_step = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
-    return VIRGA_OK;
+    const virga_result uploaded = virga_uploaded(context);
+    return uploaded ? uploaded : dropped ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points, uint32_t *count,

@@ -1,5 +1,7 @@
 /* scene/scene.c - the effects of a place along their events. The only file that knows them all. */
+#include "glass/glass_internal.h"
 #include "gpu/context.h"
+#include "gpu/view.h"
 
 #include <virga/scene.h>
 
@@ -282,6 +284,52 @@ static void turn_to_world(const virga_glass_pose *pose, const float local[3], fl
                               pose->world_from_pane[6 + i] * local[2];
 }
 
+/* ---- what a host says of a frame, before any of it is recorded */
+
+static virga_result check_pane(const virga_log *log, const virga_scene_pane *pane)
+{
+    if (!(pane->shelter >= 0 && pane->shelter <= 1))
+        return virga_wrong_argument(log, "scene_pane.shelter: expected 0 to 1, got %g", (double)pane->shelter);
+    if (glass_pose_check(log, &pane->pose) ||
+        virga_settings_finite(log, "scene_pane.velocity_m_s", pane->velocity_m_s, 3) ||
+        virga_settings_finite(log, "scene_pane.acceleration_m_s2", pane->acceleration_m_s2, 3) ||
+        virga_settings_finite(log, "scene_pane.turn_rad_s", pane->turn_rad_s, 3))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+static virga_result check_places(const virga_log *log, const virga_scene_frame *frame)
+{
+    if (virga_settings_places(log, "scene_frame.camera_m", frame->camera_m, 3) ||
+        virga_settings_places(log, "scene_frame.focus_m", frame->focus_m, 3) ||
+        virga_settings_places(log, "scene_frame.materials.low_m", frame->materials.low_m, 2) ||
+        virga_settings_places(log, "scene_frame.materials.high_m", frame->materials.high_m, 2))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+/* VIRGA_NOT_READY: all but the view, which has no pixels. */
+static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    const virga_log *log = &scene->context->log;
+    if (!cmd || !frame)
+        return virga_wrong_argument(log, "virga_scene_record: NULL argument");
+    if (scene->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!(frame->dt_s >= 0 && frame->dt_s <= 10))
+        return virga_wrong_argument(log, "scene_frame.dt_s: expected 0 to 10 s, got %g", frame->dt_s);
+    if (scene->pane_count && !frame->panes)
+        return virga_wrong_argument(log, "scene_frame.panes: expected %u, got NULL", scene->pane_count);
+    if (check_places(log, frame))
+        return VIRGA_ERROR_INVALID;
+    for (uint32_t i = 0; i < scene->pane_count; i++)
+        if (check_pane(log, &frame->panes[i]))
+            return VIRGA_ERROR_INVALID;
+    return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(scene->rain)) : VIRGA_OK;
+}
+
+/* ---- panes */
+
 /* The rain's own drops, as long as there is room for them to be caught and nothing keeps a share of them off. */
 static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
                                 virga_glass_step_info *info)
@@ -299,22 +347,26 @@ static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_
         caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
     memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
     const virga_result result = virga_rain_hits(scene->rain, cmd, &caught, &hits);
-    if (result != VIRGA_OK)
+    if (result < 0 || result == VIRGA_NOT_READY)
         return result;
     info->rate_mm_h = 0;
     info->impacts = hits.buffer;
     info->impacts_offset = hits.offset;
-    return VIRGA_OK;
+    return result;
 }
 
 /* Rain lands on a pane as it does on the ground under the same sky. */
-static virga_result step_pane(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane)
+static virga_result step_pane(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *given)
 {
+    bool changed = false;
+    virga_scene_pane taken = *given;
+    const virga_scene_pane *pane = &taken;
+    const virga_log *log = &scene->context->log;
+    virga_clamp_vector(log, "scene_pane.velocity_m_s", taken.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(log, "scene_pane.acceleration_m_s2", taken.acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
+    virga_clamp_vector(log, "scene_pane.turn_rad_s", taken.turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
     virga_rain_settings rain;
     virga_rain_get(scene->rain, &rain);
-    if (!(pane->shelter >= 0 && pane->shelter <= 1))
-        return virga_wrong_argument(&scene->context->log, "scene_pane.shelter: expected 0 to 1, got %g",
-                                    (double)pane->shelter);
     virga_glass_step_info info = {
         .rate_mm_h = rain.rate_mm_h * (1 - pane->shelter), .sizes = &rain.sizes, .air_density = rain.air_density};
     memcpy(info.world_from_pane, pane->pose.world_from_pane, sizeof info.world_from_pane);
@@ -323,16 +375,15 @@ static virga_result step_pane(virga_scene *scene, VkCommandBuffer cmd, uint32_t 
     memcpy(info.turn_rad_s, pane->turn_rad_s, sizeof info.turn_rad_s);
     virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
     virga_rain_wind(scene->rain, info.wind_m_s);
-    const virga_result result = catch_drops(scene, cmd, index, pane, &info);
-    return result < 0 ? result : virga_glass_step(scene->panes[index], cmd, &info);
+    virga_result result = catch_drops(scene, cmd, index, pane, &info);
+    if (result >= 0)
+        result = virga_glass_step(scene->panes[index], cmd, &info);
+    return result ? result : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 static virga_result step_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_result result = VIRGA_OK;
-    if (scene->pane_count && !frame->panes)
-        return virga_wrong_argument(&scene->context->log, "scene_frame.panes: expected %u, got NULL",
-                                    scene->pane_count);
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
         result = worst(result, step_pane(scene, cmd, i, &frame->panes[i]));
     return result;
@@ -380,14 +431,20 @@ virga_result virga_scene_ready(const virga_scene *scene)
 
 virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
-    if (!scene || !frame)
+    if (!scene)
         return VIRGA_ERROR_INVALID;
     /* Rain that falls while its ground is not there yet would make a run depend on how fast pipelines were built. */
-    virga_result result = virga_scene_ready(scene);
-    if (result)
-        return result;
+    const virga_result ready = virga_scene_ready(scene);
+    const virga_result checked = check_frame(scene, cmd, frame);
+    if (checked < 0)
+        return checked;
+    if (ready)
+        return ready;
+    const bool seen = frame->view && !checked;
+    virga_result result = checked;
     if (frame->occluders)
-        result = virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
+        result = worst(result, virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders,
+                                                    frame->occluder_count));
     virga_rain_step_info step = {.dt_s = frame->dt_s};
     for (int axis = 0; axis < 3; axis++)
         step.camera_m[axis] = frame->camera_m[axis];
@@ -399,9 +456,9 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         result = worst(result, step_splash(scene, cmd, frame));
     if (result >= 0)
         result = worst(result, step_panes(scene, cmd, frame));
-    if (result >= 0 && frame->view)
+    if (result >= 0 && seen)
         result = worst(result, prepare(scene, cmd, frame->view));
-    if (result >= 0 && frame->view && !frame->panes_later)
+    if (result >= 0 && seen && !frame->panes_later)
         result = worst(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
 }

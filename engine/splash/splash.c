@@ -415,6 +415,8 @@ virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings 
     const virga_log *log = &splash->context->log;
     if (!settings)
         return virga_wrong_argument(log, "virga_splash_set: NULL argument");
+    if (splash->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     const virga_result result = virga_settings_check(log, "splash_settings", settings->size, sizeof *settings,
                                                      settings->cookie, SETTINGS_COOKIE);
     if (result)

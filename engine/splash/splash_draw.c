@@ -145,12 +145,12 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     splash->prepared = false;
-    virga_result result = virga_view_check(&context->log, view, time_s);
+    virga_result result = virga_view_check(context, view, time_s);
     if (!result)
         result = virga_group_ready(&splash->needed);
     if (result)
         return result;
-    if (!splash->ticks || view->viewport[2] < 1 || view->viewport[3] < 1)
+    if (!splash->ticks)
         return VIRGA_NOT_READY;
     if (splash->view_frame != context->frame_index)
         splash->ring_views = 0;
@@ -171,7 +171,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     memcpy(splash->prepared_viewport, view->viewport, sizeof splash->prepared_viewport);
     splash->prepared_style = splash->settings.style;
     splash->prepared = true;
-    return VIRGA_OK;
+    return virga_uploaded(context);
 }
 
 /* ---- attach */

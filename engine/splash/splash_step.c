@@ -264,17 +264,22 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
     if (info->ticks > splash->def.max_ticks_per_step)
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
                                     splash->def.max_ticks_per_step, info->ticks);
-    if (virga_settings_finite_double(log, "step_info.camera_m", info->camera_m, 3) ||
+    if (virga_ticks_check(log, info->first_tick, info->ticks, splash->ticks ? &splash->last_tick : NULL) ||
+        virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
         return VIRGA_ERROR_INVALID;
     return virga_group_ready(&splash->needed);
 }
 
-virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *given)
 {
-    const virga_result result = check_step(splash, cmd, info);
+    const virga_result result = check_step(splash, cmd, given);
     if (result)
         return result;
+    bool changed = false;
+    virga_splash_step_info taken = *given;
+    const virga_splash_step_info *info = &taken;
+    virga_clamp_vector(&splash->context->log, "step_info.wind_m_s", taken.wind_m_s, VIRGA_FASTEST_M_S, &changed);
     virga_context *context = splash->context;
     virga_timers_reset(context, cmd);
     splash_take_statistics(splash);
@@ -302,5 +307,6 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(splash, cmd, info, i);
     record_readback(splash, cmd);
-    return VIRGA_OK;
+    const virga_result uploaded = virga_uploaded(context);
+    return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

@@ -219,6 +219,57 @@ static void half_given_callbacks_are_refused(void **state)
     assert_int_equal(virga_host_heap_init(&heap, &callbacks), VIRGA_OK);
 }
 
+/* ---- places, rotations, vectors ---- */
+
+static void places_end_where_floats_are_coarse(void **state)
+{
+    (void)state;
+    captured line = {0};
+    const virga_log log = {capture, &line};
+    const double edge[3] = {-VIRGA_FARTHEST_M, 0, VIRGA_FARTHEST_M}, beyond[3] = {0, 0, 1.0000001e9};
+    const double endless[3] = {0, (double)INFINITY, 0};
+    assert_int_equal(virga_settings_places(&log, "camera_m", edge, 3), VIRGA_OK);
+    assert_int_equal(line.lines, 0);
+    assert_int_equal(virga_settings_places(&log, "camera_m", beyond, 3), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_places(&log, "camera_m", endless, 3), VIRGA_ERROR_INVALID);
+    assert_int_equal(line.lines, 2);
+}
+
+static void rotations_may_be_worn_but_not_bent(void **state)
+{
+    (void)state;
+    captured line = {0};
+    const virga_log log = {capture, &line};
+    const float turned[9] = {0.6f, 0.8f, 0, -0.8f, 0.6f, 0, 0, 0, -1}; /* and mirrored */
+    const float padded[12] = {1.005f, 0, 0, 9, 0, 1, 0.01f, 9, 0, 0, 1, 9};
+    const float bent[9] = {1, 0, 0, 0.1f, 1, 0, 0, 0, 1}, long_[9] = {2, 0, 0, 0, 1, 0, 0, 0, 1};
+    const float none[9] = {0}, nan_[9] = {1, 0, 0, 0, NAN, 0, 0, 0, 1};
+    assert_int_equal(virga_settings_rotation(&log, "m", turned, 3), VIRGA_OK);
+    assert_int_equal(virga_settings_rotation(&log, "m", padded, 4), VIRGA_OK);
+    assert_int_equal(line.lines, 0);
+    const float *const wrong[] = {bent, long_, none, nan_};
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(virga_settings_rotation(&log, "m", wrong[i], 3), VIRGA_ERROR_INVALID);
+        assert_int_equal(line.lines, i + 1);
+    }
+}
+
+static void a_vector_is_clamped_with_one_line(void **state)
+{
+    (void)state;
+    captured line = {0};
+    const virga_log log = {capture, &line};
+    float v[3] = {-5, 0.5f, 3e38f};
+    bool changed = false;
+    virga_clamp_vector(&log, "wind", v, 1, &changed);
+    assert_true(changed && v[0] == -1 && v[1] == 0.5f && v[2] == 1);
+    assert_int_equal(line.lines, 1);
+    changed = false;
+    virga_clamp_vector(&log, "wind", v, 1, &changed);
+    assert_false(changed);
+    assert_int_equal(line.lines, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +282,9 @@ int main(void)
         cmocka_unit_test(failing_allocator_gives_null),
         cmocka_unit_test(absurd_sizes_never_reach_the_host),
         cmocka_unit_test(half_given_callbacks_are_refused),
+        cmocka_unit_test(places_end_where_floats_are_coarse),
+        cmocka_unit_test(rotations_may_be_worn_but_not_bent),
+        cmocka_unit_test(a_vector_is_clamped_with_one_line),
     };
     return cmocka_run_group_tests_name("core/settings", tests, NULL, NULL);
 }

@@ -103,7 +103,7 @@ static inline void shot_buffers(shot *s)
     REQUIRE(host_buffer_create(&s->gpu.device, g->drops->size + g->film->size + g->passed->size,
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "pane up", &s->upload, error,
                                size));
-    REQUIRE(host_buffer_create(&s->gpu.device, shot_map_bytes(s) + g->picture->balls->size + g->picture->counts->size,
+    REQUIRE(host_buffer_create(&s->gpu.device, shot_map_bytes(s) + g->picture->balls->size + 2 * sizeof(uint32_t),
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "map down", &s->download, error,
                                size));
     memset(s->upload.mapped, 0, s->upload.size);
@@ -270,9 +270,10 @@ static inline void shot_copy_map(shot *s, VkCommandBuffer cmd)
                            &relief);
     const struct glass_picture *picture = s->glass->picture;
     const VkBufferCopy balls = {0, shot_map_bytes(s), picture->balls->size};
-    const VkBufferCopy counts = {0, shot_map_bytes(s) + picture->balls->size, picture->counts->size};
+    const VkBufferCopy counts = {offsetof(virga_glass_work_gpu, shaped), shot_map_bytes(s) + picture->balls->size,
+                                 2 * sizeof(uint32_t)};
     vkCmdCopyBuffer(cmd, picture->balls->buffer, s->download.buffer, 1, &balls);
-    vkCmdCopyBuffer(cmd, picture->counts->buffer, s->download.buffer, 1, &counts);
+    vkCmdCopyBuffer(cmd, picture->work->buffer, s->download.buffer, 1, &counts);
     shot_memory(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                 VK_ACCESS_HOST_READ_BIT);
 }

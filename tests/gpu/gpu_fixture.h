@@ -68,6 +68,7 @@ static inline virga_context_def gpu_context_def(gpu_fixture *f)
     def.device = f->gpu.device.device;
     def.queue_family = f->gpu.device.queue_family;
     def.get_instance_proc_addr = watch_get_instance_proc_addr;
+    def.memory_budget = (VkDeviceSize)256 << 20; /* keeps pages of device memory small, and with that quick to make */
     def.log = gpu_log;
     def.log_user = f;
     return def;
@@ -199,6 +200,7 @@ static inline int gpu_tear_down(void **state)
     const uint32_t alive = watch_sum(watch.live);
     if (alive)
         fprintf(stderr, "alive at the end: %s\n", watch_alive());
+    watch_forget_pipelines();
     const uint32_t wrong = alive + fixture_end(&f->gpu);
     free(f);
     return wrong ? -1 : 0;

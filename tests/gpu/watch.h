@@ -3,8 +3,10 @@
 #ifndef VIRGA_TESTS_GPU_WATCH_H
 #define VIRGA_TESTS_GPU_WATCH_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <vulkan/vulkan.h>
@@ -16,7 +18,6 @@
     X(ImageView)           \
     X(BufferView)          \
     X(Sampler)             \
-    X(ShaderModule)        \
     X(DescriptorSetLayout) \
     X(DescriptorPool)      \
     X(PipelineLayout)      \
@@ -26,12 +27,17 @@
     X(QueryPool)
 
 #define WATCH_KIND(name) WATCH_##name,
-typedef enum watch_kind { WATCH_CREATED(WATCH_KIND) WATCH_Pipeline, WATCH_Memory, WATCH_KINDS } watch_kind;
+typedef enum watch_kind {
+    WATCH_CREATED(WATCH_KIND) WATCH_ShaderModule,
+    WATCH_Pipeline,
+    WATCH_Memory,
+    WATCH_KINDS
+} watch_kind;
 #undef WATCH_KIND
 
 static const char *const watch_names[WATCH_KINDS] = {
 #define WATCH_NAME(name) #name,
-    WATCH_CREATED(WATCH_NAME) "Pipeline", "Memory"
+    WATCH_CREATED(WATCH_NAME) "ShaderModule", "Pipeline", "Memory"
 #undef WATCH_NAME
 };
 
@@ -61,6 +67,10 @@ static struct watch {
     void (*lie_properties)(VkPhysicalDeviceProperties *properties);
     void (*lie_features)(VkPhysicalDeviceFeatures2 *features);
     void (*lie_format)(VkFormat format, VkFormatProperties *properties);
+    void (*lie_memory)(VkPhysicalDeviceMemoryProperties *properties);
+
+    bool keep_pipelines;   /* made once, and given again to who asks for the same: see below */
+    uint64_t device_calls; /* of all that can fail: what a lost device must not be asked any more */
 } watch;
 
 static inline uint32_t watch_sum(const uint32_t counts[WATCH_KINDS])
@@ -82,6 +92,7 @@ static inline void watch_fail(uint32_t number, VkResult failure)
 
 static inline bool watch_fails(const char *call)
 {
+    watch.device_calls++;
     if (++watch.calls != watch.fail_at)
         return false;
     watch.failed = true;
@@ -130,7 +141,6 @@ static inline void watch_uncount(watch_kind kind, bool object)
 #define watch_see_ImageView(info)
 #define watch_see_BufferView(info)
 #define watch_see_Sampler(info)
-#define watch_see_ShaderModule(info)
 #define watch_see_DescriptorSetLayout(info)
 #define watch_see_DescriptorPool(info)
 #define watch_see_PipelineLayout(info)
@@ -143,6 +153,142 @@ static inline void watch_uncount(watch_kind kind, bool object)
 WATCH_CREATED(WATCH_WRAP)
 #undef WATCH_WRAP
 
+/* ---- pipelines
+ *
+ * Software Vulkan compiles a pipeline in 20 to 75 ms, and a test that fails each of a thousand calls makes each a
+ * thousand times. With `keep_pipelines` the first one of its kind is kept until watch_forget_pipelines, whatever
+ * becomes of the context that it was made for: Vulkan lets a pipeline outlive its layout and render pass, and be used
+ * with any that are compatible. Shader modules are then numbers that stand for their code. */
+
+enum { WATCH_MOST_CODES = 256, WATCH_MOST_KEPT = 512, WATCH_KEY_WORDS = 10 };
+
+static struct watch_kept {
+    const uint32_t *codes[WATCH_MOST_CODES]; /* by module - 1; arrays of the library, which never move */
+    size_t code_sizes[WATCH_MOST_CODES];
+    uint32_t code_count;
+    struct {
+        uint64_t key[WATCH_KEY_WORDS];
+        VkPipeline pipeline;
+    } pipelines[WATCH_MOST_KEPT];
+    uint32_t count;
+    VkDevice device;
+} watch_kept;
+
+static inline VkShaderModule watch_number_module(const VkShaderModuleCreateInfo *info)
+{
+    uint32_t i = 0;
+    while (i < watch_kept.code_count && watch_kept.codes[i] != info->pCode)
+        i++;
+    if (i == WATCH_MOST_CODES)
+        abort();
+    watch_kept.codes[i] = info->pCode;
+    watch_kept.code_sizes[i] = info->codeSize;
+    watch_kept.code_count += i == watch_kept.code_count;
+    return (VkShaderModule)(uintptr_t)(i + 1);
+}
+
+static inline VkShaderModule watch_real_module(VkDevice device, VkShaderModule number)
+{
+    const uint32_t i = (uint32_t)(uintptr_t)number - 1;
+    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                           .codeSize = watch_kept.code_sizes[i],
+                                           .pCode = watch_kept.codes[i]};
+    VkShaderModule module = VK_NULL_HANDLE;
+    if (vkCreateShaderModule(device, &info, NULL, &module) != VK_SUCCESS)
+        abort();
+    return module;
+}
+
+static inline uint64_t watch_key_of_stage(const VkPipelineShaderStageCreateInfo *stage)
+{
+    uint32_t constant = 0;
+    if (stage->pSpecializationInfo && stage->pSpecializationInfo->dataSize == sizeof constant)
+        memcpy(&constant, stage->pSpecializationInfo->pData, sizeof constant);
+    return (uint64_t)(uintptr_t)stage->module << 32 | constant;
+}
+
+/* What pipelines of the library differ in, besides their layouts, which follow from their shaders. */
+static inline void watch_key_of(const VkGraphicsPipelineCreateInfo *info, uint64_t key[WATCH_KEY_WORDS])
+{
+    const VkPipelineVertexInputStateCreateInfo *input = info->pVertexInputState;
+    const VkPipelineColorBlendStateCreateInfo *blend = info->pColorBlendState;
+    for (uint32_t i = 0; i < info->stageCount; i++)
+        key[i] = watch_key_of_stage(&info->pStages[i]);
+    key[2] = input->vertexBindingDescriptionCount ? input->pVertexBindingDescriptions[0].stride : 0;
+    key[3] = info->pRasterizationState->cullMode;
+    key[4] = info->pMultisampleState->rasterizationSamples;
+    key[5] = (uint64_t)info->pDepthStencilState->depthCompareOp << 2 | info->pDepthStencilState->depthTestEnable << 1 |
+             info->pDepthStencilState->depthWriteEnable;
+    key[6] = blend->attachmentCount;
+    key[7] = (uint64_t)blend->pAttachments[0].blendEnable << 32 | blend->pAttachments[0].dstColorBlendFactor;
+    key[8] = info->subpass;
+}
+
+static inline VkPipeline *watch_find_kept(VkDevice device, const uint64_t key[WATCH_KEY_WORDS])
+{
+    uint32_t i = 0;
+    while (i < watch_kept.count && memcmp(watch_kept.pipelines[i].key, key, sizeof watch_kept.pipelines[i].key))
+        i++;
+    if (i == WATCH_MOST_KEPT)
+        abort();
+    memcpy(watch_kept.pipelines[i].key, key, sizeof watch_kept.pipelines[i].key);
+    watch_kept.count += i == watch_kept.count;
+    watch_kept.device = device;
+    return &watch_kept.pipelines[i].pipeline;
+}
+
+/* Before the device goes. */
+static inline void watch_forget_pipelines(void)
+{
+    for (uint32_t i = 0; i < watch_kept.count; i++)
+        vkDestroyPipeline(watch_kept.device, watch_kept.pipelines[i].pipeline, NULL);
+    memset(&watch_kept, 0, sizeof watch_kept);
+}
+
+static inline VkResult watch_kept_compute(VkDevice device, VkPipelineCache cache,
+                                          const VkComputePipelineCreateInfo *given, VkPipeline *made)
+{
+    const uint64_t key[WATCH_KEY_WORDS] = {watch_key_of_stage(&given->stage)};
+    VkPipeline *kept = watch_find_kept(device, key);
+    if (!*kept) {
+        VkComputePipelineCreateInfo info = *given;
+        info.stage.module = watch_real_module(device, given->stage.module);
+        const VkResult result = vkCreateComputePipelines(device, cache, 1, &info, NULL, kept);
+        vkDestroyShaderModule(device, info.stage.module, NULL);
+        if (result != VK_SUCCESS)
+            return result;
+    }
+    *made = *kept;
+    return VK_SUCCESS;
+}
+
+static inline VkResult watch_kept_graphics(VkDevice device, VkPipelineCache cache,
+                                           const VkGraphicsPipelineCreateInfo *given, VkPipeline *made)
+{
+    uint64_t key[WATCH_KEY_WORDS] = {0};
+    if (!given
+             ->renderPass) { /* for dynamic rendering, which devices of tests lack: a number that is never drawn with */
+        *made = (VkPipeline)(uintptr_t)1;
+        return VK_SUCCESS;
+    }
+    watch_key_of(given, key);
+    VkPipeline *kept = watch_find_kept(device, key);
+    if (!*kept) {
+        VkPipelineShaderStageCreateInfo stages[2] = {given->pStages[0], given->pStages[1]};
+        VkGraphicsPipelineCreateInfo info = *given;
+        info.pStages = stages;
+        for (int i = 0; i < 2; i++)
+            stages[i].module = watch_real_module(device, stages[i].module);
+        const VkResult result = vkCreateGraphicsPipelines(device, cache, 1, &info, NULL, kept);
+        for (int i = 0; i < 2; i++)
+            vkDestroyShaderModule(device, stages[i].module, NULL);
+        if (result != VK_SUCCESS)
+            return result;
+    }
+    *made = *kept;
+    return VK_SUCCESS;
+}
+
 static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice device, VkPipelineCache cache,
                                                                    uint32_t count,
                                                                    const VkComputePipelineCreateInfo *infos,
@@ -154,9 +300,12 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice devi
         return watch.failure;
     if (watch.before_pipeline)
         watch.before_pipeline();
-    const VkResult result = vkCreateComputePipelines(device, cache, count, infos, allocator, pipelines);
-    for (uint32_t i = 0; i < count; i++)
+    VkResult result = VK_SUCCESS;
+    for (uint32_t i = 0; i < count && result == VK_SUCCESS; i++) {
+        result = watch.keep_pipelines ? watch_kept_compute(device, cache, &infos[i], &pipelines[i])
+                                      : vkCreateComputePipelines(device, cache, 1, &infos[i], allocator, &pipelines[i]);
         watch_count(WATCH_Pipeline, result);
+    }
     return result;
 }
 
@@ -171,9 +320,13 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateGraphicsPipelines(VkDevice dev
         return watch.failure;
     if (watch.before_pipeline)
         watch.before_pipeline();
-    const VkResult result = vkCreateGraphicsPipelines(device, cache, count, infos, allocator, pipelines);
-    for (uint32_t i = 0; i < count; i++)
+    VkResult result = VK_SUCCESS;
+    for (uint32_t i = 0; i < count && result == VK_SUCCESS; i++) {
+        result = watch.keep_pipelines
+                     ? watch_kept_graphics(device, cache, &infos[i], &pipelines[i])
+                     : vkCreateGraphicsPipelines(device, cache, 1, &infos[i], allocator, &pipelines[i]);
         watch_count(WATCH_Pipeline, result);
+    }
     return result;
 }
 
@@ -181,8 +334,34 @@ static VKAPI_ATTR void VKAPI_CALL watch_DestroyPipeline(VkDevice device, VkPipel
                                                         const VkAllocationCallbacks *allocator)
 {
     watch_uncount(WATCH_Pipeline, pipeline != VK_NULL_HANDLE);
-    vkDestroyPipeline(device, pipeline, allocator);
+    if (!watch.keep_pipelines)
+        vkDestroyPipeline(device, pipeline, allocator);
 }
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo *info,
+                                                               const VkAllocationCallbacks *allocator,
+                                                               VkShaderModule *module)
+{
+    if (watch_fails("vkCreateShaderModule"))
+        return watch.failure;
+    VkResult result = VK_SUCCESS;
+    if (watch.keep_pipelines)
+        *module = watch_number_module(info);
+    else
+        result = vkCreateShaderModule(device, info, allocator, module);
+    watch_count(WATCH_ShaderModule, result);
+    return result;
+}
+
+static VKAPI_ATTR void VKAPI_CALL watch_DestroyShaderModule(VkDevice device, VkShaderModule module,
+                                                            const VkAllocationCallbacks *allocator)
+{
+    watch_uncount(WATCH_ShaderModule, module != VK_NULL_HANDLE);
+    if (!watch.keep_pipelines)
+        vkDestroyShaderModule(device, module, allocator);
+}
+
+/* ---- memory */
 
 static VKAPI_ATTR VkResult VKAPI_CALL watch_AllocateMemory(VkDevice device, const VkMemoryAllocateInfo *info,
                                                            const VkAllocationCallbacks *allocator,
@@ -243,7 +422,43 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_AllocateDescriptorSets(VkDevice devi
     return watch_fails("vkAllocateDescriptorSets") ? watch.failure : vkAllocateDescriptorSets(device, info, sets);
 }
 
+static VKAPI_ATTR VkResult VKAPI_CALL watch_FlushMappedMemoryRanges(VkDevice device, uint32_t count,
+                                                                    const VkMappedMemoryRange *ranges)
+{
+    return watch_fails("vkFlushMappedMemoryRanges") ? watch.failure : vkFlushMappedMemoryRanges(device, count, ranges);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_InvalidateMappedMemoryRanges(VkDevice device, uint32_t count,
+                                                                         const VkMappedMemoryRange *ranges)
+{
+    return watch_fails("vkInvalidateMappedMemoryRanges") ? watch.failure
+                                                         : vkInvalidateMappedMemoryRanges(device, count, ranges);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first,
+                                                                uint32_t count, size_t size, void *data,
+                                                                VkDeviceSize stride, VkQueryResultFlags flags)
+{
+    return watch_fails("vkGetQueryPoolResults")
+               ? watch.failure
+               : vkGetQueryPoolResults(device, pool, first, count, size, data, stride, flags);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL watch_GetPipelineCacheData(VkDevice device, VkPipelineCache cache, size_t *size,
+                                                                 void *data)
+{
+    return watch_fails("vkGetPipelineCacheData") ? watch.failure : vkGetPipelineCacheData(device, cache, size, data);
+}
+
 /* ---- functions of the instance */
+
+static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceMemoryProperties(VkPhysicalDevice device,
+                                                                          VkPhysicalDeviceMemoryProperties *properties)
+{
+    vkGetPhysicalDeviceMemoryProperties(device, properties);
+    if (watch.lie_memory)
+        watch.lie_memory(properties);
+}
 
 static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceProperties(VkPhysicalDevice device,
                                                                     VkPhysicalDeviceProperties *properties)
@@ -279,11 +494,29 @@ static inline PFN_vkVoidFunction watch_find(const char *name)
     } wrapped[] = {
 #define WATCH_ENTRY(name) {"vk" #name, (PFN_vkVoidFunction)watch_##name},
 #define WATCH_PAIR(name)  WATCH_ENTRY(Create##name) WATCH_ENTRY(Destroy##name)
-        WATCH_CREATED(WATCH_PAIR) WATCH_ENTRY(CreateComputePipelines) WATCH_ENTRY(CreateGraphicsPipelines)
-            WATCH_ENTRY(DestroyPipeline) WATCH_ENTRY(AllocateMemory) WATCH_ENTRY(FreeMemory) WATCH_ENTRY(MapMemory)
-                WATCH_ENTRY(BindBufferMemory) WATCH_ENTRY(BindImageMemory) WATCH_ENTRY(AllocateDescriptorSets)
-                    WATCH_ENTRY(GetPhysicalDeviceProperties) WATCH_ENTRY(GetPhysicalDeviceFeatures2)
-                        WATCH_ENTRY(GetPhysicalDeviceFormatProperties) WATCH_ENTRY(GetDeviceProcAddr)
+        /* clang-format off */
+        WATCH_CREATED(WATCH_PAIR)
+        WATCH_ENTRY(CreateShaderModule)
+        WATCH_ENTRY(DestroyShaderModule)
+        WATCH_ENTRY(CreateComputePipelines)
+        WATCH_ENTRY(CreateGraphicsPipelines)
+        WATCH_ENTRY(DestroyPipeline)
+        WATCH_ENTRY(AllocateMemory)
+        WATCH_ENTRY(FreeMemory)
+        WATCH_ENTRY(MapMemory)
+        WATCH_ENTRY(BindBufferMemory)
+        WATCH_ENTRY(BindImageMemory)
+        WATCH_ENTRY(AllocateDescriptorSets)
+        WATCH_ENTRY(FlushMappedMemoryRanges)
+        WATCH_ENTRY(InvalidateMappedMemoryRanges)
+        WATCH_ENTRY(GetQueryPoolResults)
+        WATCH_ENTRY(GetPipelineCacheData)
+        WATCH_ENTRY(GetPhysicalDeviceProperties)
+        WATCH_ENTRY(GetPhysicalDeviceFeatures2)
+        WATCH_ENTRY(GetPhysicalDeviceFormatProperties)
+        WATCH_ENTRY(GetPhysicalDeviceMemoryProperties)
+        WATCH_ENTRY(GetDeviceProcAddr)
+    /* clang-format on */
 #undef WATCH_PAIR
 #undef WATCH_ENTRY
     };

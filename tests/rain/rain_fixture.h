@@ -131,7 +131,7 @@ static inline void rain_fixture_step(rain_fixture *f, double dt_s)
     if (f->occluder_count)
         REQUIRE(virga_rain_occlusion(f->rain, cmd, f->camera, f->occluders, f->occluder_count) == VIRGA_OK);
     const virga_rain_step_info info = {.dt_s = dt_s, .camera_m = {f->camera[0], f->camera[1], f->camera[2]}};
-    REQUIRE(virga_rain_step(f->rain, cmd, &info) == VIRGA_OK);
+    REQUIRE(virga_rain_step(f->rain, cmd, &info) >= 0); /* ticks may be dropped */
     virga_rain_impacts(f->rain, &impacts);
     virga_rain_drops(f->rain, &drops, NULL, f->origin);
     rain_fixture_copy(cmd, &impacts, &f->impacts);

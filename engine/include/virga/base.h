@@ -4,7 +4,12 @@
  *  - SI units (m, s, kg, rad) unless the name carries another one (`rate_mm_h`, `fov_deg`, `water_nl`).
  *  - Right-handed, Y up. Matrices are column-major float[16], as GLSL and glTF store them.
  *  - Ranges are written `[a; b]`; a value outside is clamped where the comment says so and refused
- *    with VIRGA_ERROR_INVALID and one log line otherwise. NaN and infinity are always refused.
+ *    with VIRGA_ERROR_INVALID and one log line otherwise. NaN and infinity are always refused. Fields of
+ *    definitions (`..._def`) that have a range are clamped with one log line each, and creating goes on.
+ *  - Places in the world lie within 1e9 m of its origin on each axis; beyond, a call is refused. Floats without a range
+ *    may have any finite value.
+ *  - Functions that return a result take NULL for what they need as VIRGA_ERROR_INVALID, with one log line where
+ *    there is an object whose log can be reached.
  *  - Settings structs are filled by their default function, which also sets `size` and `cookie`; a struct
  *    that did not come from it is refused with VIRGA_ERROR_INVALID in release builds too.
  *  - Everything a settings struct points to is copied before the call returns.

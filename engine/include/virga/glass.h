@@ -70,7 +70,7 @@ typedef struct virga_glass_shape {
                              * NULL: flat, from (0, 0, 0) along x and y, facing z. Outside is where the cross product of
                              * the steps along u and v points. u and v should be ways along the surface in metres, or
                              * drops come out squeezed */
-    uint32_t columns, rows; /* [2; 1025] */
+    uint32_t columns, rows; /* [2; 1025]. Positions are [-1000; 1000] */
     const uint8_t *mask;    /* (optional) mask_columns x mask_rows, row by row from v = 0 up: 0 where there is no glass;
                              * drops run off there. NULL: glass everywhere */
     uint32_t mask_columns, mask_rows; /* [1; 8192] */
@@ -89,13 +89,15 @@ VIRGA_API virga_glass_shape virga_default_glass_shape(void);
 /* Makes the positions of a windshield: a part of a cylinder's wall, `width_m` x `height_m` along the surface, leaning
  * back by `rake_deg` [0; 85] from upright, its middle bulging outward with a radius of `bend_m` (0: flat). x is to the
  * right seen from outside, y up, z where the car drives to. The middle of the lower edge lies at the frame's origin.
- * Writes columns x rows x 3 floats, as virga_glass_shape takes them. */
+ * Writes columns x rows x 3 floats, as virga_glass_shape takes them; nothing where columns or rows are not [2; 1025] or
+ * a number is not finite. */
 VIRGA_API void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
                                       uint32_t rows, float *positions);
 
 /* Makes positions and a mask from a mesh with texture coordinates in metres (0, 0 at the pane's lower left): each grid
  * point gets the point of the triangle that covers it, or of the nearest one. `mask` gets columns x rows bytes.
- * VIRGA_ERROR_INVALID where an index is out of range, or no triangle covers anything. */
+ * VIRGA_ERROR_INVALID where an index is out of range, or no triangle covers anything, or columns and rows are not
+ * [2; 1025], or width_m and height_m not (0; 10]. The largest grid with hardly a triangle takes seconds. */
 VIRGA_API virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
                                              const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
                                              uint32_t columns, uint32_t rows, float *grid, uint8_t *mask);
@@ -136,7 +138,8 @@ typedef struct virga_glass_wiper {
 
 VIRGA_API virga_glass_wiper virga_default_glass_wiper(void);
 
-/* Where a wiper is at a time: the angle of its arm. `host_deg` drives give just that. Pure. */
+/* Where a wiper is at a time: the angle of its arm. `host_deg` drives give just that. Pure. A sweep_s below 0.1
+ * counts as 0.1, a time that is no number as 0. */
 VIRGA_API double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s);
 
 typedef enum virga_glass_density {
@@ -271,16 +274,19 @@ VIRGA_API VkDeviceSize virga_glass_estimate(const virga_glass_def *def);
 
 /* One step. */
 typedef struct virga_glass_step_info {
-    uint32_t first_tick, ticks;    /* see virga_rain_ticks; the first step's first tick is number 1 */
-    float world_from_pane[9];      /* rotation, column by column: the pane's axes in the world. All zero: none */
-    float velocity_m_s[3];         /* of the pane in the world */
-    float acceleration_m_s2[3];    /* of the pane's origin, without gravity */
-    float turn_rad_s[3];           /* of the pane, about the world's axes */
-    float wind_m_s[3];             /* of the air in the world */
+    uint32_t first_tick, ticks;    /* see virga_rain_ticks; the first step's first tick is number 1. Ticks that do not
+                                    * come after those of the steps before are refused (VIRGA_LOG_FRAME_ORDER) */
+    float world_from_pane[9];      /* rotation, column by column: the pane's axes in the world. All zero: none. What is
+                                    * no rotation (to 2 %) is refused */
+    /* Motion out of its range is clamped, logged, VIRGA_DEGRADED. */
+    float velocity_m_s[3];         /* [-1000; 1000] of the pane in the world */
+    float acceleration_m_s2[3];    /* [-1000; 1000] of the pane's origin, without gravity */
+    float turn_rad_s[3];           /* [-100; 100] of the pane, about the world's axes */
+    float wind_m_s[3];             /* [-1000; 1000] of the air in the world */
     float rate_mm_h;               /* [0; 200] of the rain that lands, on level ground; 0: none. A pane that moves meets
                                     * more of it */
-    const virga_sizes *sizes;      /* (optional) of its drops. NULL: Marshall and Palmer */
-    float air_density;             /* kg/m^3; 0: VIRGA_AIR_DENSITY */
+    const virga_sizes *sizes;      /* (optional) of its drops; a wrong table is refused. NULL: Marshall and Palmer */
+    float air_density;             /* [0; 100] kg/m^3; 0: VIRGA_AIR_DENSITY */
     VkBuffer impacts;              /* (optional) drops that hit this pane: virga_impacts_gpu and virga_impact_gpu,
                                     * positions (u, v, -) on the pane; they land beside those of the rate, as
                                     * virga_rain_hits gives them. Ready to be read by compute. At most 8192 */

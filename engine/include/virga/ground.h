@@ -127,7 +127,8 @@ typedef struct virga_ground_step_info {
     virga_ground_material_map materials; /* (optional) looked at where the window moves, see virga_ground_survey */
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
     VkDeviceSize impacts_offset;
-    uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks */
+    uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks. Ticks that do not come after those
+                                 * of the steps before are refused (VIRGA_LOG_FRAME_ORDER) */
     VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none do */
     VkDeviceSize splash_rules_offset;
     VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the

@@ -14,7 +14,7 @@ extern "C" {
 
 /* A light that glitters in water. */
 typedef struct virga_light {
-    double position_m[3];
+    double position_m[3];  /* [-1e9; 1e9] */
     float intensity[3];    /* radiant intensity in the host's radiance unit x m^2 (linear RGB), on the axis */
     float range_m;         /* beyond it the light is zero, faded smoothly; 0: no end */
     float direction[3];    /* (spot) where it points, any length; all zero: a point light */

@@ -163,8 +163,9 @@ typedef struct virga_rain_step_info {
     double camera_m[3];  /* where the field is looked at; may jump */
 } virga_rain_step_info;
 
-/* Runs the ticks that dt_s completes, and writes impacts. Outside rendering. Leaves the impact buffer ready to be
- * read by compute and vertex shaders in the same command buffer. The first step also fills the state. */
+/* Runs the ticks that dt_s completes, and writes impacts; VIRGA_DEGRADED and one log line where that is more than
+ * max_ticks_per_step. A dt_s out of range is refused, and no time passes. Outside rendering. Leaves the impact buffer
+ * ready to be read by compute and vertex shaders in the same command buffer. The first step also fills the state. */
 VIRGA_API virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_step_info *info);
 
 /* Simulated time (s) that draw times count from: whole ticks plus what dt_s left over. */
@@ -210,7 +211,8 @@ typedef struct virga_rain_pane {
                                    * which is
                               * where drops come from */
     float width_m, height_m; /* (0; 100] along u, along v */
-    float velocity_m_s[3];   /* in the world: the faster it goes the more drops it meets */
+    float velocity_m_s[3];   /* [-1000; 1000] in the world: the faster it goes the more drops it meets. Clamped, logged,
+                              * VIRGA_DEGRADED */
 } virga_rain_pane;
 
 /* The drops that met a pane in the newest step, as impacts with positions (u, v, 0) in metres on it: a

@@ -71,9 +71,10 @@ VIRGA_API virga_result virga_scene_light(virga_scene *scene, const virga_lightin
  * prepares them itself (virga_glass_prepare). */
 typedef struct virga_scene_pane {
     virga_glass_pose pose;
-    float velocity_m_s[3];      /* of the pane in the world */
-    float acceleration_m_s2[3]; /* of its origin, without gravity */
-    float turn_rad_s[3];        /* about the world's axes */
+    float velocity_m_s[3];      /* [-1000; 1000] of the pane in the world. These three: clamped, logged,
+                                 * VIRGA_DEGRADED */
+    float acceleration_m_s2[3]; /* [-1000; 1000] of its origin, without gravity */
+    float turn_rad_s[3];        /* [-100; 100] about the world's axes */
     float shelter;              /* [0; 1] share of the rain that does not reach it, beside what covers keep off. Above
                                  * 0: the pane gets drops of its own */
 } virga_scene_pane;
@@ -97,8 +98,9 @@ typedef struct virga_scene_frame {
 VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
 
 /* Occlusion, rain, ground, splash, panes and prepare, in that order. Panes get the rate, sizes, air and wind of the
- * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready. Else the worst of the
- * effects' results is returned; VIRGA_ERROR_INVALID for a scene with panes and none in `frame`. */
+ * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready; and for a view of no pixels,
+ * where all else is done. Else the worst of the effects' results is returned. VIRGA_ERROR_INVALID for a scene with panes
+ * and none in `frame`, and for numbers out of range: nothing is recorded then. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Prepares the panes of a frame with `panes_later`, at their own time: outside rendering, once view->color holds the

@@ -149,8 +149,9 @@ typedef struct virga_splash_step_info {
     VkBuffer spawns;            /* virga_spawns_gpu and what follows; ready to be read by compute and as indirect
                                  * arguments, as virga_ground_step leaves them */
     VkDeviceSize spawns_offset;
-    uint32_t first_tick, ticks; /* see virga_rain_ticks */
-    float wind_m_s[3];          /* where the splashes are */
+    uint32_t first_tick, ticks; /* see virga_rain_ticks. Ticks that do not come after those of the steps before are
+                                 * refused (VIRGA_LOG_FRAME_ORDER) */
+    float wind_m_s[3];          /* [-1000; 1000] where the splashes are. Clamped, logged, VIRGA_DEGRADED */
 } virga_splash_step_info;
 
 /* Starts the splashes of the spawns, moves droplets, and gives back the water of those that fell. Outside rendering.

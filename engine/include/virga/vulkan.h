@@ -41,7 +41,7 @@ typedef struct virga_feature {
     const char *why;             /* what Virga uses it for */
 } virga_feature;
 
-/* The required features, `*count` of them; static data. Thread-safety: any thread. */
+/* The required features, `*count` of them (count may be NULL); static data. Thread-safety: any thread. */
 VIRGA_API const virga_feature *virga_required_features(uint32_t *count);
 
 /* Sets each required feature to VK_TRUE in the structs of a pNext chain that is to go into VkDeviceCreateInfo; it
@@ -103,7 +103,8 @@ typedef struct virga_context_def {
     VkPhysicalDevice physical_device;                  /* required */
     VkDevice device;                                   /* required, made with the required features */
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;  /* required */
-    uint32_t queue_family; /* family of the queue that the command buffers go to; graphics and compute. Default 0 */
+    uint32_t queue_family; /* family of the queue that the command buffers go to; graphics and compute, else refused.
+                            * Default 0 */
 
     uint32_t frames_in_flight; /* [1; 8] how many frames may be recorded before the first is complete. Default 3.
                                 * Host-written rings have this many places; it has nothing to do with a swapchain */
@@ -142,7 +143,8 @@ VIRGA_API void virga_context_destroy(virga_context **context);
 /* Begins a frame. `frame_index` rises by any amount from call to call (VIRGA_ERROR_INVALID if not);
  * `completed_index` is the last frame whose device work has completed (0: none yet; indices start at 1). At most
  * frames_in_flight frames may be open: frame_index - completed_index <= frames_in_flight is required.
- * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. */
+ * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. VIRGA_DEGRADED: the
+ * frame has begun, and timings could not be had. */
 VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index);
 
 /* Says between frames that a frame has completed, for hosts that wait for their device (an offline renderer): timings and
@@ -231,7 +233,7 @@ typedef struct virga_target_def {
                                * Default 0 */
     uint32_t reactive_attachment; /* the same for the reactive mask, its first channel; R8_UNORM always can. May not be
                                * motion_attachment. Default 0 */
-    VkSampleCountFlagBits samples; /* default 1 */
+    VkSampleCountFlagBits samples; /* one of Vulkan's, else refused. Default 1 */
     bool depth_attached;      /* a depth attachment is there and drawing is to be tested against it (never written).
                                * Default true; false where the pass has none */
     bool reversed_depth;      /* nearer is greater. Default false */
@@ -294,7 +296,10 @@ typedef struct virga_temporal {
                                    * VK_NULL_HANDLE: what is behind stands still, and only the camera moves */
 } virga_temporal;
 
-/* What a camera sees, at the end of the shutter time. Fill with virga_default_view. */
+/* What a camera sees, at the end of the shutter time. Fill with virga_default_view. What is no view is refused by
+ * the calls that take it: matrices that are no rotation (to 2 %) or no perspective projection with w = -z (elements up
+ * to 1e7, the first two of the diagonal from 1e-4 up), times and viewports out of range. One of less than a pixel gives
+ * VIRGA_NOT_READY and one log line: nothing is prepared. */
 typedef struct virga_view {
     uint32_t size, cookie;
     double position_m[3];         /* of the camera in the world; double, so that it may be far from the origin */
@@ -306,8 +311,8 @@ typedef struct virga_view {
     double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn. Default 1/96: 24
                                    * frames a second, half of it open. With a previous frame's camera as the open one,
                                    * give its time distance here and scale the rain's look with streak settings */
-    double open_camera_s;         /* how long before the time drawn the open camera was; 0 means shutter_s */
-    float viewport[4];            /* x, y, width, height in pixels */
+    double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s */
+    float viewport[4];            /* x, y, width, height in pixels, within what the device allows */
     bool reversed_depth;          /* must match the target's. Default false */
     bool infinite_far;            /* the projection has no far plane. Default false */
     virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the scene (also where a
