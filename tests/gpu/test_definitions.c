@@ -159,7 +159,7 @@ static void target_def_fields(void **state)
     static const field fields[] = {F(color_count, REFUSED, 1, 8), F(kind, REFUSED, 1, 1)}; /* 0 lacks a render pass */
     virga_target_def good = virga_default_target_def();
     good.kind = VIRGA_TARGET_DYNAMIC;
-    good.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    good.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
     good.depth_attached = false;
     check(state, "target_def", &good, sizeof good, fields, SIZE(fields), create_target);
     static const uint32_t samples[][2] = {{1, 1}, {2, 1}, {64, 1}, {0, 0}, {3, 0}, {128, 0}, {UINT32_MAX, 0}};
