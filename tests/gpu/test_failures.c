@@ -222,7 +222,7 @@ static void open_target(build *b, bool dynamic)
     host_target_describe_layer(&b->picture->images, &def);
     if (dynamic) {
         def.kind = VIRGA_TARGET_DYNAMIC;
-        def.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+        def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
         def.depth_attached = false;
         def.depth_format = VK_FORMAT_UNDEFINED;
     }
