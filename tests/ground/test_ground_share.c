@@ -207,6 +207,8 @@ static void test_the_order_of_drops_does_not_matter(void **state)
     const uint32_t tick = f.tick;
     rain_at_random(5, false);
     memcpy(forwards, f.cells, sizeof forwards);
+    ground_fixture_close(&f);
+    begin(VIRGA_MATERIAL_OWN); /* another: time never goes back for one */
     f.tick = tick;
     rain_at_random(5, true);
     assert_memory_equal(forwards, f.cells, sizeof forwards);
