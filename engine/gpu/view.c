@@ -56,12 +56,14 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     const float *scale = temporal->motion_scale;
     bool given = false; /* all zero: the open camera */
     for (int i = 0; i < 16; i++)
-        given = given || temporal->clip_from_view[i] != 0;
+        given = given || temporal->clip_from_view[i] != 0; /* not a number, too */
     if (given && (virga_settings_places(log, "view.temporal.position_m", temporal->position_m, 3) ||
                   virga_settings_rotation(log, "view.temporal.view_from_world", temporal->view_from_world, 4) ||
                   check_projection(log, "view.temporal.clip_from_view", temporal->clip_from_view)))
         return VIRGA_ERROR_INVALID;
-    if (virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
+    if (virga_settings_finite_double(log, "view.temporal.position_m", temporal->position_m, 3) ||
+        virga_settings_finite(log, "view.temporal.view_from_world", temporal->view_from_world, 16) ||
+        virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
         return VIRGA_ERROR_INVALID;
     if (!(temporal->ago_s >= 0 && temporal->ago_s <= 1))
         return virga_wrong_argument(log, "view.temporal.ago_s: expected 0 to 1 s, got %g", temporal->ago_s);
