@@ -203,7 +203,7 @@ static paths release(uint32_t panes, float affinity, float wind_m_s)
 static void drops_run_straight_down_on_average_and_spread_with_affinity(void **unused)
 {
     (void)unused;
-    const paths all[3] = {release(6, 0, 0), release(10, 0.6f, 0), release(10, 1.6f, 0)};
+    const paths all[3] = {release(3, 0, 0), release(5, 0.6f, 0), release(5, 1.6f, 0)};
     for (int i = 0; i < 3; i++) {
         print_message("mean %.4f m, deviation %.4f m of %u\n", all[i].mean, all[i].deviation, all[i].count);
         assert_true(fabs(all[i].mean) < 3 * all[i].deviation / sqrt(all[i].count) + 5e-4);
@@ -222,7 +222,7 @@ static void wind_from_the_side_tilts_the_mean_as_the_force(void **unused)
     const double along = (double)wind * (double)s.air_share;
     const double aside = 0.5 * VIRGA_AIR_DENSITY * 0.9 * section * a * a * along * along;
     const double down = glass_cap_volume(glass_rest_deg(&s)) * a * a * a * VIRGA_WATER_DENSITY * VIRGA_GRAVITY;
-    const paths tilted = release(6, 0.3f, wind);
+    const paths tilted = release(4, 0.3f, wind);
     print_message("mean %.4f m, expected %.4f\n", tilted.mean, aside / down * DOWN_M);
     assert_true(aside / down > 0.1);
     assert_true(fabs(tilted.mean - aside / down * DOWN_M) <
@@ -233,7 +233,7 @@ static void wind_from_the_side_tilts_the_mean_as_the_force(void **unused)
 static double overlap(float path_ease)
 {
     uint32_t common = 0, all = 0;
-    for (uint32_t seed = 0; seed < 8; seed++) {
+    for (uint32_t seed = 0; seed < 5; seed++) {
         open_tall(seed, 0.6f);
         f.settings.path_ease = path_ease;
         f.settings.path_s = 30;
