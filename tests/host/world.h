@@ -31,11 +31,13 @@
 #define WORLD_SHUTTER_S       (1.0 / 96)
 #define WORLD_MOTION_COVERAGE 0.05f
 
+#ifndef REQUIRE
 #define REQUIRE(condition)                      \
     do {                                        \
         if (!(condition))                       \
             fail_msg("not so: %s", #condition); \
     } while (0)
+#endif
 
 static inline void world_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
