@@ -1,6 +1,6 @@
-/* host_two_contexts.c - a host with two worlds at once on one device, e.g. an editor's two views: two contexts, each with
- * a scene, images and command buffers of its own, made and recorded on two threads; only the queue is shared, behind a
- * lock. Panes show the frame before, as games do that copy no picture twice. */
+/* host_two_contexts.c - a host with two worlds at once on one device, e.g. an editor's two views: two contexts, each
+ * with a scene, images and command buffers of its own, made and recorded on two threads; only the queue is shared,
+ * behind a lock. Panes show the frame before, as in games that copy no picture twice. */
 #include <pthread.h>
 #include <stdio.h>
 #include <unistd.h>

@@ -12,9 +12,9 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-#define ROUGHNESS    0.9f
+#define ROUGHNESS 0.9f
 #define PLANE_ALBEDO 0.5f
-#define CUBE_ALBEDO  0.2f
+#define CUBE_ALBEDO 0.2f
 
 static const host_camera_key keys[2] = {
     {.time_s = 0.0, .position_m = {0.0, 1.5, 8.0}, .look_at_m = {0.0, 1.5, 0.0}},
@@ -91,7 +91,8 @@ static bool build(scene *s)
     host_device *device = &s->base.device;
     char *error = s->base.error;
     size_t size = sizeof s->base.error;
-    host_environment_def white = {.zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
+    host_environment_def white = {
+        .zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}, .intensity = 1.0f};
     return host_target_create(device, WIDTH, HEIGHT, &s->target, error, size) &&
            host_renderer_create(device, &s->target, &s->renderer, error, size) && make_plane(s) && make_cube(s) &&
            host_renderer_add(s->renderer, &s->plane, error, size) &&
@@ -401,8 +402,8 @@ static void water_mirrors_wall(void **state)
     assert_float_equal(redness(s, 88, 74), 0.0, 0.01);
     const double heights_m[] = {0, -0.25};
     for (int i = 0; i < 2; i++) {
-        assert_true(
-            host_renderer_set_mirror(s->renderer, &s->target, heights_m[i], s->base.error, sizeof s->base.error));
+        assert_true(host_renderer_set_mirror(s->renderer, &s->target, heights_m[i], s->base.error,
+                                             sizeof s->base.error));
         assert_true(draw(s, 1));
         assert_mirrors_wall(s);
         assert_true(pixel[1] < sky);
@@ -417,8 +418,8 @@ static void water_mirrors_wall(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cube_pixel),   cmocka_unit_test(plane_pixel),        cmocka_unit_test(shade_under_cube),
-        cmocka_unit_test(sky_pixel),    cmocka_unit_test(lamp_light),         cmocka_unit_test(sub_frames),
+        cmocka_unit_test(cube_pixel), cmocka_unit_test(plane_pixel), cmocka_unit_test(shade_under_cube),
+        cmocka_unit_test(sky_pixel),  cmocka_unit_test(lamp_light),  cmocka_unit_test(sub_frames),
         cmocka_unit_test(splash_layer), cmocka_unit_test(water_mirrors_wall),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -356,31 +356,35 @@ static inline VkShaderModule street_module(world_gpu *gpu, const uint32_t *code,
     return made;
 }
 
-static inline void street_fixed_state(const street_pass *pass, const VkPipelineShaderStageCreateInfo stages[2],
-                                      VkPipelineLayout layout, world_gpu *gpu, VkPipeline *pipeline)
+/* What is the same in every pass. */
+static const VkVertexInputBindingDescription street_binding = {0, sizeof(world_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+static const VkVertexInputAttributeDescription street_attributes[3] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+                                                                       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 12},
+                                                                       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, 24}};
+static const VkPipelineVertexInputStateCreateInfo street_input = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+    .vertexBindingDescriptionCount = 1,
+    .pVertexBindingDescriptions = &street_binding,
+    .vertexAttributeDescriptionCount = 3,
+    .pVertexAttributeDescriptions = street_attributes};
+static const VkPipelineInputAssemblyStateCreateInfo street_assembly = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+static const VkViewport street_whole = {0, 0, WORLD_WIDTH, WORLD_HEIGHT, 0, 1};
+static const VkRect2D street_all = {.extent = {WORLD_WIDTH, WORLD_HEIGHT}};
+static const VkPipelineViewportStateCreateInfo street_viewport = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+    .viewportCount = 1,
+    .pViewports = &street_whole,
+    .scissorCount = 1,
+    .pScissors = &street_all};
+static const VkPipelineRasterizationStateCreateInfo street_raster = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+
+static inline void street_pipeline(world_gpu *gpu, const street_pass *pass,
+                                   const VkPipelineShaderStageCreateInfo stages[2], VkPipelineLayout layout,
+                                   VkPipeline *pipeline)
 {
-    const VkVertexInputBindingDescription binding = {0, sizeof(world_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[3] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-                                                             {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 12},
-                                                             {2, 0, VK_FORMAT_R32G32B32_SFLOAT, 24}};
-    const VkPipelineVertexInputStateCreateInfo input = {.sType =
-                                                            VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                                        .vertexBindingDescriptionCount = 1,
-                                                        .pVertexBindingDescriptions = &binding,
-                                                        .vertexAttributeDescriptionCount = 3,
-                                                        .pVertexAttributeDescriptions = attributes};
-    const VkPipelineInputAssemblyStateCreateInfo assembly = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkViewport whole = {0, 0, WORLD_WIDTH, WORLD_HEIGHT, 0, 1};
-    const VkRect2D all = {.extent = {WORLD_WIDTH, WORLD_HEIGHT}};
-    const VkPipelineViewportStateCreateInfo viewport = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                        .viewportCount = 1,
-                                                        .pViewports = &whole,
-                                                        .scissorCount = 1,
-                                                        .pScissors = &all};
-    const VkPipelineRasterizationStateCreateInfo raster = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
     const VkPipelineMultisampleStateCreateInfo samples = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = pass->samples};
     const VkPipelineDepthStencilStateCreateInfo depth = {
@@ -398,10 +402,10 @@ static inline void street_fixed_state(const street_pass *pass, const VkPipelineS
                                                .pNext = pass->dynamic,
                                                .stageCount = 2,
                                                .pStages = stages,
-                                               .pVertexInputState = &input,
-                                               .pInputAssemblyState = &assembly,
-                                               .pViewportState = &viewport,
-                                               .pRasterizationState = &raster,
+                                               .pVertexInputState = &street_input,
+                                               .pInputAssemblyState = &street_assembly,
+                                               .pViewportState = &street_viewport,
+                                               .pRasterizationState = &street_raster,
                                                .pMultisampleState = &samples,
                                                .pDepthStencilState = &depth,
                                                .pColorBlendState = &blend,
@@ -427,7 +431,7 @@ static inline void street_open(world_gpu *gpu, const street_pass *pass, const vi
          .module = pass->motion ? street_module(gpu, street_motion_frag_spv, sizeof street_motion_frag_spv)
                                 : street_module(gpu, street_frag_spv, sizeof street_frag_spv),
          .pName = "main"}};
-    street_fixed_state(pass, stages, street->layout, gpu, &street->pipeline);
+    street_pipeline(gpu, pass, stages, street->layout, &street->pipeline);
     vkDestroyShaderModule(gpu->device, stages[0].module, NULL);
     vkDestroyShaderModule(gpu->device, stages[1].module, NULL);
 }
