@@ -491,6 +491,9 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
     if (check_numbers(log, &taken, &changed) ||
         virga_lighting_check(log, "glass_settings", &taken.lighting, &changed) < 0)
         return VIRGA_ERROR_INVALID;
+    const virga_result needed = glass_picture_need(glass, &taken);
+    if (needed)
+        return needed;
     glass->settings = taken;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

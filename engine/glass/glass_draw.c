@@ -362,14 +362,15 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_counts(glass, cmd);
 }
 
-/* The passes of all panes, and the two gathers of its density and blend. */
+/* The passes of all panes, and the gathers of its density and blend. */
 static virga_result ready_to_prepare(const virga_glass *glass)
 {
     const uint32_t mode = GLASS_GATHER_MODE(glass->settings.density, glass->settings.blend);
     const virga_pipeline *gathers[] = {glass->picture->gather_passes[mode],
-                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM]};
+                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM],
+                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
     const virga_result result = virga_group_ready(&glass->needed);
-    return result ? result : virga_pipelines_ready(gathers, 2);
+    return result ? result : virga_pipelines_ready(gathers, 3);
 }
 
 virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)

@@ -108,6 +108,9 @@ void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t co
 
 /* ---- glass_picture.c: a part of its own, that reads drops, list, film, passed and nodes. */
 virga_result glass_picture_create(virga_glass *glass);
+
+/* Pipelines that these settings need and that are not there yet, see virga_context_def.pipelines. */
+virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings);
 void glass_picture_destroy(virga_glass *glass);
 VkDeviceSize glass_picture_estimate(const virga_glass_def *def);
 /* Takes in what completed frames' prepares have counted: the newest. After the ring has been invalidated. */

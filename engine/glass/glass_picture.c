@@ -224,21 +224,24 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
     memcpy(rows, wanted, sizeof wanted);
 }
 
-/* For each density and blend: without film, with sheets of it, and with beads too. */
-static virga_result create_gathers(virga_context *context, uint32_t lanes, struct glass_picture *picture)
+/* Those of a density and blend that are not there yet: without film, with sheets of it, and with beads too. All of them
+ * would be thirty, of which a pane uses three. */
+virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
-    const virga_spirv shader = !lanes       ? VIRGA_SPIRV(glass_picture_gather_comp)
-                               : lanes <= 8 ? VIRGA_SPIRV(glass_picture_gather_narrow_comp)
-                                            : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
-    virga_result result = VIRGA_OK;
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
-    for (uint32_t i = 0; i < 6 * (VIRGA_GLASS_DENSITY_NISHIMURA + 1); i++) {
-        const uint32_t mode = GLASS_GATHER_MODE(i / 6, i / 3 % 2) | films[i % 3];
+    struct glass_picture *picture = glass->picture;
+    const virga_spirv shader = !picture->lanes       ? VIRGA_SPIRV(glass_picture_gather_comp)
+                               : picture->lanes <= 8 ? VIRGA_SPIRV(glass_picture_gather_narrow_comp)
+                                                     : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend) | films[i];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->layout,
                                        .constant = mode | (picture->whole_map ? GLASS_GATHER_MAP : 0),
                                        .name = "glass.gather"};
-        TRY(virga_compute_pipeline_create(context, &def, &picture->gather_passes[mode]));
+        if (!picture->gather_passes[mode])
+            TRY(virga_compute_pipeline_create(glass->context, &def, &picture->gather_passes[mode]));
     }
 error:
     return result;
@@ -302,7 +305,8 @@ virga_result glass_picture_create(virga_glass *glass)
                                        .name = "glass.mist"};
         TRY(virga_compute_pipeline_create(context, &def, &picture->mist_passes[i]));
     }
-    TRY(create_gathers(context, shuffled_lanes(context), picture));
+    picture->lanes = shuffled_lanes(context);
+    TRY(glass_picture_need(glass, &glass->settings));
 error:
     return result; /* what was made goes with the pane */
 }
@@ -310,7 +314,8 @@ error:
 virga_result glass_picture_share(virga_glass *glass)
 {
     retire_gathers(glass->context, glass->picture);
-    return create_gathers(glass->context, 0, glass->picture);
+    glass->picture->lanes = 0;
+    return glass_picture_need(glass, &glass->settings);
 }
 
 void glass_picture_destroy(virga_glass *glass)

@@ -56,7 +56,8 @@ struct glass_picture {
     virga_bindings *bindings;
     virga_pipeline *ball_pass, *film_pass, *list_pass, *fill_pass, *relief_pass, *copy_pass, *shrink_pass;
     virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
-    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film */
+    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
+    uint32_t lanes; /* of a subgroup that may shuffle; 0: none may */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */
 

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 if [ ! -f "$build/build.ninja" ]; then
     meson setup "$build" "$source" -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled \
-        -Dview=disabled -Ddrive=disabled \
+        -Dview=disabled -Ddrive=disabled -Doptimization=0 \
         >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
 fi
 ninja -C "$build" tools/virga/virga >"$work/build.log" 2>&1 || { tail -20 "$work/build.log"; exit 1; }
