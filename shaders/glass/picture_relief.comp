@@ -63,8 +63,9 @@ void main()
     const uint number = wet[2u * look.max_tiles + look.max_blocks + min(turn, work.relief_tiles - 1u)];
     const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
     const ivec2 at = tile * TILE + ivec2(gl_LocalInvocationID.xy);
-    imageStore(relief_out, at, relief_at(at));
     const bool shown = (tiles[number].film & VIRGA_GLASS_SHOWN) != 0u;
+    // One that has nothing to show any more is zero from now on, and not what it was when it was last written.
+    imageStore(relief_out, at, shown ? relief_at(at) : vec4(0.0));
     const uint holds = uint(tile.x) + uint(tile.y) * look.written_columns;
     if (gl_LocalInvocationIndex == 0u && turn < work.relief_tiles) {
         written[holds] = (written[holds] & VIRGA_GLASS_HOLDS_WATER) | (shown ? VIRGA_GLASS_HOLDS_RELIEF : 0u);
