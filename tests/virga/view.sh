@@ -143,13 +143,13 @@ render() {
     timeout 100 "$virga" render "$1" -o "$work/$2" --frames 2 --device "$device" --layers beauty,rain,glass "${@:3}" \
         2>"$work/err" || { cat "$work/err"; fail "render $1"; }
 }
-cat >"$work/save.txt" <<'END'
+view save <<'END' || { cat "$work/save.err"; fail "save"; }
+divide 4
 set rain.rate_mm_h 90
 set glass.*.kind coated
 save plain.yaml
 quit
 END
-view save <"$work/save.txt" || { cat "$work/save.err"; fail "save"; }
 render "$work/plain.yaml" by_view
 render "$work/scene.yaml" by_hand --set rain.rate_mm_h=90 --set glass.0.kind=coated
 oiiotool "$work/by_view/frame.0002.exr" "$work/by_hand/frame.0002.exr" --fail 0 --diff >"$work/diff" 2>&1 ||
