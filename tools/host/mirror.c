@@ -1,6 +1,8 @@
 /* mirror.c - images and render pass of what water mirrors. */
 #include "mirror.h"
 
+#include "pipeline.h"
+
 #include <string.h>
 
 #define DEPTH_STAGES (VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT)
@@ -55,12 +57,11 @@ static bool create_pass(host_device *device, host_mirror *mirror, char *error, s
         {
             /* After the plate of the frame before has read it. */
             .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                            DEPTH_STAGES,
+            .srcStageMask =
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
             .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
             .srcAccessMask = writes,
-            .dstAccessMask =
-                writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+            .dstAccessMask = writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
         },
         {
             .dstSubpass = VK_SUBPASS_EXTERNAL,
@@ -135,7 +136,5 @@ void host_mirror_begin(const host_mirror *mirror, VkCommandBuffer cmd)
         .pClearValues = clears,
     };
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport = {0.0f, 0.0f, (float)mirror->width, (float)mirror->height, 0.0f, 1.0f};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &begin.renderArea);
+    host_set_area(cmd, mirror->width, mirror->height);
 }

@@ -6,17 +6,18 @@
 #include <string.h>
 
 #include "mesh.h"
+#include "pipeline.h"
 
 #include "skylight_comp.spv.h"
 #include "skylight_frag.spv.h"
 #include "skylight_vert.spv.h"
 
-#define MAP_SIZE 512
-#define WHOLE_M 160.0f   /* scenes up to this wide are held as a whole */
-#define BOX_M 128.0f     /* else a box of this width moves with the camera */
+#define MAP_SIZE     512
+#define WHOLE_M      160.0f /* scenes up to this wide are held as a whole */
+#define BOX_M        128.0f /* else a box of this width moves with the camera */
 #define BOX_HEIGHT_M 44.0f
-#define BOX_STEP_M 16.0f /* in steps, so that it is not filled anew each frame */
-#define REACH_M 600.0f   /* what is farther away towards the sky casts no shade */
+#define BOX_STEP_M   16.0f  /* in steps, so that it is not filled anew each frame */
+#define REACH_M      600.0f /* what is farther away towards the sky casts no shade */
 
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
@@ -45,8 +46,7 @@ static bool create_pass(host_device *device, host_skylight *s, char *error, size
             .srcStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | tests,
             .dstStageMask = tests,
             .srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask =
-                VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
         },
         {
             .dstSubpass = VK_SUBPASS_EXTERNAL,
@@ -142,7 +142,8 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
         .pSetLayouts = &s->set_layout,
     };
     HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &s->set));
-    VkSamplerCreateInfo sampler = { /* nearest: depth must not be mixed */
+    VkSamplerCreateInfo sampler = {
+        /* nearest: depth must not be mixed */
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
         .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
         .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
@@ -172,89 +173,26 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
 
 /* ---- pipelines ---------------------------------------------------------------------------------------------- */
 
-static bool create_draw(host_device *device, host_skylight *s, VkShaderModule vertex, VkShaderModule fragment,
-                        VkPipeline *pipeline, char *error, size_t error_size)
+/* Depth from a direction; `fragment` cuts holes where a material has some. */
+static bool create_draw(host_device *device, host_skylight *s, host_code fragment, VkPipeline *pipeline, char *error,
+                        size_t error_size)
 {
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {
-            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .stage = VK_SHADER_STAGE_VERTEX_BIT,
-            .module = vertex,
-            .pName = "main",
-        },
-        {
-            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-            .module = fragment,
-            .pName = "main",
-        },
-    };
     const VkVertexInputBindingDescription binding = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
     const VkVertexInputAttributeDescription attributes[] = {
         {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, position)},
         {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
     };
-    VkPipelineVertexInputStateCreateInfo input = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &binding,
-        .vertexAttributeDescriptionCount = 2,
-        .pVertexAttributeDescriptions = attributes,
-    };
-    VkPipelineInputAssemblyStateCreateInfo assembly = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-    };
-    const VkViewport view = {0.0f, 0.0f, MAP_SIZE, MAP_SIZE, 0.0f, 1.0f};
-    const VkRect2D scissor = {{0, 0}, {MAP_SIZE, MAP_SIZE}};
-    VkPipelineViewportStateCreateInfo viewport = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .pViewports = &view,
-        .scissorCount = 1,
-        .pScissors = &scissor,
-    };
-    VkPipelineRasterizationStateCreateInfo raster = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .lineWidth = 1.0f,
-    };
-    VkPipelineMultisampleStateCreateInfo samples = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
-    };
-    VkPipelineDepthStencilStateCreateInfo depth = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE,
-        .depthCompareOp = VK_COMPARE_OP_LESS,
-    };
-    VkGraphicsPipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-        .stageCount = fragment ? 2 : 1,
-        .pStages = stages,
-        .pVertexInputState = &input,
-        .pInputAssemblyState = &assembly,
-        .pViewportState = &viewport,
-        .pRasterizationState = &raster,
-        .pMultisampleState = &samples,
-        .pDepthStencilState = &depth,
-        .layout = s->draw_layout,
-        .renderPass = s->pass,
-    };
-    HOST_TRY(vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, pipeline));
-    return true;
-}
-
-static bool create_module(host_device *device, const uint32_t *code, size_t size, VkShaderModule *module,
-                          char *error, size_t error_size)
-{
-    VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = size,
-        .pCode = code,
-    };
-    HOST_TRY(vkCreateShaderModule(device->device, &info, NULL, module));
-    return true;
+    const host_graphics_def def = {.vertex = HOST_CODE(skylight_vert),
+                                   .fragment = fragment,
+                                   .layout = s->draw_layout,
+                                   .pass = s->pass,
+                                   .binding = &binding,
+                                   .attributes = attributes,
+                                   .attribute_count = 2,
+                                   .depth_test = true,
+                                   .depth_write = true,
+                                   .compare = VK_COMPARE_OP_LESS};
+    return host_graphics_create(device, &def, pipeline, error, error_size);
 }
 
 static bool create_layouts(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
@@ -276,34 +214,11 @@ static bool create_layouts(host_device *device, VkDescriptorSetLayout material_l
     return true;
 }
 
-static bool create_gather(host_device *device, host_skylight *s, VkShaderModule module, char *error,
-                          size_t error_size)
-{
-    VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main"},
-        .layout = s->gather_layout,
-    };
-    HOST_TRY(vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &s->gather));
-    return true;
-}
-
 static bool create_pipelines(host_device *device, host_skylight *s, char *error, size_t error_size)
 {
-    VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE, compute = VK_NULL_HANDLE;
-    bool ok = create_module(device, skylight_vert_spv, sizeof skylight_vert_spv, &vertex, error, error_size) &&
-              create_module(device, skylight_frag_spv, sizeof skylight_frag_spv, &fragment, error, error_size) &&
-              create_module(device, skylight_comp_spv, sizeof skylight_comp_spv, &compute, error, error_size) &&
-              create_draw(device, s, vertex, VK_NULL_HANDLE, &s->opaque, error, error_size) &&
-              create_draw(device, s, vertex, fragment, &s->cutout, error, error_size) &&
-              create_gather(device, s, compute, error, error_size);
-    vkDestroyShaderModule(device->device, compute, NULL);
-    vkDestroyShaderModule(device->device, fragment, NULL);
-    vkDestroyShaderModule(device->device, vertex, NULL);
-    return ok;
+    return create_draw(device, s, (host_code){0}, &s->opaque, error, error_size) &&
+           create_draw(device, s, HOST_CODE(skylight_frag), &s->cutout, error, error_size) &&
+           host_compute_create(device, HOST_CODE(skylight_comp), s->gather_layout, &s->gather, error, error_size);
 }
 
 /* Directions of equal solid angle over the upper hemisphere, on a spiral of the golden angle. */
@@ -322,13 +237,12 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
 {
     memset(s, 0, sizeof *s);
     spread_directions(s);
-    bool ok = create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
-              host_buffer_create(device, sizeof s->gpu,
-                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                 HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
-              create_set(device, s, error, error_size) &&
-              create_layouts(device, material_layout, s, error, error_size) &&
-              create_pipelines(device, s, error, error_size);
+    bool ok =
+        create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
+        host_buffer_create(device, sizeof s->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
+        create_set(device, s, error, error_size) && create_layouts(device, material_layout, s, error, error_size) &&
+        create_pipelines(device, s, error, error_size);
     if (!ok)
         host_skylight_destroy(device, s);
     return ok;
@@ -460,6 +374,7 @@ void host_skylight_begin_map(const host_skylight *s, VkCommandBuffer cmd, uint32
         .pClearValues = &clear,
     };
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    host_set_area(cmd, MAP_SIZE, MAP_SIZE);
 }
 
 void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction, float alpha, float cutoff)

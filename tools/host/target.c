@@ -1,6 +1,8 @@
 /* target.c - images, the render passes between them, and copies to the CPU. */
 #include "target.h"
 
+#include "pipeline.h"
+
 #include <string.h>
 
 static const struct {
@@ -337,9 +339,7 @@ static void begin_pass(const host_target *target, VkCommandBuffer cmd, VkRenderP
         .pClearValues = clears,
     };
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    VkViewport viewport = {0.0f, 0.0f, (float)target->width, (float)target->height, 0.0f, 1.0f};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &begin.renderArea);
+    host_set_area(cmd, target->width, target->height);
 }
 
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd)

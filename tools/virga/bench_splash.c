@@ -192,80 +192,21 @@ static bool create_images(bench *b, picture *p)
 }
 
 /* Blends and tests as splashes do, and shades as little as can be. */
-static VkResult make_fill(bench *b, picture *p, const VkPipelineShaderStageCreateInfo stages[2])
-{
-    static const VkDynamicState states[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineVertexInputStateCreateInfo input = {.sType =
-                                                            VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    const VkPipelineInputAssemblyStateCreateInfo assembly = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo views = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = 1};
-    const VkPipelineDepthStencilStateCreateInfo depth = {.sType =
-                                                             VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-                                                         .depthTestEnable = VK_TRUE,
-                                                         .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
-    const VkPipelineColorBlendAttachmentState over = {.blendEnable = VK_TRUE,
-                                                      .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-                                                      .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                                      .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-                                                      .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                                      .colorWriteMask = 15};
-    const VkPipelineColorBlendStateCreateInfo blend = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO, .attachmentCount = 1, .pAttachments = &over};
-    const VkPipelineDynamicStateCreateInfo dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                      .dynamicStateCount = 2,
-                                                      .pDynamicStates = states};
-    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                               .stageCount = 2,
-                                               .pStages = stages,
-                                               .pVertexInputState = &input,
-                                               .pInputAssemblyState = &assembly,
-                                               .pViewportState = &views,
-                                               .pRasterizationState = &raster,
-                                               .pMultisampleState = &samples,
-                                               .pDepthStencilState = &depth,
-                                               .pColorBlendState = &blend,
-                                               .pDynamicState = &dynamic,
-                                               .layout = p->layout,
-                                               .renderPass = p->pass};
-    return vkCreateGraphicsPipelines(b->device.device, VK_NULL_HANDLE, 1, &info, NULL, &p->fill);
-}
-
 static bool create_fill(bench *b, picture *p)
 {
     char *error = b->error;
     const size_t error_size = sizeof b->error;
-    const VkDevice device = b->device.device;
     const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    HOST_TRY(vkCreatePipelineLayout(device, &layout, NULL, &p->layout));
-    const VkShaderModuleCreateInfo codes[2] = {{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                .codeSize = sizeof fill_vert_spv,
-                                                .pCode = fill_vert_spv},
-                                               {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                .codeSize = sizeof fill_frag_spv,
-                                                .pCode = fill_frag_spv}};
-    VkPipelineShaderStageCreateInfo stages[2];
-    VkResult made = VK_SUCCESS;
-    for (int i = 0; i < 2; i++) {
-        stages[i] =
-            (VkPipelineShaderStageCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                              .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
-                                              .pName = "main"};
-        if (made == VK_SUCCESS)
-            made = vkCreateShaderModule(device, &codes[i], NULL, &stages[i].module);
-    }
-    if (made == VK_SUCCESS)
-        made = make_fill(b, p, stages);
-    for (int i = 0; i < 2; i++)
-        vkDestroyShaderModule(device, stages[i].module, NULL);
-    HOST_TRY(made);
-    return true;
+    HOST_TRY(vkCreatePipelineLayout(b->device.device, &layout, NULL, &p->layout));
+    const host_graphics_def def = {.vertex = HOST_CODE(fill_vert),
+                                   .fragment = HOST_CODE(fill_frag),
+                                   .layout = p->layout,
+                                   .pass = p->pass,
+                                   .depth_test = true,
+                                   .compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                   .colors = &host_blend_over,
+                                   .color_count = 1};
+    return host_graphics_create(&b->device, &def, &p->fill, error, error_size);
 }
 
 static void set_box(VkCommandBuffer cmd, float x, float y, float width, float height)

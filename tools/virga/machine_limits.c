@@ -34,15 +34,6 @@ double bench_median(double *values, size_t count)
     return count ? values[count / 2] : 0;
 }
 
-static bool module(host_device *device, const uint32_t *code, size_t size, VkShaderModule *made, char *error,
-                   size_t error_size)
-{
-    const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
-    HOST_TRY(vkCreateShaderModule(device->device, &info, NULL, made));
-    return true;
-}
-
 static bool create_set(host_device *device, limits *l, char *error, size_t error_size)
 {
     VkDescriptorSetLayoutBinding bindings[2];
@@ -76,80 +67,23 @@ static bool create_set(host_device *device, limits *l, char *error, size_t error
 
 static bool create_bare(host_device *device, limits *l, char *error, size_t error_size)
 {
-    VkShaderModule shader;
     const VkPipelineLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &l->set_layout};
     HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->layout));
-    if (!module(device, bare_comp_spv, sizeof bare_comp_spv, &shader, error, error_size))
-        return false;
-    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                                                        .module = shader,
-                                                        .pName = "main"},
-                                              .layout = l->layout};
-    const VkResult made = vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &l->bare);
-    vkDestroyShaderModule(device->device, shader, NULL);
-    HOST_TRY(made);
-    return true;
-}
-
-static VkResult make_fill(host_device *device, limits *l, const host_target *target, const VkShaderModule shaders[2])
-{
-    VkPipelineShaderStageCreateInfo stages[2];
-    for (int i = 0; i < 2; i++)
-        stages[i] =
-            (VkPipelineShaderStageCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                              .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
-                                              .module = shaders[i],
-                                              .pName = "main"};
-    const VkViewport viewport = {0, 0, (float)target->width, (float)target->height, 0, 1};
-    const VkRect2D scissor = {{0, 0}, {target->width, target->height}};
-    const VkPipelineVertexInputStateCreateInfo input = {.sType =
-                                                            VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    const VkPipelineInputAssemblyStateCreateInfo assembly = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo views = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                     .viewportCount = 1,
-                                                     .pViewports = &viewport,
-                                                     .scissorCount = 1,
-                                                     .pScissors = &scissor};
-    const VkPipelineRasterizationStateCreateInfo raster = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = 1};
-    const VkPipelineColorBlendAttachmentState attachment = {.colorWriteMask = 15};
-    const VkPipelineColorBlendStateCreateInfo blend = {.sType =
-                                                           VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                       .attachmentCount = 1,
-                                                       .pAttachments = &attachment};
-    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                               .stageCount = 2,
-                                               .pStages = stages,
-                                               .pVertexInputState = &input,
-                                               .pInputAssemblyState = &assembly,
-                                               .pViewportState = &views,
-                                               .pRasterizationState = &raster,
-                                               .pMultisampleState = &samples,
-                                               .pColorBlendState = &blend,
-                                               .layout = l->fill_layout,
-                                               .renderPass = target->layer_pass};
-    return vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &l->fill);
+    return host_compute_create(device, HOST_CODE(bare_comp), l->layout, &l->bare, error, error_size);
 }
 
 static bool create_fill(host_device *device, limits *l, const host_target *target, char *error, size_t error_size)
 {
-    VkShaderModule shaders[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
     const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->fill_layout));
-    const bool made = module(device, fill_vert_spv, sizeof fill_vert_spv, &shaders[0], error, error_size) &&
-                      module(device, fill_frag_spv, sizeof fill_frag_spv, &shaders[1], error, error_size);
-    const VkResult result = made ? make_fill(device, l, target, shaders) : VK_SUCCESS;
-    for (int i = 0; i < 2; i++)
-        vkDestroyShaderModule(device->device, shaders[i], NULL);
-    HOST_TRY(result);
-    return made;
+    const host_graphics_def def = {.vertex = HOST_CODE(fill_vert),
+                                   .fragment = HOST_CODE(fill_frag),
+                                   .layout = l->fill_layout,
+                                   .pass = target->layer_pass,
+                                   .colors = &host_blend_replace,
+                                   .color_count = 1};
+    return host_graphics_create(device, &def, &l->fill, error, error_size);
 }
 
 bool limits_create(host_device *device, const host_target *target, uint32_t drops, limits **made, char *error,

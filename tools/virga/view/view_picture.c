@@ -126,74 +126,17 @@ static bool create_blanks(view_picture *p, char *error, size_t error_size)
                                    &p->blank_buffer, error, error_size);
 }
 
-static bool create_module(const view_picture *p, const uint32_t *code, size_t size, VkShaderModule *module, char *error,
-                          size_t error_size)
-{
-    const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = code};
-    HOST_TRY(vkCreateShaderModule(p->device->device, &info, NULL, module));
-    return true;
-}
-
 /* Triangles without vertex buffers, into one color, as they are. */
-static bool build(const view_picture *p, VkRenderPass pass, VkShaderModule vert, VkShaderModule frag,
-                  VkPipeline *pipeline, char *error, size_t error_size)
+static bool build(const view_picture *p, VkRenderPass pass, host_code vertex, host_code fragment, VkPipeline *pipeline,
+                  char *error, size_t error_size)
 {
-    const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                       .stage = VK_SHADER_STAGE_VERTEX_BIT,
-                                                       .module = vert,
-                                                       .pName = "main"},
-                                                      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                       .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-                                                       .module = frag,
-                                                       .pName = "main"}};
-    const VkPipelineVertexInputStateCreateInfo none = {.sType =
-                                                           VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    const VkPipelineInputAssemblyStateCreateInfo triangles = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples = {.sType =
-                                                              VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-                                                          .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineColorBlendAttachmentState write = {.colorWriteMask = 15};
-    const VkPipelineColorBlendStateCreateInfo blend = {.sType =
-                                                           VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                       .attachmentCount = 1,
-                                                       .pAttachments = &write};
-    const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                      .dynamicStateCount = 2,
-                                                      .pDynamicStates = states};
-    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                               .stageCount = 2,
-                                               .pStages = stages,
-                                               .pVertexInputState = &none,
-                                               .pInputAssemblyState = &triangles,
-                                               .pViewportState = &viewport,
-                                               .pRasterizationState = &raster,
-                                               .pMultisampleState = &samples,
-                                               .pColorBlendState = &blend,
-                                               .pDynamicState = &dynamic,
-                                               .layout = p->layout,
-                                               .renderPass = pass};
-    HOST_TRY(vkCreateGraphicsPipelines(p->device->device, VK_NULL_HANDLE, 1, &info, NULL, pipeline));
-    return true;
-}
-
-static bool build_pair(const view_picture *p, VkRenderPass pass, const uint32_t *vert, size_t vert_size,
-                       const uint32_t *frag, size_t frag_size, VkPipeline *pipeline, char *error, size_t error_size)
-{
-    VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
-    const bool built = create_module(p, vert, vert_size, &modules[0], error, error_size) &&
-                       create_module(p, frag, frag_size, &modules[1], error, error_size) &&
-                       build(p, pass, modules[0], modules[1], pipeline, error, error_size);
-    for (int i = 0; i < 2; i++)
-        vkDestroyShaderModule(p->device->device, modules[i], NULL);
-    return built;
+    const host_graphics_def def = {.vertex = vertex,
+                                   .fragment = fragment,
+                                   .layout = p->layout,
+                                   .pass = pass,
+                                   .colors = &host_blend_replace,
+                                   .color_count = 1};
+    return host_graphics_create(p->device, &def, pipeline, error, error_size);
 }
 
 bool view_picture_create(host_device *device, const view_window *window, view_picture *p, char *error,
@@ -203,10 +146,10 @@ bool view_picture_create(host_device *device, const view_window *window, view_pi
     p->device = device;
     return create_samplers(p, error, error_size) && create_blanks(p, error, error_size) &&
            create_layouts(p, error, error_size) && create_sets(p, error, error_size) &&
-           build_pair(p, window->pass, view_view_vert_spv, sizeof view_view_vert_spv, view_view_frag_spv,
-                      sizeof view_view_frag_spv, &p->picture, error, error_size) &&
-           build_pair(p, window->pass, view_pane_drops_vert_spv, sizeof view_pane_drops_vert_spv,
-                      view_pane_drops_frag_spv, sizeof view_pane_drops_frag_spv, &p->drops, error, error_size);
+           build(p, window->pass, HOST_CODE(view_view_vert), HOST_CODE(view_view_frag), &p->picture, error,
+                 error_size) &&
+           build(p, window->pass, HOST_CODE(view_pane_drops_vert), HOST_CODE(view_pane_drops_frag), &p->drops, error,
+                 error_size);
 }
 
 void view_picture_destroy(view_picture *p)

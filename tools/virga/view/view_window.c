@@ -283,10 +283,8 @@ void view_window_begin(const view_window *w, VkCommandBuffer cmd)
                                          .renderPass = w->pass,
                                          .framebuffer = w->framebuffers[w->image],
                                          .renderArea = {{0, 0}, {w->width, w->height}}};
-    const VkViewport viewport = {0, 0, (float)w->width, (float)w->height, 0, 1};
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &begin.renderArea);
+    host_set_area(cmd, w->width, w->height);
 }
 
 void view_window_end(const view_window *w, VkCommandBuffer cmd)

@@ -1,0 +1,42 @@
+/* pipeline.h - pipelines of small renderers: triangles, one sample, viewport and scissor set while recording. */
+#ifndef VIRGA_HOST_PIPELINE_H
+#define VIRGA_HOST_PIPELINE_H
+
+#include "device.h"
+
+/* A shader as the build embeds it. */
+typedef struct host_code {
+    const uint32_t *words;
+    size_t size; /* bytes; 0: no shader */
+} host_code;
+
+#define HOST_CODE(name) ((host_code){name##_spv, sizeof name##_spv})
+
+typedef struct host_graphics_def {
+    host_code vertex, fragment; /* without a fragment shader depth alone is written */
+    VkPipelineLayout layout;
+    VkRenderPass pass;                                   /* its first subpass */
+    const VkVertexInputBindingDescription *binding;      /* NULL: no vertex buffer */
+    const VkVertexInputAttributeDescription *attributes; /* of that one */
+    uint32_t attribute_count;
+    VkCullModeFlags cull;
+    VkFrontFace front;
+    bool depth_test, depth_write;
+    VkCompareOp compare; /* (depth_test) */
+    const VkPipelineColorBlendAttachmentState *colors;
+    uint32_t color_count;
+} host_graphics_def;
+
+/* What replaces what is there, and what is laid over it premultiplied. */
+extern const VkPipelineColorBlendAttachmentState host_blend_replace, host_blend_over;
+
+bool host_graphics_create(host_device *device, const host_graphics_def *def, VkPipeline *pipeline, char *error,
+                          size_t error_size);
+
+bool host_compute_create(host_device *device, host_code code, VkPipelineLayout layout, VkPipeline *pipeline,
+                         char *error, size_t error_size);
+
+/* Viewport and scissor of a whole attachment, in texels: these pipelines have neither of their own. */
+void host_set_area(VkCommandBuffer cmd, uint32_t width, uint32_t height);
+
+#endif
