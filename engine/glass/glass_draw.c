@@ -348,7 +348,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
     work_barrier(glass, cmd);
-    over_work(glass, cmd, picture->relief_pass, offsetof(virga_glass_work_gpu, relief_groups));
+    over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0], offsetof(virga_glass_work_gpu, relief_groups));
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
@@ -463,6 +463,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     record_prepare(glass, cmd, view);
     memcpy(picture->prepared_viewport, view->viewport, sizeof picture->prepared_viewport);
     picture->prepared_draw = draw_of(glass, view, pose);
+    picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
     picture->prepared_style = glass->settings.style;
     picture->prepared = true;
     return virga_uploaded(context);
@@ -518,8 +519,11 @@ static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphi
     def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
     def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
-    if (mist && i >= GLASS_DRAW_MIST + 2)
-        def->constant |= VIRGA_GLASS_DRAW_OPAQUE;
+    if (mist || (i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION)) {
+        const uint32_t which = i - (mist ? GLASS_DRAW_MIST : GLASS_DRAW_PAPER);
+        def->constant |= which & GLASS_DRAW_OF_PLATE ? VIRGA_GLASS_DRAW_PLATE : VIRGA_GLASS_DRAW_ALONE;
+        def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;
+    }
     def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_picture_physical_frag, outputs)
                     : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_picture_paper_frag, outputs)
                     : mist                      ? VIRGA_SPIRV(glass_picture_mist_frag)
@@ -596,12 +600,14 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     if (!found || !picture->prepared || picture->view_frame != context->frame_index)
         return VIRGA_NOT_READY;
     const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
+    const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
     const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth
                            : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
-                               ? GLASS_DRAW_PAPER + depth
+                               ? GLASS_DRAW_PAPER + depth + plate
                                : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
-    const uint32_t solid = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE ? 2 : 0;
-    const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + depth]};
+    const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
+    const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
+    const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + plate + depth]};
     const virga_result result = virga_pipelines_ready(used, refraction ? 1 : 2);
     if (result)
         return result;

@@ -11,6 +11,7 @@
 #include "shaders/glass_picture_list_comp.spv.h"
 #include "shaders/glass_picture_mist_comp.spv.h"
 #include "shaders/glass_picture_relief_comp.spv.h"
+#include "shaders/glass_picture_relief_narrow_comp.spv.h"
 #include "shaders/glass_picture_shrink_comp.spv.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
-enum { BUFFERS = 8, PASSES = 7 };
+enum { BUFFERS = 8, PASSES = 6 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -217,7 +218,6 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
-        {&picture->relief_pass, VIRGA_SPIRV(glass_picture_relief_comp), "glass.relief"},
         {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
         {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
     };
@@ -251,6 +251,34 @@ static void retire_gathers(virga_context *context, struct glass_picture *picture
 {
     for (uint32_t i = 0; i < GLASS_GATHERS; i++)
         VIRGA_RETIRE(context, picture->gather_passes[i]);
+}
+
+/* Passes in several forms of which any may be used: of a pane with a mask and without, and mist of several cells to a
+ * texel. */
+static virga_result create_forms(virga_glass *glass)
+{
+    struct glass_picture *picture = glass->picture;
+    virga_result result = VIRGA_OK;
+    virga_compute_def def = {.shader = VIRGA_SPIRV(glass_picture_mist_comp),
+                             .layout = picture->bindings->layout,
+                             .group = &glass->needed,
+                             .name = "glass.mist"};
+    for (def.constant = 0; def.constant < 4; def.constant++)
+        if (!picture->mist_passes[def.constant])
+            TRY(virga_compute_pipeline_create(glass->context, &def, &picture->mist_passes[def.constant]));
+    def.shader =
+        picture->lanes == 8 ? VIRGA_SPIRV(glass_picture_relief_narrow_comp) : VIRGA_SPIRV(glass_picture_relief_comp);
+    def.name = "glass.relief";
+    for (def.constant = 0; def.constant < 2; def.constant++)
+        TRY(virga_compute_pipeline_create(glass->context, &def, &picture->relief_passes[def.constant]));
+error:
+    return result;
+}
+
+static void retire_reliefs(virga_context *context, struct glass_picture *picture)
+{
+    for (uint32_t i = 0; i < 2; i++)
+        VIRGA_RETIRE(context, picture->relief_passes[i]);
 }
 
 static virga_result create_images(virga_context *context, struct glass_picture *picture)
@@ -297,15 +325,8 @@ virga_result glass_picture_create(virga_glass *glass)
     picture->filtered = can_filter(context);
     TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
     TRY(virga_compute_pipelines_create(context, picture->bindings->layout, &glass->needed, passes, PASSES));
-    for (uint32_t i = 0; i < 4; i++) {
-        const virga_compute_def def = {.shader = VIRGA_SPIRV(glass_picture_mist_comp),
-                                       .layout = picture->bindings->layout,
-                                       .constant = i,
-                                       .group = &glass->needed,
-                                       .name = "glass.mist"};
-        TRY(virga_compute_pipeline_create(context, &def, &picture->mist_passes[i]));
-    }
     picture->lanes = shuffled_lanes(context);
+    TRY(create_forms(glass));
     TRY(glass_picture_need(glass, &glass->settings));
 error:
     return result; /* what was made goes with the pane */
@@ -314,8 +335,10 @@ error:
 virga_result glass_picture_share(virga_glass *glass)
 {
     retire_gathers(glass->context, glass->picture);
+    retire_reliefs(glass->context, glass->picture);
     glass->picture->lanes = 0;
-    return glass_picture_need(glass, &glass->settings);
+    const virga_result result = create_forms(glass);
+    return result ? result : glass_picture_need(glass, &glass->settings);
 }
 
 void glass_picture_destroy(virga_glass *glass)
@@ -330,6 +353,7 @@ void glass_picture_destroy(virga_glass *glass)
     list_passes(picture, passes);
     virga_compute_pipelines_retire(context, passes, PASSES);
     retire_gathers(context, picture);
+    retire_reliefs(context, picture);
     for (uint32_t i = 0; i < 4; i++)
         VIRGA_RETIRE(context, picture->mist_passes[i]);
     virga_buffers_retire(context, buffers, BUFFERS);

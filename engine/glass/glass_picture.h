@@ -13,14 +13,17 @@
 
 #define GLASS_MAX_TARGETS 8
 
-/* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., then the paper's and refraction vectors, each without and
- * with the scene's depth; then mist, likewise, and again on what is not glass. */
+/* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., the paper's, and refraction vectors, without and
+ * with the scene's depth; then mist, also on what is not glass. The paper's and mist are made for a picture of the
+ * host's and for none. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
-    GLASS_DRAW_REFRACTION = 18,
-    GLASS_DRAW_MIST = 20,
-    GLASS_DRAWS = 24
+    GLASS_DRAW_REFRACTION = 20,
+    GLASS_DRAW_MIST = 22,
+    GLASS_DRAWS = 30,
+    GLASS_DRAW_OF_PLATE = 2, /* what is added for a picture of the host's */
+    GLASS_DRAW_OF_SOLID = 4  /* (mist) and for what is not glass */
 };
 
 #define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
@@ -54,16 +57,17 @@ struct glass_picture {
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *film_pass, *list_pass, *fill_pass, *relief_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *ball_pass, *film_pass, *list_pass, *fill_pass, *copy_pass, *shrink_pass;
     virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
+    virga_pipeline *relief_passes[2];             /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
-    uint32_t lanes; /* of a subgroup that may shuffle; 0: none may */
+    uint32_t lanes;                               /* of a subgroup that may shuffle; 0: none may */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */
 
     uint64_t view_frame; /* that the cursors below belong to */
     uint32_t ring_views, view_offset;
-    bool prepared;
+    bool prepared, prepared_plate;
     uint32_t prepared_draw; /* VIRGA_GLASS_DRAW_... */
     virga_glass_style prepared_style;
     VkDescriptorSet prepared_set;

@@ -327,7 +327,8 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
         virga_settings_check(log, "glass_shape", shape->size, sizeof *shape, shape->cookie, SHAPE_COOKIE);
     if (result)
         return result;
-    if (shape->positions && (shape->columns < 2 || shape->rows < 2 || shape->columns > MOST_GRID || shape->rows > MOST_GRID))
+    if (shape->positions &&
+        (shape->columns < 2 || shape->rows < 2 || shape->columns > MOST_GRID || shape->rows > MOST_GRID))
         return virga_wrong_argument(log, "glass_shape: expected 2 to 1025 columns and rows, got %u x %u",
                                     shape->columns, shape->rows);
     if (shape->mask &&
@@ -346,8 +347,10 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
         return virga_wrong_argument(log, "glass_shape.bump_pull: expected 0 to 10, got %g", (double)shape->bump_pull);
     for (uint32_t i = 0; shape->positions && i < 3 * shape->columns * shape->rows; i++)
         if (!(fabsf(shape->positions[i]) <= MOST_PLACE_M))
-            return virga_wrong_argument(log, "glass_shape.positions[%u]: is %g, expected no more than %g m from the "
-                                             "pane's origin", i, (double)shape->positions[i], (double)MOST_PLACE_M);
+            return virga_wrong_argument(log,
+                                        "glass_shape.positions[%u]: is %g, expected no more than %g m from the "
+                                        "pane's origin",
+                                        i, (double)shape->positions[i], (double)MOST_PLACE_M);
     if (shape->bumps_m &&
         virga_settings_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
         return VIRGA_ERROR_INVALID;

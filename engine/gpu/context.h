@@ -295,7 +295,7 @@ typedef struct virga_graphics_def {
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
     bool cull_back;    /* counter-clockwise on the picture is the front */
-    uint32_t constant; /* specialisation constant 0 of the fragment shader, where it has one */
+    uint32_t constant; /* specialisation constant 0 of either shader, where it has one */
     VkSampleCountFlagBits samples;
     virga_pipeline_group *group; /* (optional) */
     const char *name;            /* static */

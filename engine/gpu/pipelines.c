@@ -241,7 +241,7 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
                                               .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
                                               .module = modules[i],
                                               .pName = "main",
-                                              .pSpecializationInfo = i ? &constants : NULL};
+                                              .pSpecializationInfo = &constants};
     if (result == VK_SUCCESS) {
         graphics_state state;
         const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);

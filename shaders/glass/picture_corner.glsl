@@ -9,6 +9,7 @@ layout(location = 3) out vec3 along_v;
 layout(location = 4) out vec3 mist_light;
 
 #include "picture_copies.glsl"
+#include "picture_mode.glsl"
 
 struct Corner {
     vec3 position, along_u, along_v;
@@ -38,9 +39,10 @@ Corner corner_at(vec2 share)
 // Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
 vec3 shown_by_mist()
 {
+    if (!HAS_PLATE)
+        return 0.85 * to_vec(look.tint) * environment(normalize(position), vec2(1.0));
     const vec2 uv = clamp(0.5 * gl_Position.xy / max(gl_Position.w, 1e-5) + 0.5, vec2(0.0), vec2(1.0));
-    const vec3 around = environment(normalize(position), vec2(1.0));
-    return 0.85 * to_vec(look.tint) * (view.color_given != 0u ? copy_at(uv, VIRGA_GLASS_COPY_LEVELS - 2) : around);
+    return 0.85 * to_vec(look.tint) * copy_at(uv, VIRGA_GLASS_COPY_LEVELS - 2);
 }
 
 // `share`: of the pane's width and height.

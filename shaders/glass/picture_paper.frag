@@ -24,8 +24,8 @@ void main()
         discard;
     const vec2 size = vec2(view.viewport[2], view.viewport[3]);
     const vec2 mirrored = vec2(view.viewport[0], view.viewport[1]) + paper_uv(pixel) * size;
-    const vec3 light = view.color_given != 0u ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
-                                              : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
+    const vec3 light = HAS_PLATE ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
+                                 : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
     const float alpha = water.cover + water.mist;
     radiance = vec4(light * alpha, alpha);
 #ifdef TEMPORAL

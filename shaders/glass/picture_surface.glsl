@@ -3,8 +3,7 @@
 #include "gpu/scene_depth.glsl"
 #include "gpu/view.glsl"
 
-// What a draw's pipeline is made for, as software Vulkan runs all sides of a branch.
-layout(constant_id = 0) const uint DRAW_MODE = 0u;
+#include "picture_mode.glsl"
 #define HAS_DEPTH ((DRAW_MODE & VIRGA_GLASS_DRAW_DEPTH) != 0u)
 #define HAS_LAMPS ((DRAW_MODE & VIRGA_GLASS_DRAW_LAMPS) != 0u)
 #define BY_HAND ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)

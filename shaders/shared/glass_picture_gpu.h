@@ -84,6 +84,8 @@ struct virga_glass_picture_gpu {
 #define VIRGA_GLASS_DRAW_OPAQUE  12u
 #define VIRGA_GLASS_DRAW_SIDE    12u /* mask of the three */
 #define VIRGA_GLASS_DRAW_BY_HAND 16u /* the device does not filter the map */
+#define VIRGA_GLASS_DRAW_PLATE   32u /* the host's picture is there to read; neither this nor the next: the view says */
+#define VIRGA_GLASS_DRAW_ALONE   64u /* it is not */
 
 /* For the pass that makes slopes; and there is something to draw. */
 #define VIRGA_GLASS_LISTED 2u

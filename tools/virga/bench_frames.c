@@ -4,8 +4,10 @@
 #include "options.h"
 #include "progress.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #define FRAMES  2000
 #define WARM_UP 240 /* frames: rings, splashes and drops have come to a level */
@@ -54,8 +56,32 @@ static bool set_rain(virga_scene *scene)
            virga_ground_set(virga_scene_ground(scene), &ground) == VIRGA_OK;
 }
 
+/* What a frame takes, in milliseconds. Of processors: that of the thread that records, and of all the process's threads,
+ * among them those of software Vulkan. It leaves out the time in which the machine did something else, so it tells
+ * whether frames differ in what they do. */
+typedef struct frame_times {
+    double record, whole, record_cpu, whole_cpu;
+} frame_times;
+
+static double now_ms(clockid_t clock)
+{
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+static bool record_frame(bench *b, virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    if (virga_scene_record(scene, cmd, frame) < 0)
+        return false;
+    host_target_begin_layer(&b->targets[0], cmd);
+    const bool drawn = virga_scene_draw(scene, cmd, b->layer) >= 0;
+    host_target_end_layer(&b->targets[0], cmd);
+    return drawn;
+}
+
 /* One frame of it: what recording takes, and all of it. */
-static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, double *record, double *whole)
+static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, frame_times *times)
 {
     VkCommandBuffer cmd;
     const virga_scene_pane pane = {.pose = {.position_m = {0, 1.7, -1}}};
@@ -65,20 +91,18 @@ static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, doub
                                      .occluder_count = 1,
                                      .view = view,
                                      .panes = &pane};
-    const double start = progress_now();
+    const double start = now_ms(CLOCK_MONOTONIC), start_cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
     if (!bench_begin(b, &cmd))
         return false;
-    const double begun = progress_now();
-    if (virga_scene_record(scene, cmd, &frame) < 0)
-        return options_complain("bench", "a frame failed");
-    host_target_begin_layer(&b->targets[0], cmd);
-    const bool drawn = virga_scene_draw(scene, cmd, b->layer) >= 0;
-    host_target_end_layer(&b->targets[0], cmd);
-    *record = (progress_now() - begun) * 1e3;
+    const double begun = now_ms(CLOCK_MONOTONIC), begun_cpu = now_ms(CLOCK_THREAD_CPUTIME_ID);
+    const bool recorded = record_frame(b, scene, cmd, &frame);
+    times->record = now_ms(CLOCK_MONOTONIC) - begun;
+    times->record_cpu = now_ms(CLOCK_THREAD_CPUTIME_ID) - begun_cpu;
     double submitted;
-    if (!drawn || !bench_submit(b, &submitted))
+    if (!recorded || !bench_submit(b, &submitted))
         return options_complain("bench", "a frame failed");
-    *whole = (progress_now() - start) * 1e3;
+    times->whole = now_ms(CLOCK_MONOTONIC) - start;
+    times->whole_cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
     return true;
 }
 
@@ -116,16 +140,16 @@ static bool measure_start(bench *b, const char *device, const start_case *one)
     virga_scene *scene = NULL;
     if (!reopen(b, device, one))
         return false;
-    double record, first = 0, second = 0;
+    frame_times first = {0}, second = {0};
     virga_view view;
     const double start = progress_now();
     bool good = make_scene(b, &scene);
     const double create = (progress_now() - start) * 1e3;
     bench_view(&view, 0);
-    good = good && run_frame(b, scene, &view, &record, &first) && run_frame(b, scene, &view, &record, &second);
+    good = good && run_frame(b, scene, &view, &first) && run_frame(b, scene, &view, &second);
     if (good && one->name)
-        printf("  %-42s create and attach %8.1f ms, first frame %8.1f, second %8.1f\n", one->name, create, first,
-               second);
+        printf("  %-42s create and attach %8.1f ms, first frame %8.1f, second %8.1f\n", one->name, create, first.whole,
+               second.whole);
     fflush(stdout);
     const bool kept = good && (one->blob || keep_blob(b));
     drop_scene(b, &scene);
@@ -187,17 +211,30 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void print_spread(const char *name, double *times)
+static void print_spread(const char *name, const frame_times *frames, size_t field)
 {
+    static double times[FRAMES];
+    for (uint32_t i = 0; i < FRAMES; i++)
+        times[i] = *(const double *)((const char *)&frames[i] + field);
     qsort(times, FRAMES, sizeof *times, by_size);
     const double median = times[FRAMES / 2];
-    printf("  %-10s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", name, median,
+    printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", name, median,
            times[FRAMES * 99 / 100], times[FRAMES * 999 / 1000], times[FRAMES - 1], times[FRAMES - 1] / median);
+}
+
+static void print_spreads(const frame_times *frames)
+{
+    printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],
+           WARM_UP);
+    print_spread("recording", frames, offsetof(frame_times, record));
+    print_spread("recording, of the processor", frames, offsetof(frame_times, record_cpu));
+    print_spread("frame", frames, offsetof(frame_times, whole));
+    print_spread("frame, of all processors", frames, offsetof(frame_times, whole_cpu));
 }
 
 static bool measure_frames(bench *b, const char *device)
 {
-    static double record[FRAMES], whole[FRAMES];
+    static frame_times frames[FRAMES];
     virga_scene *scene = NULL;
     virga_view view;
     virga_memory_stats before, after;
@@ -206,13 +243,10 @@ static bool measure_frames(bench *b, const char *device)
     bench_view(&view, 0);
     virga_memory_get(b->context, &before);
     for (int i = -WARM_UP; i < FRAMES && good && !interrupt_asked(); i++)
-        good = run_frame(b, scene, &view, &record[i < 0 ? 0 : i], &whole[i < 0 ? 0 : i]);
+        good = run_frame(b, scene, &view, &frames[i < 0 ? 0 : i]);
     virga_memory_get(b->context, &after);
     if (good && !interrupt_asked()) {
-        printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],
-               WARM_UP);
-        print_spread("recording", record);
-        print_spread("frame", whole);
+        print_spreads(frames);
         printf("  memory: %.1f MB in %u allocations, %+lld bytes since the start\n", (double)after.device_bytes * 1e-6,
                after.device_allocations, (long long)after.device_bytes - (long long)before.device_bytes);
     }

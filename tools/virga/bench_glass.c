@@ -20,11 +20,12 @@ static const char *const names[PASSES] = {"motion", "film",          "balls", "s
 static const char *const passes[PASSES] = {NULL,          "glass.film",  "glass.balls",
                                            "glass.splat", "glass.plate", "glass.draw"};
 
-/* Panes of about a texel a pixel. */
+/* Panes of about a texel a pixel. `bare`: metaballs alone, as the paper has them, without film and mist. */
 static const struct row {
     uint32_t balls, side;
     float width_m;
-} rows[] = {{3000, 1024, 1}, {10000, 1024, 1}, {100000, 2048, 2}};
+    bool bare;
+} rows[] = {{3000, 1024, 1, true}, {3000, 1024, 1, false}, {10000, 1024, 1, false}, {100000, 2048, 2, false}};
 
 typedef struct pane {
     virga_glass *glass;
@@ -60,18 +61,20 @@ static bool open_pane(bench *b, const struct row *row, pane *p)
 }
 
 /* Two in tandem, as on a car. */
-static bool set_wipers(pane *p, virga_glass_style style, float width_m)
+static bool set_pane(pane *p, const struct row *row, virga_glass_style style)
 {
     p->settings = virga_default_glass_settings();
     p->settings.style = style;
+    if (row->bare)
+        p->settings.film_um = p->settings.mist_mm = 0;
     p->settings.wiper_count = 2;
     for (int i = 0; i < 2; i++) {
         virga_glass_wiper *w = &p->settings.wipers[i];
         *w = virga_default_glass_wiper();
-        w->pivot_m[0] = (i ? 0.55f : 0.05f) * width_m;
-        w->pivot_m[1] = -0.05f * width_m;
-        w->reach_m = 0.62f * width_m;
-        w->blade_m = 0.55f * width_m;
+        w->pivot_m[0] = (i ? 0.55f : 0.05f) * row->width_m;
+        w->pivot_m[1] = -0.05f * row->width_m;
+        w->reach_m = 0.62f * row->width_m;
+        w->blade_m = 0.55f * row->width_m;
         w->low_deg = 5;
         w->high_deg = 100;
     }
@@ -148,7 +151,7 @@ static bool measure_limits(bench *b, const struct row *row, const pane *p, doubl
 static bool measure_style(bench *b, const struct row *row, pane *p, virga_glass_style style, double fill)
 {
     double times[PASSES][BENCH_RUNS], one[PASSES], sum = 0;
-    bool good = set_wipers(p, style, row->width_m);
+    bool good = set_pane(p, row, style);
     for (int i = -2; good && i < BENCH_RUNS; i++) {
         good = frame(b, p, 5);
         take_times(b, one);
@@ -174,17 +177,17 @@ static bool measure(bench *b, const struct row *row)
     pane p = {0};
     virga_glass_stats stats = {0};
     double fill = 1;
-    bool good = open_pane(b, row, &p) && set_wipers(&p, VIRGA_GLASS_STYLE_PAPER, row->width_m) &&
-                get_wet(b, &p, row->balls, &stats);
+    bool good =
+        open_pane(b, row, &p) && set_pane(&p, row, VIRGA_GLASS_STYLE_PAPER) && get_wet(b, &p, row->balls, &stats);
     if (good && interrupt_asked())
         good = false;
     if (good)
-        printf("%u metaballs asked for: %u, of %u drops and %u particles; %u x %u picture, %.1f m pane, %.0f MiB at "
+        printf("%u metaballs%s asked for: %u, of %u drops and %u particles; %u x %u picture, %.1f m pane, %.0f MiB at "
                "most\n",
-               row->balls, stats.balls, stats.drops, stats.particles, row->side, row->side, (double)row->width_m,
-               (double)p.bytes / 1048576);
+               row->balls, row->bare ? " without film and mist" : "", stats.balls, stats.drops, stats.particles,
+               row->side, row->side, (double)row->width_m, (double)p.bytes / 1048576);
     good = good && measure_limits(b, row, &p, &fill) && measure_style(b, row, &p, VIRGA_GLASS_STYLE_PAPER, fill) &&
-           measure_style(b, row, &p, VIRGA_GLASS_STYLE_PHYSICAL, fill);
+           (row->bare || measure_style(b, row, &p, VIRGA_GLASS_STYLE_PHYSICAL, fill));
     virga_target_destroy(&p.layer);
     virga_glass_destroy(&p.glass);
     if (p.picture.width)
