@@ -45,6 +45,12 @@ render first --rain 10 --frames 1 --pipelines "$work/pipelines"
 [ -s "$work/pipelines" ] || { echo "no pipelines were kept"; exit 1; }
 render second --rain 10 --frames 1 --pipelines "$work/pipelines"
 
+# Every option of the command line stands in the help.
+"$drive" --help >"$work/help" || { echo "drive --help failed"; exit 1; }
+for option in track start outside rain wipers frames out fps size device pipelines; do
+    grep -q -- "--$option" "$work/help" || { echo "drive --help does not say --$option"; exit 1; }
+done
+
 # Wrong input: one line, and an exit code.
 refuse() { # code text options...
     local code=$1 text=$2 got=0

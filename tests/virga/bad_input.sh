@@ -238,6 +238,7 @@ bad 'missing mesh, checked' check "$work/bad.yaml"
     ulimit -f 1
     fails 1 'file too large' render "$good" -o "$work/out" --layers rain --size 256x256
     VK_ICD_FILENAMES=/none fails 1 'no driver' render "$good" -o "$work/out"
+    says 'no driver' 'mesa-vulkan-drivers'
     exit "$failures"
 )
 failures=$? count=$((count + 2))

@@ -22,6 +22,8 @@ echo "$bare" | grep -q '^device: none, ' || fail "without a driver: '$bare'"
 for command in $("$virga" help | sed -n 's/^  \([a-z]*\)  *[a-z].*/\1/p'); do
     [ "$command" = help ] || [ "$command" = virga ] || grep -q "^\.SS virga $command$" "$page" || fail "the manual page lacks $command"
 done
+long=$("$virga" help render | grep -E '^ {31}|^ +--?[a-z]' | awk 'length > 100')
+[ -z "$long" ] || fail "help render: wider than 100 columns: $long"
 if command -v groff >/dev/null; then
     warnings=$(groff -man -Tutf8 -ww "$page" 2>&1 >/dev/null)
     [ -z "$warnings" ] || fail "groff: $warnings"

@@ -870,9 +870,30 @@ static bool take_command_line(drive *d, int argc, char **argv)
     return true;
 }
 
+static void print_help(void)
+{
+    printf("drive [MODEL.glb] [options]: a car in the rain, in our own street or in another model\n\n"
+           "      --track FILE         where it drives. Default: assets/scenes/MODEL.track\n"
+           "      --start M            how far along it begins\n"
+           "      --outside            seen from outside\n"
+           "      --rain MM_H          0 to 200. Default 30\n"
+           "      --wipers SPEED       off, intermittent, slow or fast. Default slow\n"
+           "      --frames N           ends after so many\n"
+           "      --out FILE.png       the last of them as a picture, and no window\n"
+           "      --fps N              frames a second of --out. Default 30\n"
+           "      --size WxH           Default 1280x720\n"
+           "      --device N|gpu|cpu|NAME\n"
+           "      --pipelines FILE     keeps compiled pipelines for the next start\n\n"
+           "Keys: C camera, W wipers, arrows drive (A: it drives itself again), + and - rain, Esc ends.\n");
+}
+
 int main(int argc, char **argv)
 {
     static drive d;
+    if (argc == 2 && strcmp(argv[1], "--help") == 0) {
+        print_help();
+        return 0;
+    }
     if (!take_command_line(&d, argc, argv))
         return 2;
     if (!d.chosen.out && !glfwInit()) {

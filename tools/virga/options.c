@@ -100,6 +100,23 @@ const char *options_value(const options *parsed, const char *name)
     return index < parsed->row_count ? parsed->values[index] : NULL;
 }
 
+/* Prints what an option does, on below its first word where the line is full. */
+static void print_wrapped(const char *text)
+{
+    enum { INDENT = 31, WIDTH = 100 };
+    int column = INDENT;
+    while (*text) {
+        const int length = (int)strcspn(text, " ");
+        if (column > INDENT && column + 1 + length > WIDTH) {
+            printf("\n%*s", INDENT, "");
+            column = INDENT;
+        }
+        column += printf("%s%.*s", column > INDENT ? " " : "", length, text);
+        text += length + strspn(text + length, " ");
+    }
+    printf("\n");
+}
+
 void options_print(const option_row *rows, size_t row_count)
 {
     for (size_t i = 0; i < row_count; i++) {
@@ -107,7 +124,8 @@ void options_print(const option_row *rows, size_t row_count)
         snprintf(left, sizeof left, "%c%c%s%s%s%s", rows[i].letter ? '-' : ' ', rows[i].letter ? rows[i].letter : ' ',
                  rows[i].letter ? ", " : "  ", rows[i].name, rows[i].value ? " " : "",
                  rows[i].value ? rows[i].value : "");
-        printf("  %-28s %s\n", left, rows[i].help);
+        printf("  %-28s ", left);
+        print_wrapped(rows[i].help);
     }
 }
 

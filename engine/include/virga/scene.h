@@ -82,7 +82,8 @@ typedef struct virga_scene_pane {
 /* What a frame needs outside rendering. */
 typedef struct virga_scene_frame {
     double dt_s; /* [0; 10] host time since the last frame */
-    double camera_m[3];
+    double camera_m[3]; /* middle of what is simulated: drops, occlusion maps, ground. As a rule view->position_m; given
+                         * apart as there may be no view, or several. May jump */
     double focus_m[3];               /* middle of what is near enough for ripples, see virga_ground_step_info */
     const virga_occluder *occluders; /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
     uint32_t occluder_count;

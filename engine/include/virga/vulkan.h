@@ -143,6 +143,9 @@ VIRGA_API void virga_context_destroy(virga_context **context);
 /* Begins a frame. `frame_index` rises by any amount from call to call (VIRGA_ERROR_INVALID if not);
  * `completed_index` is the last frame whose device work has completed (0: none yet; indices start at 1). At most
  * frames_in_flight frames may be open: frame_index - completed_index <= frames_in_flight is required.
+ * To name a frame that the device still runs is an error that cannot be noticed here: what it uses is freed, and the
+ * driver crashes at best. A host with N command buffers that waits for the fence of each before it records into it again
+ * knows frame_index - N to be complete (0 while there is none).
  * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. VIRGA_DEGRADED: the
  * frame has begun, and timings could not be had. */
 VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index);
