@@ -10,7 +10,8 @@
 #include <time.h>
 
 #define FRAMES  2000
-#define WARM_UP 240 /* frames: rings, splashes and drops have come to a level */
+#define CONTROL 1000000 /* texels of 16 bytes that the control reads and writes */
+#define WARM_UP 240     /* frames: rings, splashes and drops have come to a level */
 
 /* ---- a scene of all effects */
 
@@ -61,6 +62,7 @@ static bool set_rain(virga_scene *scene)
  * whether frames differ in what they do. */
 typedef struct frame_times {
     double record, whole, record_cpu, whole_cpu;
+    double bare; /* a kernel that does the same each time, after the frame: how even the machine itself is */
 } frame_times;
 
 static double now_ms(clockid_t clock)
@@ -230,20 +232,28 @@ static void print_spreads(const frame_times *frames)
     print_spread("recording, of the processor", frames, offsetof(frame_times, record_cpu));
     print_spread("frame", frames, offsetof(frame_times, whole));
     print_spread("frame, of all processors", frames, offsetof(frame_times, whole_cpu));
+    print_spread("the same kernel every time", frames, offsetof(frame_times, bare));
 }
 
 static bool measure_frames(bench *b, const char *device)
 {
     static frame_times frames[FRAMES];
+    limits *machine = NULL;
     virga_scene *scene = NULL;
     virga_view view;
     virga_memory_stats before, after;
     const start_case usual = {NULL, true, false};
-    bool good = reopen(b, device, &usual) && make_scene(b, &scene) && set_rain(scene);
+    bool good = reopen(b, device, &usual) && make_scene(b, &scene) && set_rain(scene) &&
+                (limits_create(&b->device, &b->targets[0], CONTROL, &machine, b->error, sizeof b->error) ||
+                 bench_fail(b, "limits"));
     bench_view(&view, 0);
     virga_memory_get(b->context, &before);
-    for (int i = -WARM_UP; i < FRAMES && good && !interrupt_asked(); i++)
-        good = run_frame(b, scene, &view, &frames[i < 0 ? 0 : i]);
+    for (int i = -WARM_UP; i < FRAMES && good && !interrupt_asked(); i++) {
+        frame_times *times = &frames[i < 0 ? 0 : i];
+        good = run_frame(b, scene, &view, times);
+        times->bare = limits_bare_once_ms(&b->device, machine);
+    }
+    limits_destroy(&b->device, &machine);
     virga_memory_get(b->context, &after);
     if (good && !interrupt_asked()) {
         print_spreads(frames);

@@ -201,6 +201,11 @@ double limits_bare_ms(host_device *device, limits *l)
     return measure(device, l, NULL, record_bare);
 }
 
+double limits_bare_once_ms(host_device *device, limits *l)
+{
+    return submit_ms(device, l, NULL, record_bare);
+}
+
 double limits_dispatch_ms(host_device *device, limits *l)
 {
     return measure(device, l, NULL, record_dispatches) / EMPTY_DISPATCHES;

@@ -13,9 +13,10 @@ bool limits_create(host_device *device, const host_target *target, uint32_t drop
 void limits_destroy(host_device *device, limits **made);
 
 /* Milliseconds, medians of BENCH_RUNS; negative on failure. */
-double limits_copy_ms(host_device *device, limits *l);     /* vkCmdCopyBuffer of drops x 16 bytes */
-double limits_bare_ms(host_device *device, limits *l);     /* a kernel that reads and writes drops x 16 bytes */
-double limits_dispatch_ms(host_device *device, limits *l); /* one empty dispatch among many */
+double limits_copy_ms(host_device *device, limits *l);      /* vkCmdCopyBuffer of drops x 16 bytes */
+double limits_bare_ms(host_device *device, limits *l);      /* a kernel that reads and writes drops x 16 bytes */
+double limits_bare_once_ms(host_device *device, limits *l); /* the same, once */
+double limits_dispatch_ms(host_device *device, limits *l);  /* one empty dispatch among many */
 double limits_fill_ms(host_device *device, limits *l, const host_target *target); /* each pixel of the layer once */
 
 /* Median of values, which are sorted in place. */
