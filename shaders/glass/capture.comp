@@ -1,4 +1,5 @@
-// capture.comp - drops that were found merge with their captor, unless that is taken in itself: then they wait a tick.
+// capture.comp - drops that were found merge with their captor, unless that is taken in itself: then they wait a tick,
+// and look again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,8 +13,12 @@ void main()
     const uint place = alive_place();
     if (place == NOWHERE)
         return;
-    const uint captor = drops[place].captor;
-    if (captor == NOWHERE || drops[captor].captor != NOWHERE)
+    const uint captor = drops[place].captor, kind = drops[place].kind;
+    const bool found = captor != NOWHERE, waits = found && drops[captor].captor != NOWHERE;
+    const uint looked = (kind & ~uint(VIRGA_GLASS_CHANGED)) | (waits ? VIRGA_GLASS_CHANGED : 0u);
+    if (kind != looked)
+        drops[place].kind = looked;
+    if (!found || waits)
         return;
     const virga_glass_drop_gpu drop = drops[place];
     if (kind_of(drop) != VIRGA_GLASS_DROP)

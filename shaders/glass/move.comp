@@ -19,7 +19,7 @@
 #undef listed
 #undef List
 
-shared uint evaporated;
+shared uint evaporated, most_nl;
 
 // Water that a drop loses: tails shrink (Goto et al., 4.1), all dry.
 uint loss(uint water, uint kind, uint random, float a)
@@ -73,8 +73,9 @@ uint begin_tick(uint place, inout uint lost)
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP, ran = (kind & VIRGA_GLASS_RUNNING) != 0u;
     const float a = base_radius(water), mass = float(water) * KG_OF_NL;
     drops[place].age_s += tick.tick_s;
-    if (ran || !on_mesh) {
+    if (ran || !on_mesh || (kind & VIRGA_GLASS_CHANGED) != 0u) // which a merger may have shifted
         drops[place].before = drops[place].position;
+    if (ran || !on_mesh) {
         kind &= ~uint(VIRGA_GLASS_RUNNING | VIRGA_GLASS_PUSHED | VIRGA_GLASS_HELD);
         drops[place].kind = kind;
     }
@@ -90,15 +91,20 @@ uint begin_tick(uint place, inout uint lost)
     const bool moves = !on_mesh || ran || any(notEqual(to_vec2(drops[place].velocity), vec2(0.0))) || !is_stuck(mass, a);
     if (moves)
         let_move(place, kind, water, mass, a);
+    if (ran && to_vec2(drops[place].velocity) == vec2(0.0)) {
+        kind |= VIRGA_GLASS_CHANGED;
+        drops[place].kind = kind;
+    }
     return !on_mesh                                                                     ? SECOND_KIND
-           : (moves && drops[place].ahead_m >= tick.pane.cell_m) || near_blade(place) ? FIRST_KIND
-                                                                                        : NOT_PICKED;
+           : (kind & VIRGA_GLASS_CHANGED) != 0u ||
+                   (moves && drops[place].ahead_m >= tick.pane.cell_m) || near_blade(place) ? FIRST_KIND
+                                                                                            : NOT_PICKED;
 }
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        evaporated = 0u;
+        evaporated = most_nl = 0u;
     const uint place = alive_place();
     uint lost = 0u, pick = NOT_PICKED;
     if (place != NOWHERE)
@@ -106,7 +112,10 @@ void main()
     mark_pick(pick); // with barriers
     if (lost != 0u)
         atomicAdd(evaporated, lost);
+    atomicMax(most_nl, place == NOWHERE ? 0u : drops[place].water_nl); // a few more with particles
     barrier();
-    if (gl_LocalInvocationIndex == 0u)
+    if (gl_LocalInvocationIndex == 0u) {
         count(VIRGA_GLASS_EVAPORATED, evaporated);
+        atomicMax(state.most_nl, most_nl);
+    }
 }
