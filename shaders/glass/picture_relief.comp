@@ -18,7 +18,8 @@ layout(set = 0, binding = 23) uniform sampler2D map; // a fetch is quicker than 
 // What slopes are of: the paper takes the density's.
 float level(vec4 texel) { return look.style == 0u ? texel.x : texel.y; }
 
-float level_at(ivec2 texel) { return level(texelFetch(map, texel, 0)); }
+// Not below the glass where `least` is 0: how deep a drop's surface would lie beside it matters to its rim alone.
+float level_at(ivec2 texel, float least) { return max(level(texelFetch(map, texel, 0)), least); }
 
 // Looked up without a branch: in one, software Vulkan reads lane by lane.
 bool is_glass(ivec2 texel)
@@ -35,12 +36,14 @@ vec4 relief_at(ivec2 at)
     const vec4 texel = texelFetch(map, at, 0);
     // At the map's border from one side only.
     const ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, ivec2(look.map_columns, look.map_rows) - 1);
-    const vec2 before = vec2(level_at(ivec2(low.x, at.y)), level_at(ivec2(at.x, low.y)));
-    const vec2 after = vec2(level_at(ivec2(high.x, at.y)), level_at(ivec2(at.x, high.y)));
-    const vec2 slope = (after - before) / (vec2(high - low) * texel_m());
-    const vec2 turn = abs(after + before - 2.0 * level(texel)) / (texel_m() * texel_m());
-    const vec2 bend = mix(vec2(0.0), turn, equal(high - low, ivec2(2)));
     const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, texel.w) : 0.0; // the paper has no film
+    // Beside drops a film lies flat, and so does what its own rim is drawn with.
+    const float least = texel.x < (film_cover > 0.0 ? 1.0 : 0.4) * look.threshold ? 0.0 : -1e3;
+    const vec2 before = vec2(level_at(ivec2(low.x, at.y), least), level_at(ivec2(at.x, low.y), least));
+    const vec2 after = vec2(level_at(ivec2(high.x, at.y), least), level_at(ivec2(at.x, high.y), least));
+    const vec2 slope = (after - before) / (vec2(high - low) * texel_m());
+    const vec2 turn = abs(after + before - 2.0 * max(level(texel), least)) / (texel_m() * texel_m());
+    const vec2 bend = mix(vec2(0.0), turn, equal(high - low, ivec2(2)));
     const float density = max(texel.x, 2.0 * look.threshold * film_cover);
     const float inner = look.opaque != 0u ? max(texel.y, 0.0) : max(bend.x, bend.y);
     const float mist = look.whole_map == 0u ? texel.z : 0.0;
