@@ -132,8 +132,8 @@ MARKS = dents()
 
 
 def height_at(u, v):
-    """[0; 1] by place in metres: each mark is a round hollow, and where they meet stand ridges that hammering has rounded:
-    the squared distance to the nearest, as a smooth minimum over all."""
+    """[0; 1] by place in metres: each mark is a round hollow, and where they meet stand ridges that hammering has
+    rounded: the squared distance to the nearest, as a smooth minimum over all."""
     x, y, sum_of_all = u / TILE[0], v / TILE[1], 1e-30
     for mx, my, size in MARKS:
         dx, dy = (x - mx + 0.5) % 1.0 - 0.5, (y - my + 0.5) % 1.0 - 0.5

@@ -13,13 +13,13 @@ void main()
     const uint place = alive_place();
     if (place == NOWHERE)
         return;
-    const uint captor = drops[place].captor, kind = drops[place].kind;
-    const bool found = captor != NOWHERE, waits = found && drops[captor].captor != NOWHERE;
-    const uint looked = (kind & ~uint(VIRGA_GLASS_CHANGED)) | (waits ? VIRGA_GLASS_CHANGED : 0u);
-    if (kind != looked)
-        drops[place].kind = looked;
-    if (!found || waits)
+    const uint captor = drops[place].captor;
+    if (captor == NOWHERE)
         return;
+    if (drops[captor].captor != NOWHERE) {
+        drops[place].kind |= VIRGA_GLASS_CHANGED;
+        return;
+    }
     const virga_glass_drop_gpu drop = drops[place];
     if (kind_of(drop) != VIRGA_GLASS_DROP)
         return;

@@ -1,6 +1,6 @@
-// capture_find.comp - drops whose bases touch flow together, not only those that come to one cell: a drop is often wider
-// than that. The heavier takes the lighter in; who lies still and has not changed touches nobody whom it has not touched
-// before, so those look around that run, and those that landed, took water in or stopped.
+// capture_find.comp - drops whose bases touch flow together, not only those that come to one cell: a drop is often
+// wider than that. The heavier takes the lighter in. Who lies still and has not changed touches nobody whom it has not
+// touched before, so those look around that run, and those that landed, took water in or stopped.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -39,19 +39,19 @@ void main()
     if (place == NOWHERE)
         return;
     const uint kind = drops[place].kind;
-    if ((kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP || (kind & (VIRGA_GLASS_RUNNING | VIRGA_GLASS_CHANGED)) == 0u)
+    if ((kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP || (kind & (VIRGA_GLASS_RUNNING | VIRGA_GLASS_LOOKS)) == 0u)
         return;
     const uint water = drops[place].water_nl;
     const float a = base_radius(water), widest = runs(kind) ? a : base_radius(state.most_nl);
     const vec2 middle = middle_of(place);
-    // A drop's middle may lie beside its cell, as far as mergers have shifted it.
-    const int reach = int(min(ceil(tick.touch * (a + widest) / tick.pane.cell_m) + 1.0, MOST_REACH));
-    for (int y = -reach; y <= reach; y++)
-        for (int x = -reach; x <= reach; x++) {
-            const ivec2 cell = cell_at(middle) + ivec2(x, y);
-            if (!on_pane(cell))
-                continue;
-            const uint other = occupants[cell_number(cell)];
+    // A drop's middle may lie beside its cell, as far as mergers have shifted it: half a cell, mostly.
+    const float touch = runs(kind) ? min(RUN_TOUCH, tick.touch) : tick.touch;
+    const int reach = int(min(ceil(touch * (a + widest) / tick.pane.cell_m + (runs(kind) ? 0.0 : 0.5)), MOST_REACH));
+    const ivec2 here = cell_at(middle), last = ivec2(tick.pane.columns, tick.pane.rows) - 1;
+    const ivec2 from = max(here - reach, ivec2(0)), to = min(here + reach, last);
+    for (int y = from.y; y <= to.y; y++)
+        for (int x = from.x; x <= to.x; x++) {
+            const uint other = occupants[cell_number(ivec2(x, y))];
             if (other != 0u && other != place + 1u)
                 meet(place, water, middle, a, runs(kind), other - 1u);
         }

@@ -80,7 +80,8 @@ void main()
     else {
         // The first of several is not there to read: its place is its seed's.
         const vec2 there = joins ? to_vec2(drops[place].position) : to_vec2(seeds[first].position);
-        const ivec2 away = ivec2(round(clamp((to_vec2(seed.position) - there) * (float(seed.water_nl) * 1e5), -2e8, 2e8)));
+        const vec2 off = to_vec2(seed.position) - there;
+        const ivec2 away = ivec2(round(clamp(off * (float(seed.water_nl) * 1e5), -2e8, 2e8)));
         atomicAdd(drops[place].merged_nl, seed.water_nl);
         atomicAdd(drops[place].merged_nl_10um[0], away.x);
         atomicAdd(drops[place].merged_nl_10um[1], away.y);

@@ -6,8 +6,8 @@
 #include "seeds.glsl"
 #include "alive.glsl"
 
-// Mass and momentum add up (section 4.1), and the middle is that of all the water. Only the drawn place: the cell stays,
-// as its neighbour may be taken.
+// Mass and momentum add up (section 4.1), and the middle is that of all the water. Only the place that is drawn: the
+// cell stays, as its neighbour may be taken.
 void take_in(inout virga_glass_drop_gpu drop)
 {
     if (drop.merged_nl == 0u)

@@ -19,7 +19,8 @@ typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
 #define VIRGA_GLASS_TAIL     8  /* (drop) left behind by one that ran; it shrinks */
 #define VIRGA_GLASS_HELD     16 /* (particle) out of its blade's band, but a large drop is too near (section 4.6) */
 #define VIRGA_GLASS_PUSHED   32 /* (particle) a blade pushed it in the newest tick */
-#define VIRGA_GLASS_CHANGED  64 /* (drop) it landed, took water in or stopped: in the next tick it looks whom it touches */
+#define VIRGA_GLASS_CHANGED  64 /* (drop) it landed, took water in or stopped in the newest tick */
+#define VIRGA_GLASS_LOOKS    128 /* (drop) it had in the tick before, and looked whom it touches */
 
 /* One drop, 88 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower
  * left corner. */
