@@ -118,6 +118,7 @@ PANEL = (0.30, 0.22)  # m
 TILE = (0.075, 0.055)  # m of the bump map, repeated four times each way
 DEPTH = 0.0006  # m from the lowest to the highest
 BUMPS = (300, 220)  # pixels
+ROUND = 0.12  # of the squared radius of a mark, how far ridges are rounded
 
 
 def dents():
@@ -131,12 +132,16 @@ MARKS = dents()
 
 
 def height_at(u, v):
-    """[0; 1] by place in metres: each mark is a round hollow, ridges stand where they meet."""
-    x, y, low = u / TILE[0], v / TILE[1], 9.0
+    """[0; 1] by place in metres: each mark is a round hollow, and where they meet stand ridges that hammering has
+    rounded: the squared distance to the nearest, as a smooth minimum over all."""
+    x, y, sum_of_all = u / TILE[0], v / TILE[1], 1e-30
     for mx, my, size in MARKS:
         dx, dy = (x - mx + 0.5) % 1.0 - 0.5, (y - my + 0.5) % 1.0 - 0.5
-        low = min(low, math.hypot(dx * TILE[0], dy * TILE[1]) / (0.0085 * size))
-    return min(low * low, 1.0)
+        far2 = ((dx * TILE[0]) ** 2 + (dy * TILE[1]) ** 2) / (0.0085 * size) ** 2
+        if far2 < 3.0:
+            sum_of_all += math.exp(-far2 / ROUND)
+    nearest2 = max(-ROUND * math.log(sum_of_all), 0.0)
+    return 1.0 - math.exp(-1.6 * nearest2)
 
 
 def write_png(path, width, height, pixel, colour_type):
@@ -166,11 +171,11 @@ def make_bumps(path):
 def make_panel(path):
     """In its own frame: x to the right, y up, facing z, the middle of its lower edge at the origin."""
     g = Group("panel", {"metal_paint": 0.2})
-    columns, rows = 120, 88
+    columns, rows = 180, 132
     g.surface("metal_paint", [[(PANEL[0] * (i / columns - 0.5), PANEL[1] * j / rows,
                                 DEPTH * (height_at(PANEL[0] * i / columns, PANEL[1] * j / rows) - 1.0))
                                for i in range(columns + 1)] for j in range(rows + 1)], planar=True)
-    scene = Scene([{"name": "metal_paint", "colour": (0.16, 0.012, 0.014), "rough": 0.3, "metal": 0.3}], {})
+    scene = Scene([{"name": "metal_paint", "colour": (0.16, 0.012, 0.014), "rough": 0.24, "metal": 0.3}], {})
     scene.place(g)
     scene.write(path)
 

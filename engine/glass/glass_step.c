@@ -225,6 +225,7 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->meander = s->meander;
     out->path_ease = s->path_ease;
     out->path_s = s->path_s;
+    out->touch = s->touch;
     out->tail_m = s->tail_m;
     out->tail_share = TAIL_SHARE;
     out->tail_radius_m = s->tail_mm * 1e-3f;

@@ -1,4 +1,5 @@
-// capture.comp - drops that were found merge with their captor, unless that is taken in itself: then they wait a tick.
+// capture.comp - drops that were found merge with their captor, unless that is taken in itself: then they wait a tick,
+// and look again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,8 +14,12 @@ void main()
     if (place == NOWHERE)
         return;
     const uint captor = drops[place].captor;
-    if (captor == NOWHERE || drops[captor].captor != NOWHERE)
+    if (captor == NOWHERE)
         return;
+    if (drops[captor].captor != NOWHERE) {
+        drops[place].kind |= VIRGA_GLASS_CHANGED;
+        return;
+    }
     const virga_glass_drop_gpu drop = drops[place];
     if (kind_of(drop) != VIRGA_GLASS_DROP)
         return;

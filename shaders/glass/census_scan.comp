@@ -21,5 +21,6 @@ void main()
     state.alive = found.y;
     state.free = found.x;
     state.most_rounds = 0u;
+    state.most_nl = 0u;
     state.alive_groups = groups_of(found.y);
 }

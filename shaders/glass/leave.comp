@@ -27,5 +27,5 @@ void main()
     drops[place].cell = drops[place].from_cell = drop.target;
     drops[place].ahead_m = 0.0;
     drops[place].tail_m = 0.0;
-    drops[place].kind = VIRGA_GLASS_DROP;
+    drops[place].kind = VIRGA_GLASS_DROP | VIRGA_GLASS_CHANGED;
 }

@@ -19,7 +19,7 @@
 #undef listed
 #undef List
 
-shared uint evaporated;
+shared uint evaporated, most_nl;
 
 // Water that a drop loses: tails shrink (Goto et al., 4.1), all dry.
 uint loss(uint water, uint kind, uint random, float a)
@@ -66,16 +66,18 @@ bool near_blade(uint place)
 }
 
 // Whether something happens to it in this tick.
-uint begin_tick(uint place, inout uint lost)
+uint begin_tick(uint place, inout uint water, inout uint lost)
 {
     uint kind = drops[place].kind;
-    const uint water = drops[place].water_nl;
+    water = drops[place].water_nl;
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP, ran = (kind & VIRGA_GLASS_RUNNING) != 0u;
     const float a = base_radius(water), mass = float(water) * KG_OF_NL;
     drops[place].age_s += tick.tick_s;
-    if (ran || !on_mesh) {
+    const bool changed = (kind & VIRGA_GLASS_CHANGED) != 0u;
+    if (ran || !on_mesh || changed) // a merger may have shifted it
         drops[place].before = drops[place].position;
-        kind &= ~uint(VIRGA_GLASS_RUNNING | VIRGA_GLASS_PUSHED | VIRGA_GLASS_HELD);
+    if (ran || !on_mesh || (kind & (VIRGA_GLASS_CHANGED | VIRGA_GLASS_LOOKS)) != 0u) {
+        kind = (kind & (VIRGA_GLASS_KIND | VIRGA_GLASS_TAIL)) | (changed ? VIRGA_GLASS_LOOKS : 0u);
         drops[place].kind = kind;
     }
     lost = loss(water, kind, drops[place].random, a);
@@ -87,26 +89,31 @@ uint begin_tick(uint place, inout uint lost)
             occupants[drops[place].cell] = 0u;
         return NOT_PICKED;
     }
-    const bool moves = !on_mesh || ran || any(notEqual(to_vec2(drops[place].velocity), vec2(0.0))) || !is_stuck(mass, a);
+    const bool moves =
+        !on_mesh || ran || any(notEqual(to_vec2(drops[place].velocity), vec2(0.0))) || !is_stuck(mass, a);
     if (moves)
         let_move(place, kind, water, mass, a);
-    return !on_mesh                                                                     ? SECOND_KIND
-           : (moves && drops[place].ahead_m >= tick.pane.cell_m) || near_blade(place) ? FIRST_KIND
-                                                                                        : NOT_PICKED;
+    if (ran && to_vec2(drops[place].velocity) == vec2(0.0))
+        drops[place].kind = kind | VIRGA_GLASS_CHANGED; // stopped
+    const bool wakes = changed || (moves && drops[place].ahead_m >= tick.pane.cell_m) || near_blade(place);
+    return !on_mesh ? SECOND_KIND : wakes ? FIRST_KIND : NOT_PICKED;
 }
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        evaporated = 0u;
+        evaporated = most_nl = 0u;
     const uint place = alive_place();
-    uint lost = 0u, pick = NOT_PICKED;
+    uint water = 0u, lost = 0u, pick = NOT_PICKED;
     if (place != NOWHERE)
-        pick = begin_tick(place, lost);
+        pick = begin_tick(place, water, lost);
     mark_pick(pick); // with barriers
     if (lost != 0u)
         atomicAdd(evaporated, lost);
+    atomicMax(most_nl, water);
     barrier();
-    if (gl_LocalInvocationIndex == 0u)
+    if (gl_LocalInvocationIndex == 0u) {
         count(VIRGA_GLASS_EVAPORATED, evaporated);
+        atomicMax(state.most_nl, most_nl);
+    }
 }

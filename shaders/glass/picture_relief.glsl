@@ -41,10 +41,15 @@ vec4 relief_of(ivec2 at, vec4 texel, vec2 before, vec2 after)
 {
     // At the map's border from one side only.
     const ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, ivec2(look.map_columns, look.map_rows) - 1);
-    const vec2 slope = (after - before) / (vec2(high - low) * texel_m());
-    const vec2 turn = abs(after + before - 2.0 * level(texel)) / (texel_m() * texel_m());
-    const vec2 bend = mix(vec2(0.0), turn, equal(high - low, ivec2(2)));
     const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, texel.w) : 0.0; // the paper has no film
+    // Beside drops a film lies flat, and so does what its own rim is drawn with: not below the glass. How deep a drop's
+    // surface would lie beside it matters to its rim alone.
+    const float least = texel.x < (film_cover > 0.0 ? 1.0 : 0.4) * look.threshold ? 0.0 : -1e3;
+    before = max(before, vec2(least));
+    after = max(after, vec2(least));
+    const vec2 slope = (after - before) / (vec2(high - low) * texel_m());
+    const vec2 turn = abs(after + before - 2.0 * max(level(texel), least)) / (texel_m() * texel_m());
+    const vec2 bend = mix(vec2(0.0), turn, equal(high - low, ivec2(2)));
     const float density = max(texel.x, 2.0 * look.threshold * film_cover);
     const float inner = look.opaque != 0u ? max(texel.y, 0.0) : max(bend.x, bend.y);
     const float mist = look.whole_map == 0u ? texel.z : 0.0;

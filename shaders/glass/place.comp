@@ -21,7 +21,7 @@ void start(uint place, virga_glass_seed_gpu seed, vec2 at, uint water, uint id)
     drops[place].position = drops[place].before = to_array(at);
     drops[place].velocity = seed.velocity;
     drops[place].water_nl = water;
-    drops[place].kind = seed.kind;
+    drops[place].kind = seed.kind | (seed.kind == VIRGA_GLASS_DROP ? VIRGA_GLASS_CHANGED : 0u);
     drops[place].cell = drops[place].from_cell = seed.cell;
     drops[place].ahead_m = 0.0;
     drops[place].tail_m = 0.0;
@@ -78,7 +78,13 @@ void main()
     if (!joins && first == i)
         start(place, seed, to_vec2(seed.position), seed.water_nl, seed.id);
     else {
+        // The first of several is not there to read: its place is its seed's.
+        const vec2 there = joins ? to_vec2(drops[place].position) : to_vec2(seeds[first].position);
+        const vec2 off = to_vec2(seed.position) - there;
+        const ivec2 away = ivec2(round(clamp(off * (float(seed.water_nl) * 1e5), -2e8, 2e8)));
         atomicAdd(drops[place].merged_nl, seed.water_nl);
+        atomicAdd(drops[place].merged_nl_10um[0], away.x);
+        atomicAdd(drops[place].merged_nl_10um[1], away.y);
         count(VIRGA_GLASS_MERGED, 1u);
     }
 }

@@ -14,13 +14,18 @@ layout(push_constant) uniform Round
 
 uint claim_of(uint cell, uint of_round) { return cell + (of_round & 1u) * cell_count(); }
 
-// Water and momentum of a drop that ends, given to another place.
+// Water and momentum of a drop that ends, given to another place, and how far from it that water was.
 void give_to(uint other, virga_glass_drop_gpu drop)
 {
+    const uint water = drop.water_nl + drop.merged_nl;
+    const vec2 off = to_vec2(drop.position) - to_vec2(drops[other].position);
+    const ivec2 away = ivec2(round(clamp(off * (float(water) * 1e5), -2e8, 2e8)));
     const ivec2 own = ivec2(round(to_vec2(drop.velocity) * 1000.0 * float(drop.water_nl)));
-    atomicAdd(drops[other].merged_nl, drop.water_nl + drop.merged_nl);
+    atomicAdd(drops[other].merged_nl, water);
     atomicAdd(drops[other].merged_nl_mm_s[0], own.x + drop.merged_nl_mm_s[0]);
     atomicAdd(drops[other].merged_nl_mm_s[1], own.y + drop.merged_nl_mm_s[1]);
+    atomicAdd(drops[other].merged_nl_10um[0], away.x + drop.merged_nl_10um[0]);
+    atomicAdd(drops[other].merged_nl_10um[1], away.y + drop.merged_nl_10um[1]);
 }
 
 // What is left of its place.
@@ -29,5 +34,5 @@ void end_drop(uint place)
     drops[place].kind = VIRGA_GLASS_FREE;
     drops[place].water_nl = 0u;
     drops[place].merged_nl = 0u;
-    drops[place].merged_nl_mm_s = int[2](0, 0);
+    drops[place].merged_nl_mm_s = drops[place].merged_nl_10um = int[2](0, 0);
 }

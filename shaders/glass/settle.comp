@@ -6,7 +6,8 @@
 #include "seeds.glsl"
 #include "alive.glsl"
 
-// Mass and momentum add up (section 4.1).
+// Mass and momentum add up (section 4.1), and the middle is that of all the water. Only the place that is drawn: the
+// cell stays, as its neighbour may be taken.
 void take_in(inout virga_glass_drop_gpu drop)
 {
     if (drop.merged_nl == 0u)
@@ -17,9 +18,12 @@ void take_in(inout virga_glass_drop_gpu drop)
     drop.velocity = to_array(momentum / float(water));
     if (drop.merged_nl > drop.water_nl / 4u)
         drop.kind &= ~uint(VIRGA_GLASS_TAIL);
+    const vec2 shift = vec2(drop.merged_nl_10um[0], drop.merged_nl_10um[1]) * (1e-5 / float(water));
+    drop.position = to_array(to_pane(to_vec2(drop.position) + shift));
     drop.water_nl = water;
+    drop.kind |= VIRGA_GLASS_CHANGED;
     drop.merged_nl = 0u;
-    drop.merged_nl_mm_s = int[2](0, 0);
+    drop.merged_nl_mm_s = drop.merged_nl_10um = int[2](0, 0);
 }
 
 // Cells lie on a grid, but water does not: a drop is drawn on its way to the middle of its cell, as far as it has

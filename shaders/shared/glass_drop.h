@@ -19,8 +19,10 @@ typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
 #define VIRGA_GLASS_TAIL     8  /* (drop) left behind by one that ran; it shrinks */
 #define VIRGA_GLASS_HELD     16 /* (particle) out of its blade's band, but a large drop is too near (section 4.6) */
 #define VIRGA_GLASS_PUSHED   32 /* (particle) a blade pushed it in the newest tick */
+#define VIRGA_GLASS_CHANGED  64 /* (drop) it landed, took water in or stopped in the newest tick */
+#define VIRGA_GLASS_LOOKS    128 /* (drop) it had in the tick before, and looked whom it touches */
 
-/* One drop, 80 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower
+/* One drop, 88 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower
  * left corner. */
 struct virga_glass_drop_gpu {
     float position[2];   /* m, of its middle at the newest tick, where it is drawn */
@@ -38,6 +40,7 @@ struct virga_glass_drop_gpu {
     uint random;         /* a hash of its own */
     uint merged_nl;      /* water that came in this tick, counted in at the tick's end */
     int merged_nl_mm_s[2]; /* its momentum: nl x mm/s */
+    int merged_nl_10um[2]; /* and how far from this drop it was: nl x 10 um */
     uint target;         /* (drop) cell that it enters in this round; VIRGA_GLASS_NOWHERE: it stays */
     uint captor;         /* (drop) place of the drop that takes it in, or VIRGA_GLASS_NOWHERE */
 };
@@ -45,9 +48,9 @@ struct virga_glass_drop_gpu {
 #define VIRGA_GLASS_NOWHERE 0xffffffffu
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_glass_drop_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_glass_drop_gpu, 88);
 VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, water_nl, 24);
-VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, target, 72);
+VIRGA_ASSERT_OFFSET(virga_glass_drop_gpu, target, 80);
 #undef uint
 #endif
 

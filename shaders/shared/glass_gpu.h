@@ -86,6 +86,7 @@ struct virga_glass_tick_gpu {
     float meander;
     float path_ease;       /* share of hold that a wet path takes off */
     float path_s;
+    float touch;           /* of the sum of both radii, at which drops flow together */
     float tail_m;          /* way between drops left behind */
     float tail_share;      /* of the runner's water that one gets, at most */
     float tail_radius_m;   /* and its largest radius */
@@ -145,6 +146,7 @@ struct virga_glass_state_gpu {
     uint settle_groups[3]; /* over whichever are more, seeds or places in use */
     uint round_groups[24]; /* over the awake ones, for each round that some drop has way left for; else none */
     uint most_rounds;      /* of any drop in this tick */
+    uint most_nl;          /* water of any drop as it begins */
     uint impacts;          /* of the host's list in this step */
     virga_glass_count_gpu counts[VIRGA_GLASS_COUNTS];
     virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (blades' bins too) */
@@ -183,9 +185,9 @@ VIRGA_ASSERT_SIZE(virga_glass_blade_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 32);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 196);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 292);
-VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 2344);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 296);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 2348);
 #undef uint
 #endif
 

@@ -220,6 +220,7 @@ static void set_glass(bytes *b, virga_glass *glass)
     s.meander = take_float(b, 0, 1);
     s.path_ease = take_float(b, 0, 1);
     s.path_s = take_float(b, 0.1, 600);
+    s.touch = take_float(b, 0, 2);
     s.tail_m = take_float(b, 0.001, 1);
     s.tail_mm = take_float(b, 0, 2);
     s.tail_s = take_float(b, 0.1, 3600);

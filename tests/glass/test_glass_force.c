@@ -318,6 +318,7 @@ static double mean_way_from_groove(float pull)
     f.settings.affinity = 0.5f;
     f.settings.meander = 1;
     f.settings.path_ease = 0;
+    f.settings.touch = 0; /* those that come together stay two */
     f.settings.drag = 4;
     for (int i = 0; i < 12; i++)
         ids[i] = glass_fixture_land(&f, 0.02 + 0.04 * (i % 4) + (i % 2 ? 0.007 : -0.007),

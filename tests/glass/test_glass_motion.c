@@ -266,6 +266,93 @@ static void a_second_drop_follows_the_path_of_the_first(void **unused)
     assert_true(eased > chance + 0.1);
 }
 
+/* ---- drops that touch */
+
+/* Two drops land side by side, in cells that are no neighbours. How many are left; *found is the largest. */
+static uint32_t land_two(double radius_m, double apart_m, double second_share, const virga_glass_drop_gpu **found)
+{
+    uint32_t count = 0;
+    glass_fixture_land(&f, 0.0805, 0.0611, water_of(radius_m));
+    glass_fixture_land(&f, 0.0805 + apart_m, 0.0611, (uint32_t)(second_share * water_of(radius_m)));
+    glass_fixture_step(&f, 4, true);
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        count += glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP;
+    *found = only_drop();
+    REQUIRE(*found);
+    return count;
+}
+
+static void drops_at_rest_become_one_where_their_bases_meet(void **unused)
+{
+    (void)unused;
+    const virga_glass_drop_gpu *drop;
+    const double radius = 1.8e-3;
+    open_even(NULL);
+    f.settings.touch = 1;
+    assert_int_equal(land_two(radius, 2.02 * radius, 1, &drop), 2);
+    glass_fixture_close(&f);
+    open_even(NULL);
+    f.settings.touch = 1;
+    assert_int_equal(land_two(radius, 1.98 * radius, 1, &drop), 1);
+    assert_int_equal(drop->water_nl, 2 * water_of(radius));
+    glass_fixture_close(&f);
+    open_even(NULL);
+    f.settings.touch = 0; /* as Goto et al. */
+    assert_int_equal(land_two(radius, 1.98 * radius, 1, &drop), 2);
+    glass_fixture_close(&f);
+}
+
+/* Lying flat, so that it stays there: the middle of all the water, to the 10 um that moments are counted in. */
+static void drops_that_become_one_lie_in_the_middle_of_their_water(void **unused)
+{
+    (void)unused;
+    const virga_glass_drop_gpu *drop;
+    const double radius = 2e-3, apart = 3.4e-3, share = 0.5;
+    const float flat[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+    open_even(NULL);
+    memcpy(f.info.world_from_pane, flat, sizeof flat);
+    assert_int_equal(land_two(radius, apart, share, &drop), 1);
+    assert_true(fabs((double)drop->position[0] - (0.0805 + apart * share / (1 + share))) < 1e-5);
+    assert_true(fabs((double)drop->position[1] - 0.0611) < 1e-5);
+    assert_true(drop->velocity[0] == 0 && drop->velocity[1] == 0);
+    assert_true(drop->before[0] == drop->position[0]); /* it was there a tick before, too */
+    glass_fixture_close(&f);
+}
+
+/* Whichever of them come first, whoever takes in whom: in the end no two that have nothing left to do touch. */
+static void drops_at_rest_do_not_touch(void **unused)
+{
+    (void)unused;
+    uint32_t resting = 0;
+    open_even(NULL);
+    f.settings.advancing_deg = 90; /* large ones stay, too */
+    f.settings.receding_deg = 10;
+    for (uint32_t step = 0; step < 12; step++) {
+        for (uint32_t i = 0; i < 60; i++)
+            glass_fixture_land(&f, 0.005 + 0.15 * (double)virga_unit(virga_hash3(step, i, 1)),
+                               0.005 + 0.11 * (double)virga_unit(virga_hash3(step, i, 2)),
+                               100 + virga_hash3(step, i, 3) % 2000);
+        glass_fixture_step(&f, 12, true);
+    }
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++) {
+        const virga_glass_drop_gpu *a = &f.drops[i];
+        if (a->kind != VIRGA_GLASS_DROP)
+            continue;
+        resting++;
+        for (uint32_t k = 0; k < i; k++) {
+            const virga_glass_drop_gpu *b = &f.drops[k];
+            const double apart =
+                hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
+            const double cap = glass_cap_volume(glass_rest_deg(&f.settings)) * NL_OF_M3;
+            if (b->kind == VIRGA_GLASS_DROP)
+                REQUIRE(apart > 0.999 * (double)f.settings.touch * (cbrt(a->water_nl / cap) + cbrt(b->water_nl / cap)));
+        }
+    }
+    print_message("%u drops at rest of 720\n", resting);
+    assert_true(resting > 30);
+    glass_fixture_close(&f);
+}
+
 /* ---- blades and particles */
 
 /* Water of a particle, nl: a hemisphere. */
@@ -434,6 +521,9 @@ int main(void)
         cmocka_unit_test(drops_run_straight_down_on_average_and_spread_with_affinity),
         cmocka_unit_test(wind_from_the_side_tilts_the_mean_as_the_force),
         cmocka_unit_test(a_second_drop_follows_the_path_of_the_first),
+        cmocka_unit_test(drops_at_rest_become_one_where_their_bases_meet),
+        cmocka_unit_test(drops_that_become_one_lie_in_the_middle_of_their_water),
+        cmocka_unit_test(drops_at_rest_do_not_touch),
         cmocka_unit_test(a_drop_becomes_as_many_particles_as_its_water_gives),
         cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
         cmocka_unit_test(held_particles_become_drops_when_the_way_is_free),

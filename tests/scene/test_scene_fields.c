@@ -228,6 +228,7 @@ static void glass_settings_fields(void **state)
         F(meander, 0, 1),
         F(path_ease, 0, 1),
         F(path_s, 0.1, 600),
+        F(touch, 0, 2),
         F(tail_m, 0.001, 1),
         F(tail_mm, 0, 2),
         F(tail_s, 0.1, 3600),
@@ -278,12 +279,12 @@ static void glass_settings_fields(void **state)
     good.wiper_count = good.lighting.light_count = 1;
     /* What bounds another field is tried where the other fits under all of its range. */
     const field *rest = fields + 1;
-    try_fields(&t, "glass_settings", &good, sizeof good, rest, 32, set_glass, get_glass);
-    try_fields(&t, "glass_settings", &good, sizeof good, fields + 34, SIZE(fields) - 34, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, rest, 33, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, fields + 35, SIZE(fields) - 35, set_glass, get_glass);
     good.receding_deg = 1;
     good.wipers[0].blade_m = 0.01f;
     try_fields(&t, "glass_settings", &good, sizeof good, fields, 1, set_glass, get_glass);
-    try_fields(&t, "glass_settings", &good, sizeof good, fields + 33, 1, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, fields + 34, 1, set_glass, get_glass);
     close_told(&t);
 }
 #undef F

@@ -118,6 +118,7 @@ static void panes(void **state)
     SAME(meander);
     SAME(path_ease);
     SAME(path_s);
+    SAME(touch);
     SAME(tail_m);
     SAME(tail_s);
     SAME(film_break_s);

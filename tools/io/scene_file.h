@@ -201,7 +201,7 @@ typedef struct scene_pane {
     uint32_t kind;          /* virga_glass_kind */
     double *advancing_deg, *receding_deg, *run_hold, *affinity, *film_um, *tail_mm;
     bool *opaque;           /* NULL: metal and leaves are */
-    double drag, meander, path_ease, path_s;
+    double drag, meander, path_ease, path_s, touch;
     double tail_m, tail_s, film_break_s, evaporation_mm_h, mist_mm, air_share;
     scene_wiper *wipers;
     uint32_t wiper_count;

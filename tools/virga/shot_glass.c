@@ -69,6 +69,7 @@ static void fill_motion(const scene_pane *from, virga_glass_settings *to)
     to->meander = (float)from->meander;
     to->path_ease = (float)from->path_ease;
     to->path_s = (float)from->path_s;
+    to->touch = (float)from->touch;
     to->tail_m = (float)from->tail_m;
     to->tail_s = (float)from->tail_s;
     to->film_break_s = (float)from->film_break_s;

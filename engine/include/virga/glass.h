@@ -46,7 +46,7 @@ typedef struct virga_glass_def {
     float width_m, height_m;      /* [0.01; 10] of the pane along u and v. Default 1.4 and 0.75 */
     float cell_m;                 /* [0.0005; 0.01] side of a cell, of which one drop has one. 16 bytes of device memory
                                    * a cell, 4,194,304 cells at most (else raised). Default 0.002, the paper's */
-    uint32_t max_drops;           /* [256; 262144] drops and particles together, raised to whole workgroups of 256; 180
+    uint32_t max_drops;           /* [256; 262144] drops and particles together, raised to whole workgroups of 256; 188
                                    * bytes each, and 192 for its picture. Where there is no place, water joins the film.
                                    * Default 32768 */
     float affinity_m;             /* [0.0005; 0.1] width of the spots that the glass is uneven in. Default 0.006 */
@@ -190,6 +190,9 @@ typedef struct virga_glass_settings {
     float meander;         /* [0; 1] share of steps to the side that even glass has. Default 0.1 */
     float path_ease;       /* [0; 1] share of what holds that a wet path takes off for those that follow. Default 0.6 */
     float path_s;          /* [0.1; 600] time in which a path dries. Default 8 */
+    float touch;           /* [0; 2] drops flow together where their middles are nearer than this part of the sum of
+                            * their bases' radii: 1 is where the bases meet; up to 1.3 pictures show a neck between
+                            * them. 0: only in one cell, as Goto et al. have it. Default 1.2 */
 
     /* What drops leave behind. */
     float tail_m;          /* [0.001; 1] way between small drops that a running one leaves behind. Default 0.012 */
