@@ -19,8 +19,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
-
 uint32_t rain_view_bytes(void)
 {
     return (uint32_t)((sizeof(rain_view_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
@@ -120,7 +118,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_record_list(context, cmd, rain->prepare_find, rain->prepare_scan, rain->list, rain->groups);
-    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer);
+    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,
