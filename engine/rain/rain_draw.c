@@ -1,4 +1,5 @@
-/* rain/rain_draw.c - what a view sees: selection and shading (prepare), pipelines for a target (attach), and drawing. */
+/* rain/rain_draw.c - what a view sees: selection and shading (prepare), pipelines for a
+ * target (attach), and drawing. */
 #include "rain/rain_internal.h"
 
 #include "shaders/rain_haze_frag.spv.h"
@@ -43,8 +44,8 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
 }
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too
- * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak would be a bar. It becomes haze, so
- * that rain is as thick at any budget. */
+ * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak
+ * would be a bar. It becomes haze, so that rain is as thick at any budget. */
 static double hazy_share(const virga_rain *rain, const rain_view_block *block, uint32_t level)
 {
     const rain_classes *classes = rain->classes;

@@ -1,4 +1,5 @@
-/* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for a target (attach), drawing. */
+/* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for
+ * a target (attach), drawing. */
 #include "splash/splash_internal.h"
 
 #include "shaders/splash_crown_frag.spv.h"
@@ -42,8 +43,8 @@ uint32_t splash_view_bytes(void)
 
 /* ---- prepare */
 
-/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the picture's
- * right, its down and its depth span. */
+/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the
+ * picture's right, its down and its depth span. */
 static float handedness(const float clip_from_rel[16])
 {
     const float *m = clip_from_rel; /* columns */

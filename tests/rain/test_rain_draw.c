@@ -380,8 +380,8 @@ static void to_clip(const host_camera *camera, bool reversed, const double from_
     clip[2] = reversed ? clip[3] - clip[2] : clip[2];
 }
 
-/* What one drop covers: D / way of the time, all of it where it moves by less than D; less where it is narrower than the sampling, times the drops that
- * it stands for up to a quarter, and nothing below 1 / 400. */
+/* What one drop covers: D / way of the time, all of it where it moves by less than D; less where it is narrower than
+ * the sampling, times the drops that it stands for up to a quarter, and nothing below 1 / 400. */
 static double coverage_of(const shot *s, const expected *e)
 {
     const double least = 1.0 / 400, narrow = fmin(e->width_px / (double)s->f.settings.min_width_px, 1);

@@ -1,5 +1,5 @@
-/* test_splash_draw.c - the picture of splashes: what droplets cover in closed form, piles and crowns while they live, the
- * scene's depth, light, and views that come one after another. */
+/* test_splash_draw.c - the picture of splashes: what droplets cover in closed form, piles and crowns while they live,
+ * the scene's depth, light, and views that come one after another. */
 #include "splash_fixture.h"
 
 #include <limits.h>
@@ -287,7 +287,8 @@ static void assert_near(double value, double expected, double share)
 
 /* ---- droplets that a test chooses */
 
-/* One that flies far above its ground, and has no pile any more. After a tick it is about where it is to be, and moves so. */
+/* One that flies far above its ground, and has no pile any more. After a tick it is about where it is to be, and moves
+ * so. */
 static virga_droplet_gpu flying(double diameter_m, const double place[3], const double velocity[3])
 {
     const double tick_s = 1.0 / 60, up = velocity[1] + GRAVITY * tick_s;

@@ -10,17 +10,20 @@ fail() {
 }
 said=$("$virga" --version) || fail "--version failed"
 number=1
-for pattern in "virga $version" 'commit: ([0-9a-f]{7,}(-dirty)?|unknown)' 'device: .+, Vulkan 1\.[0-9]+' 'driver: .+'; do
+for pattern in "virga $version" 'commit: ([0-9a-f]{7,}(-dirty)?|unknown)' 'device: .+, Vulkan 1\.[0-9]+' \
+    'driver: .+'; do
     line=$(echo "$said" | sed -n "${number}p")
     echo "$line" | grep -qxE "$pattern" || fail "line $number of --version: '$line', expected $pattern"
     number=$((number + 1))
 done
 # Without a driver it still says what it is.
-bare=$(VK_ICD_FILENAMES=/nowhere VK_DRIVER_FILES=/nowhere "$virga" --version 2>/dev/null) || fail "--version without a driver failed"
+bare=$(VK_ICD_FILENAMES=/nowhere VK_DRIVER_FILES=/nowhere "$virga" --version 2>/dev/null) ||
+    fail "--version without a driver failed"
 echo "$bare" | grep -q '^device: none, ' || fail "without a driver: '$bare'"
 
 for command in $("$virga" help | sed -n 's/^  \([a-z]*\)  *[a-z].*/\1/p'); do
-    [ "$command" = help ] || [ "$command" = virga ] || grep -q "^\.SS virga $command$" "$page" || fail "the manual page lacks $command"
+    [ "$command" = help ] || [ "$command" = virga ] || grep -q "^\.SS virga $command$" "$page" ||
+        fail "the manual page lacks $command"
 done
 long=$("$virga" help render | grep -E '^ {31}|^ +--?[a-z]' | awk 'length > 100')
 [ -z "$long" ] || fail "help render: wider than 100 columns: $long"

@@ -856,8 +856,8 @@ static bool measure_tables(bench *b, const bench_splash_choice *choice)
     return good;
 }
 
-/* Fences time whole submissions here. Timestamps would be in them: on software Vulkan a pair costs as much as a pass of a
- * hundred splashes. */
+/* Fences time whole submissions here. Timestamps would be in them: on software Vulkan a pair costs as much as a pass of
+ * a hundred splashes. */
 static bool open_untimed(bench *b, virga_context **context)
 {
     virga_context_def def = virga_default_context_def();

@@ -1,4 +1,5 @@
-/* cmd_bench.c - `virga bench`: what each pass of an effect costs, beside what the machine itself can do in the same run. */
+/* cmd_bench.c - `virga bench`: what each pass of an effect costs, beside what the machine itself can do in the same
+ * run. */
 #include "bench.h"
 #include "commands.h"
 #include "options.h"

@@ -146,7 +146,8 @@ bool view_frame(viewer *v);
 void view_camera_to_path(viewer *v);
 void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, double pitch_deg);
 
-/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time goes on by `dt_s`. */
+/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time
+ * goes on by `dt_s`. */
 void view_camera_move(viewer *v, double wall_s, double dt_s);
 
 /* ---- view_script.c */

@@ -460,7 +460,8 @@ void choose_layer(viewer *v)
         virga_rain_occlusion_map map;
         virga_rain_occlusion_map_get(v->shot.rain, &map);
         std::snprintf(format, sizeof format, "map %%d: %.0f m wide, slant %u of %u",
-                      2 * (double)map.half_m[std::min(v->layer / map.slants, 3u)], v->layer % map.slants + 1, map.slants);
+                      2 * (double)map.half_m[std::min(v->layer / map.slants, 3u)], v->layer % map.slants + 1,
+                      map.slants);
     } else {
         std::snprintf(format, sizeof format, "pane %%d: %.40s", v->scene->panes[std::min(v->layer, layers - 1)].name);
     }
@@ -735,7 +736,8 @@ void panel(viewer *v)
 void foot(viewer *v)
 {
     const bool message = v->message[0] && glfwGetTime() < v->message_s;
-    const float width = (float)v->window.width - (v->panel ? std::min((float)VIEW_PANEL_PX, 0.5f * (float)v->window.width) : 0);
+    const float width =
+        (float)v->window.width - (v->panel ? std::min((float)VIEW_PANEL_PX, 0.5f * (float)v->window.width) : 0);
     ImGui::SetNextWindowPos(ImVec2(0, (float)v->window.height), 0, ImVec2(0, 1));
     ImGui::SetNextWindowSize(ImVec2(width, 0));
     ImGui::SetNextWindowBgAlpha(0.55f);
