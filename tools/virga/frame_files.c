@@ -82,7 +82,7 @@ static const layer_row layer_rows[LAYER_COUNT] = {
                         {"velocity.X", "velocity.Y"},
                         EXR_SAMPLE_HALF,
                         NEEDS_NOTHING,
-                        "of the plate, in pixels a frame, right and down; see --water-velocity"},
+                        "of the plate, px a frame right and down; see --water-velocity"},
     [LAYER_NORMAL] =
         {"normal", {"normal.X", "normal.Y", "normal.Z"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "of the plate, in the world"},
     [LAYER_ID] = {"id", {"id.Y"}, EXR_SAMPLE_UINT, NEEDS_NOTHING, "of the plate's objects; the sky is 0"},
@@ -168,9 +168,9 @@ void frame_layers_help(void)
             const size_t used = strlen(channels);
             snprintf(channels + used, sizeof channels - used, "%s%s", c ? " " : "", dot ? dot + 1 : row->channels[c]);
         }
-        printf("      %-12s %-16s %s%s\n", row->name, channels, row->help,
-               row->needs >= NEEDS_SPLASH ? ", where the scene has some" : "");
+        printf("    %c %-12s %-16s %s\n", row->needs >= NEEDS_SPLASH ? '*' : ' ', row->name, channels, row->help);
     }
+    printf("    * where the scene has some\n");
 }
 
 /* ---- EXR */
