@@ -187,7 +187,7 @@ static void record_prepared(shot *s, VkCommandBuffer cmd)
 {
     const VkBufferCopy sprites = {0, 0, FEW_SPRITES * sizeof(virga_sprite_gpu)},
                        draws = {0, 0, sizeof(virga_splash_prepared_gpu)};
-    splash_fixture_transfers(cmd);
+    effect_fixture_transfers(cmd);
     vkCmdCopyBuffer(cmd, s->f.splash->sprites->buffer, s->sprites.buffer, 1, &sprites);
     vkCmdCopyBuffer(cmd, s->f.splash->prepared_buffer->buffer, s->prepared.buffer, 1, &draws);
 }
