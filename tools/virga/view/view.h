@@ -5,7 +5,7 @@
  *   view_actions.c   what keys, buttons and scripts do
  *   view_camera.c    the camera that flies
  *   view_script.c    lines that drive it
- *   view_panel.cpp   the panel; C++ as Dear ImGui is
+ *   view_panel.cpp   the panel; C++ as Dear ImGui is, with its parts in view_panel_*.cpp
  *   view_picture.c   what is shown beside it
  *   view_modes.c     the list of what can be shown
  *   view_presets.c   the list of presets
