@@ -1,5 +1,6 @@
-// picture_gather_film.glsl - what film gives a tile of the height map: the sheet on its cells, beads with a shape, which
-// are balls like those of drops, and the mist's map. After the buffers, texels and add() of picture_gather.glsl.
+// picture_gather_film.glsl - what film gives a tile of the height map: the sheet on its cells; beads with a shape,
+// which are added as balls like those of drops; and the mist's map. After the buffers, texels and add() of
+// picture_gather.glsl.
 
 // Thickness of the sheet on a cell. Without a branch: in one, software Vulkan reads lane by lane.
 float sheet_m(ivec2 cell)
