@@ -17,7 +17,8 @@ NEAR_Z, FAR_Z, END_Z = 20.0, -45.0, -59.0
 HALF_ROAD, HALF_ASPHALT, HALF_STREET = 3.5, 3.1, 6.0
 KERB = 0.12
 
-# One entry per material: image (baseColor), colour (a tint), rough, metal, emit and strength (radiance is their product).
+# One entry per material: image (baseColor), colour (a tint), rough, metal, emit and strength (radiance is their
+# product).
 MATERIALS = [
     {"name": "asphalt", "image": "asphalt", "rough": 0.88},
     {"name": "asphalt_patch", "image": "asphalt", "colour": (0.52, 0.53, 0.56), "rough": 0.82},
@@ -38,7 +39,8 @@ MATERIALS = [
     {"name": "tile_slate", "image": "roof_tiles", "colour": (0.30, 0.46, 0.62), "rough": 0.6},
     {"name": "steel_black", "image": "metal", "colour": (0.03, 0.032, 0.035), "rough": 0.45},
     {"name": "steel_cast_iron", "image": "metal", "colour": (0.035, 0.042, 0.04), "rough": 0.5},
-    {"name": "steel_zinc", "image": "metal", "colour": (0.42, 0.44, 0.46), "rough": 0.5, "metal": 0.6, "two_sided": True},
+    {"name": "steel_zinc", "image": "metal", "colour": (0.42, 0.44, 0.46), "rough": 0.5, "metal": 0.6,
+     "two_sided": True},
     {"name": "steel_grate", "image": "metal", "colour": (0.16, 0.15, 0.14), "rough": 0.55, "metal": 0.5},
     {"name": "steel_pit", "colour": (0.004, 0.004, 0.004), "rough": 1.0},
     {"name": "steel_rim", "colour": (0.45, 0.46, 0.47), "rough": 0.35, "metal": 0.8},
@@ -51,7 +53,8 @@ MATERIALS = [
      "emit": (1.0, 0.66, 0.34), "strength": 1.9},
     {"name": "glass_shop_lit", "image": "shop_window", "colour": (0.10, 0.10, 0.10), "rough": 0.05,
      "emit": (1.0, 0.80, 0.55), "strength": 2.4},
-    {"name": "glass_lamp_emissive", "colour": (0.8, 0.7, 0.5), "rough": 0.3, "emit": (1.0, 0.72, 0.38), "strength": 9.0},
+    {"name": "glass_lamp_emissive", "colour": (0.8, 0.7, 0.5), "rough": 0.3, "emit": (1.0, 0.72, 0.38),
+     "strength": 9.0},
     {"name": "glass_car", "colour": (0.012, 0.014, 0.016), "rough": 0.04},
     {"name": "glass_car_red", "colour": (0.22, 0.008, 0.008), "rough": 0.12},
     {"name": "glass_car_clear", "colour": (0.4, 0.42, 0.44), "rough": 0.08},
@@ -128,7 +131,8 @@ def overlay(group, material, corners, lift, cells=(6, 6)):
 def make_markings(scene):
     """Repaired trenches with tar-sealed joints, a zebra crossing and a worn centre line."""
     g = Group("marking", TILES)
-    for x0, z0, x1, z1 in ((-2.9, 5.2, -1.7, -9.0), (0.2, -9.4, 3.05, -10.9), (0.4, 4.4, 2.4, 2.9), (1.2, -20, 2.6, -33)):
+    for x0, z0, x1, z1 in ((-2.9, 5.2, -1.7, -9.0), (0.2, -9.4, 3.05, -10.9), (0.4, 4.4, 2.4, 2.9),
+                           (1.2, -20, 2.6, -33)):
         overlay(g, "asphalt_patch", ((x0, z0), (x1, z1)), 0.004, (4, max(3, int((z0 - z1) * 1.6))))
         steps = max(3, int((z0 - z1) * 1.6))
         for x in (x0, x1):
@@ -196,7 +200,8 @@ def pane(group, rng, lit, box, z=-0.15):
                uvs, normal)
 
 
-CORNICE = [(-0.01, -0.5), (0.05, -0.5), (0.07, -0.4), (0.16, -0.3), (0.2, -0.16), (0.32, -0.12), (0.32, -0.02), (-0.01, 0.0)]
+CORNICE = [(-0.01, -0.5), (0.05, -0.5), (0.07, -0.4), (0.16, -0.3), (0.2, -0.16), (0.32, -0.12), (0.32, -0.02),
+           (-0.01, 0.0)]
 STRING = [(-0.01, -0.08), (0.04, -0.08), (0.08, -0.03), (0.08, 0.06), (-0.01, 0.10)]
 GROUND_M, STOREY_M, DEPTH_M = 3.7, 3.05, 9.0
 
@@ -324,7 +329,8 @@ class House:
         x = 0.0
         for a, b in gaps + [(self.width, self.width)]:
             if a - x > 0.05:
-                self.g.extrude("stone_trim", [(-0.01, 0.1), (0.05, 0.1), (0.05, 0.66), (0.02, 0.7), (-0.01, 0.71)], x, a)
+                self.g.extrude("stone_trim", [(-0.01, 0.1), (0.05, 0.1), (0.05, 0.66), (0.02, 0.7), (-0.01, 0.71)], x,
+                               a)
             x = b
 
     def shell(self):
@@ -348,7 +354,8 @@ class House:
             a, b = (0.0, w) if sign > 0 else (w, 0.0)
             uvs = [(a / size, length / size), (b / size, length / size), (b / size, 0), (a / size, 0)]
             g.poly(tile, [(a, y_low, z_low), (b, y_low, z_low), (b, y_top, z_ridge), (a, y_top, z_ridge)], uvs)
-            g.poly("wood_brown", [(a, y_low - 0.08, z_low), (b, y_low - 0.08, z_low), (b, y_low, z_low), (a, y_low, z_low)])
+            g.poly("wood_brown", [(a, y_low - 0.08, z_low), (b, y_low - 0.08, z_low), (b, y_low, z_low),
+                                  (a, y_low, z_low)])
             g.poly("wood_brown", [(b, y_low - 0.08, z_low), (a, y_low - 0.08, z_low), (a, y_top - 0.2, z_ridge),
                                   (b, y_top - 0.2, z_ridge)])
         for x, flip in ((0.0, False), (w, True)):
@@ -366,7 +373,8 @@ class House:
 
     def chimney(self, x, ridge):
         g = self.g
-        g.box("brick_brown", (x - 0.6, ridge - 1.2, -DEPTH_M / 2 - 0.3), (x + 0.6, ridge + 1.2, -DEPTH_M / 2 + 0.3), "y")
+        g.box("brick_brown", (x - 0.6, ridge - 1.2, -DEPTH_M / 2 - 0.3), (x + 0.6, ridge + 1.2, -DEPTH_M / 2 + 0.3),
+              "y")
         g.box("stone_trim", (x - 0.66, ridge + 1.2, -DEPTH_M / 2 - 0.36), (x + 0.66, ridge + 1.3, -DEPTH_M / 2 + 0.36))
         for dx in (-0.36, 0.0, 0.36):
             g.lathe("tile_roof", [(0.12, 1.3), (0.10, 1.75), (0.13, 1.78), (0.13, 1.84), (0.0, 1.84)], 8,
@@ -384,7 +392,8 @@ class House:
             g.box("wood_white", (x + dx, y + 0.2, z), (x + dx + 0.05, y + 1.4, z + 0.05), "z")
         back = (y + 2.0 - self.eaves) / -slope
         for sign in (-1, 1):
-            cheek = [(x + sign * 0.75, y, z), (x + sign * 0.75, y + 1.4, z), (x + sign * 0.75, y + 1.4, z - 1.4 / slope)]
+            cheek = [(x + sign * 0.75, y, z), (x + sign * 0.75, y + 1.4, z),
+                     (x + sign * 0.75, y + 1.4, z - 1.4 / slope)]
             g.poly(tile, cheek if sign < 0 else cheek[::-1])
             plane = [(x + sign * 0.92, y + 1.27, z + 0.15), (x, y + 2.06, z + 0.15), (x, y + 2.06, back - 0.2),
                      (x + sign * 0.92, y + 1.27, back - 0.2)]
@@ -400,7 +409,8 @@ class House:
                 for t in span(math.pi, 0.0, 6)]
         g.surface("steel_zinc", rows[::-1])
         x = w - 0.22 if self.spec.get("pipe", "end") == "end" else 0.22
-        g.tube("steel_zinc", [(x, y - 0.05, z), (x, y - 0.22, z), (x, y - 0.75, 0.12), (x, y - 1.0, 0.10), (x, 0.42, 0.10),
+        g.tube("steel_zinc", [(x, y - 0.05, z), (x, y - 0.22, z), (x, y - 0.75, 0.12), (x, y - 1.0, 0.10),
+                              (x, 0.42, 0.10),
                               (x, 0.3, 0.13), (x, 0.22, 0.24)], 0.05, 7)
         for k in range(int(self.eaves / 2.4)):
             g.box("steel_zinc", (x - 0.065, 1.2 + 2.4 * k, 0.0), (x + 0.065, 1.25 + 2.4 * k, 0.16), "z")
@@ -415,7 +425,8 @@ HOUSES = [
     {"name": "house_l2", "side": "left", "z": (-2.5, -12.5), "wall": "brick_red", "floors": 3, "bays": 4, "rise": 3.4,
      "window": "sash", "shop": (0.9, 7.1), "door": 3, "door_part": "door_blue", "lit": {(1, 1), (2, 3), (1, 2)},
      "roof": "tile_slate", "chimneys": (0.9, 9.1)},
-    {"name": "house_l3", "side": "left", "z": (-12.5, -22), "wall": "plaster_cream", "floors": 2, "bays": 3, "rise": 4.0,
+    {"name": "house_l3", "side": "left", "z": (-12.5, -22), "wall": "plaster_cream", "floors": 2, "bays": 3,
+     "rise": 4.0,
      "window": "casement", "door": 0, "lit": {(2, 0), (1, 0)}, "dormers": (2.5, 7.0), "base": "stone_blocks"},
     {"name": "house_l4", "side": "left", "z": (-22, -33), "wall": "brick_brown", "floors": 3, "bays": 4, "rise": 3.6,
      "window": "sash", "door": 1, "lit": {(1, 0), (3, 2), (0, 2)}, "chimneys": (3.0, 9.0)},
@@ -423,14 +434,17 @@ HOUSES = [
      "window": "casement", "door": 2, "lit": {(1, 1), (1, 4)}, "chimneys": (2.0,)},
     {"name": "house_r0", "side": "right", "z": (20, 3.5), "wall": "brick_brown", "floors": 2, "bays": 6, "rise": 3.4,
      "window": "sash", "door": 1, "lit": {(0, 4), (1, 2)}, "chimneys": (4.0,)},
-    {"name": "house_r1", "side": "right", "z": (3.5, -8.0), "wall": "plaster_cream", "floors": 3, "bays": 4, "rise": 3.4,
+    {"name": "house_r1", "side": "right", "z": (3.5, -8.0), "wall": "plaster_cream", "floors": 3, "bays": 4,
+     "rise": 3.4,
      "window": "casement", "balconies": {(1, 1), (2, 1), (1, 2)}, "shop": (0.7, 5.1), "paint": "wood_green", "door": 3,
      "lit": {(1, 1), (2, 2), (1, 3)}, "flowers": {(1, 0)}, "base": "stone_blocks", "chimneys": (1.2, 10.2),
      "roof": "tile_slate"},
     {"name": "house_r2", "side": "right", "z": (-8.0, -15.5), "wall": "brick_red", "floors": 2, "bays": 3, "rise": 3.8,
      "window": "sash", "door": 1, "lit": {(0, 2), (2, 0)}, "dormers": (2.0, 5.5), "door_part": "door_blue"},
-    {"name": "house_r3", "side": "right", "z": (-15.5, -25), "wall": "plaster_rose", "floors": 3, "bays": 3, "rise": 3.4,
-     "window": "casement", "shutters": True, "door": 2, "lit": {(1, 2), (2, 1)}, "chimneys": (1.2,), "base": "stone_blocks"},
+    {"name": "house_r3", "side": "right", "z": (-15.5, -25), "wall": "plaster_rose", "floors": 3, "bays": 3,
+     "rise": 3.4,
+     "window": "casement", "shutters": True, "door": 2, "lit": {(1, 2), (2, 1)}, "chimneys": (1.2,),
+     "base": "stone_blocks"},
     {"name": "house_r4", "side": "right", "z": (-25, -36), "wall": "plaster_grey", "floors": 2, "bays": 4, "rise": 4.2,
      "window": "casement", "door": 0, "lit": {(1, 3), (0, 1)}, "chimneys": (8.0,)},
     {"name": "house_r5", "side": "right", "z": (-36, -45), "wall": "brick_brown", "floors": 3, "bays": 3, "rise": 3.6,
@@ -495,7 +509,8 @@ def voussoirs(g, z0, z1):
         low = [(x, arch_height(x) - (0.03 if key else 0.004)) for x in (xa, xb)]
         high = [(x * (1.0 + depth / 9.5), y + depth) for x, y in low]
         for z, s in ((z1, 1), (z0, -1)):
-            front = [(*low[0], z + s * proud), (*low[1], z + s * proud), (*high[1], z + s * proud), (*high[0], z + s * proud)]
+            front = [(*low[0], z + s * proud), (*low[1], z + s * proud), (*high[1], z + s * proud),
+                     (*high[0], z + s * proud)]
             back = [(p[0], p[1], z) for p in front]
             g.poly("stone_trim", front if s > 0 else front[::-1])
             for i in range(4):
@@ -530,7 +545,8 @@ def make_church(scene):
     for x, out in ((-7.0, -1), (5.5, 1)):
         side = [(x, 0, back), (x, 0, front), (x, 8.5, front), (x, 8.5, back)]
         g.poly("stone_blocks", side if out < 0 else side[::-1])
-        roof = [(x + out * 0.5, 8.1, front + 0.35), (x + out * 0.5, 8.1, back), (-0.75, 15.15, back), (-0.75, 15.15, front + 0.35)]
+        roof = [(x + out * 0.5, 8.1, front + 0.35), (x + out * 0.5, 8.1, back), (-0.75, 15.15, back),
+                (-0.75, 15.15, front + 0.35)]
         g.poly("tile_slate", roof if out > 0 else roof[::-1])
     g.lathe("glass_window_lit", [(1.5, 0.0), (0.0, 0.001)], 16)
     g.meshes.pop("glass_window_lit")
@@ -554,7 +570,8 @@ def make_church(scene):
             g.lathe("stone_trim", [(0.4 * r, 0), (0.4 * r, 1.2), (0.0, 3.0)], 4,
                     (centre[0] + dx * (half - 0.35), centre[1], centre[2] + dz * (half - 0.35)), 45)
     g.tube("steel_black", [(centre[0], centre[1] + 12.2, centre[2]), (centre[0], centre[1] + 14.2, centre[2])], 0.05, 5)
-    g.box("steel_black", (centre[0] - 0.45, centre[1] + 13.4, centre[2] - 0.05), (centre[0] + 0.45, centre[1] + 13.5, centre[2] + 0.05))
+    g.box("steel_black", (centre[0] - 0.45, centre[1] + 13.4, centre[2] - 0.05),
+          (centre[0] + 0.45, centre[1] + 13.5, centre[2] + 0.05))
     scene.place(g)
 
 
@@ -610,7 +627,8 @@ def make_awning(scene):
     g.tube("steel_black", [(0.0, top - 0.03, 0.09), (width, top - 0.03, 0.09)], 0.03, 6)
     for x in (0.04, width / 3, width * 2 / 3, width - 0.04):
         g.tube("steel_black", [(x, 2.5, 0.05), (x, 2.5, 0.10), (x, low - 0.03, 0.04 + reach)], 0.014, 5)
-        g.tube("steel_black", [point(x, t)[:1] + (point(x, t)[1] - 0.035,) + point(x, t)[2:] for t in (0.0, 0.5, 1.0)], 0.012, 5)
+        g.tube("steel_black", [point(x, t)[:1] + (point(x, t)[1] - 0.035,) + point(x, t)[2:] for t in (0.0, 0.5, 1.0)],
+               0.012, 5)
     scene.place(g)
 
 
@@ -679,7 +697,8 @@ def make_furniture(scene):
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     scene = Scene(MATERIALS, street_textures.all_images())
-    for make in (make_ground, make_markings, make_kerbs, make_houses, make_bridge, make_church, make_awning, make_market,
+    for make in (make_ground, make_markings, make_kerbs, make_houses, make_bridge, make_church, make_awning,
+                 make_market,
                  make_trees, make_furniture):
         make(scene)
     path = os.path.join(here, "scenes", "street.glb")

@@ -189,7 +189,8 @@ def setts(size=256):
     for i, (r, c, edge) in enumerate(courses(size, 8, 8, 3.0, 42, 0.5, 0.09)):
         shade = tone.setdefault((r, c), rng.gauss(1.0, 0.13))
         v = 104 * shade * (0.8 + 0.4 * fine[i]) * min(1.0, 0.62 + 0.06 * max(edge, 0.0))
-        pixels.append((v, v * 0.985, v * 0.97) if edge > 0 else (34 + 20 * fine[i], 31 + 18 * fine[i], 27 + 14 * fine[i]))
+        pixels.append((v, v * 0.985, v * 0.97) if edge > 0 else (34 + 20 * fine[i], 31 + 18 * fine[i],
+                                                                 27 + 14 * fine[i]))
     return png(size, size, pixels, 24)
 
 
@@ -326,7 +327,8 @@ def shop_window(width=256, height=128):
         x = 3
         while x < width - 8:
             w, h = rng.randint(4, 11), rng.randint(9, 24)
-            colour = rng.choice(((170, 96, 40), (116, 34, 24), (70, 92, 40), (196, 160, 90), (60, 44, 34), (204, 190, 160)))
+            colour = rng.choice(((170, 96, 40), (116, 34, 24), (70, 92, 40), (196, 160, 90), (60, 44, 34),
+                                 (204, 190, 160)))
             for yy in range(shelf - h, shelf):
                 for xx in range(x, min(width, x + w)):
                     across = (xx - x + 0.5) / w

@@ -127,8 +127,9 @@ void virga_clamp_vector(const virga_log *log, const char *name, float v[3], floa
     if (!moved) {
         return;
     }
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s: (%g, %g, %g) is outside [%g; %g], (%g, %g, %g) is used",
-                  name, (double)given[0], (double)given[1], (double)given[2], -(double)most, (double)most, (double)v[0],
-                  (double)v[1], (double)v[2]);
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                  "%s: (%g, %g, %g) is outside [%g; %g], (%g, %g, %g) is used", name, (double)given[0],
+                  (double)given[1], (double)given[2], -(double)most, (double)most, (double)v[0], (double)v[1],
+                  (double)v[2]);
     *changed = true;
 }

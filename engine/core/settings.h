@@ -11,8 +11,8 @@
  * and so are their squares and cubes. */
 #define VIRGA_FARTHEST_M 1e9
 
-/* What a host may say of the motion of panes and air, on each axis: m/s, m/s^2, rad/s. Faster is a mistake, e.g. a speed
- * taken from a cut, and its squares would leave the range of floats in what is made of them. */
+/* What a host may say of the motion of panes and air, on each axis: m/s, m/s^2, rad/s. Faster is a mistake, e.g. a
+ * speed taken from a cut, and its squares would leave the range of floats in what is made of them. */
 #define VIRGA_FASTEST_M_S      1000.0f
 #define VIRGA_STRONGEST_M_S2   1000.0f
 #define VIRGA_QUICKEST_RAD_S   100.0f
@@ -49,8 +49,8 @@ virga_result virga_settings_finite_double(const virga_log *log, const char *name
 /* The same for places in the world: finite, and within VIRGA_FARTHEST_M of its origin. */
 virga_result virga_settings_places(const virga_log *log, const char *name, const double *values, uint32_t count);
 
-/* VIRGA_OK if the columns of a 3 x 3 matrix, `stride` apart, are finite and a rotation or a mirrored one: of unit length
- * and at right angles to 2 %, which is what is left of a rotation after many products of floats. */
+/* VIRGA_OK if the columns of a 3 x 3 matrix, `stride` apart, are finite and a rotation or a mirrored one: of unit
+ * length and at right angles to 2 %, which is what is left of a rotation after many products of floats. */
 virga_result virga_settings_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride);
 
 /* The axes of a vector moved into [-most; most], with one line where any had to. It must be finite. */

@@ -18,7 +18,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE   (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define TILE         VIRGA_GLASS_TILE
 #define BLOCK        VIRGA_GLASS_MIST_BLOCK
 #define PI           3.14159265358979323846
@@ -216,13 +215,6 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     picture->cleared = true;
 }
 
-static void over_tiles(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
-                       uint32_t rows)
-{
-    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    glass->context->vk.CmdDispatch(cmd, columns, rows, 1);
-}
-
 /* Lists of what lies over each tile begin anew. */
 static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 {
@@ -246,16 +238,7 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 
 static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
-    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    glass->context->vk.CmdDispatchIndirect(cmd, glass->picture->work->buffer, groups);
-}
-
-/* After the pass that says how much there is to do. */
-static void work_barrier(virga_glass *glass, VkCommandBuffer cmd)
-{
-    virga_barrier(glass->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | READ_WRITE);
+    virga_dispatch_indirect(glass->context, cmd, pipeline, glass->picture->work->buffer, groups);
 }
 
 /* The mist's map, from film; and the tiles that have film with a shape. */
@@ -265,9 +248,9 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     const struct glass_picture *picture = glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.film");
     const uint32_t mode = (picture->mist_cells > 1 ? GLASS_MIST_SEVERAL : 0) | (glass->masked ? GLASS_MIST_MASKED : 0);
-    over_tiles(glass, cmd, picture->mist_passes[mode], (picture->mist_size.width + BLOCK - 1) / BLOCK,
-               (picture->mist_size.height + BLOCK - 1) / BLOCK);
-    work_barrier(glass, cmd);
+    virga_dispatch_2d(context, cmd, picture->mist_passes[mode], (picture->mist_size.width + BLOCK - 1) / BLOCK,
+                      (picture->mist_size.height + BLOCK - 1) / BLOCK);
+    virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->film_pass, offsetof(virga_glass_work_gpu, block_groups));
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
@@ -285,12 +268,12 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.balls");
-    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, picture->ball_pass->pipeline);
-    context->vk.CmdDispatchIndirect(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, shown_groups));
+    virga_dispatch_indirect(context, cmd, picture->ball_pass, glass->state->buffer,
+                            offsetof(virga_glass_state_gpu, shown_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->list_pass,
                    (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
-    work_barrier(glass, cmd);
+    virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
@@ -305,9 +288,9 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
     const VkPipelineStageFlags from =
         view->color.before.stage ? view->color.before.stage : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    over_tiles(glass, cmd, picture->copy_pass, VIRGA_GLASS_COPY / 16, VIRGA_GLASS_COPY / 16);
+    virga_dispatch_2d(context, cmd, picture->copy_pass, VIRGA_GLASS_COPY / 16, VIRGA_GLASS_COPY / 16);
     virga_compute_barrier(context, cmd);
-    over_tiles(glass, cmd, picture->shrink_pass, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
+    virga_dispatch_2d(context, cmd, picture->shrink_pass, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -344,10 +327,10 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
-    work_barrier(glass, cmd); /* both say how much the next has to do */
+    virga_indirect_barrier(context, cmd); /* both say how much the next has to do */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
-    work_barrier(glass, cmd);
+    virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0], offsetof(virga_glass_work_gpu, relief_groups));
     virga_pass_end(context, cmd, scope);
     if (view->color.view)

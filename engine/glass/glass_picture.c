@@ -41,8 +41,9 @@ static uint32_t blocks_of(uint32_t cells)
 }
 
 /* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than the
- * pane's texels over pi. One that reaches r texels, which is two to three radii, is in (2 r / 8 + 1)^2 tiles on average:
- * that is a quarter of an entry for each texel of the large ones, and some four entries each for the smallest. */
+ * pane's texels over pi. One that reaches r texels, which is two to three radii, is in (2 r / 8 + 1)^2 tiles on
+ * average: that is a quarter of an entry for each texel of the large ones, and some four entries
+ * each for the smallest. */
 static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture)
 {
     const float longer = def->width_m > def->height_m ? def->width_m : def->height_m;

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define PI         3.14159265358979323846
 
 #define ROUNDS       VIRGA_GLASS_ROUNDS
@@ -334,26 +333,10 @@ static void bind(virga_glass *glass, VkCommandBuffer cmd)
                                              &glass->step_set, 1, &glass->tick_offset);
 }
 
-static void pass_barrier(virga_glass *glass, VkCommandBuffer cmd)
-{
-    virga_barrier(glass->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-}
-
-static void dispatch(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
-{
-    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    glass->context->vk.CmdDispatch(cmd, groups, 1, 1);
-    pass_barrier(glass, cmd);
-}
-
-/* Over the list of places in use, or over all seeds. */
+/* Over the list of places in use, or over all seeds: as large as a pass before it has written at `groups`. */
 static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
-    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    glass->context->vk.CmdDispatchIndirect(cmd, glass->state->buffer, groups);
-    pass_barrier(glass, cmd);
+    virga_dispatch_indirect_and_barrier(glass->context, cmd, pipeline, glass->state->buffer, groups);
 }
 
 static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words, uint32_t count)
@@ -377,11 +360,11 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.motion");
     const uint32_t groups = glass->def.max_drops / VIRGA_GLASS_GROUP;
-    dispatch(glass, cmd, glass->census_find, groups);
-    dispatch(glass, cmd, glass->census_scan, 1);
-    dispatch(glass, cmd, glass->census_list, groups);
+    virga_dispatch_and_barrier(glass->context, cmd, glass->census_find, groups);
+    virga_dispatch_and_barrier(glass->context, cmd, glass->census_scan, 1);
+    virga_dispatch_and_barrier(glass->context, cmd, glass->census_list, groups);
     over(glass, cmd, glass->move, ALIVE);
-    dispatch(glass, cmd, glass->awake_scan, 1);
+    virga_dispatch_and_barrier(glass->context, cmd, glass->awake_scan, 1);
     over(glass, cmd, glass->awake_list, ALIVE);
     for (uint32_t i = 0; i <= ROUNDS; i++) {
         const uint32_t round[2] = {i, ROUNDS};
@@ -436,12 +419,12 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
         if (glass->blades->blades[i].side == 0 || !blade_box(glass, &glass->blades->blades[i], words + 1))
             continue;
         push(glass, cmd, words, 5);
-        glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->wipe->pipeline);
-        glass->context->vk.CmdDispatch(cmd, (words[3] + 15) / 16, (words[4] + 15) / 16, 1);
-        pass_barrier(glass, cmd);
+        virga_dispatch_2d(glass->context, cmd, glass->wipe, (words[3] + 15) / 16, (words[4] + 15) / 16);
+        virga_indirect_barrier(glass->context, cmd);
     }
     over(glass, cmd, glass->touch, AWAKE);
-    dispatch(glass, cmd, glass->gather, groups_of((uint64_t)glass->blades->blade_count * VIRGA_GLASS_BINS));
+    virga_dispatch_and_barrier(glass->context, cmd, glass->gather,
+                               groups_of((uint64_t)glass->blades->blade_count * VIRGA_GLASS_BINS));
     virga_pass_end(glass->context, cmd, scope);
     scope = virga_pass_begin(glass->context, cmd, "glass.particles");
     over(glass, cmd, glass->relax_sort, PARTICLES);
@@ -458,11 +441,12 @@ static void record_places(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.place");
     over(glass, cmd, glass->place_claim, SEEDS);
-    dispatch(glass, cmd, glass->place_scan, 1);
+    virga_dispatch_and_barrier(glass->context, cmd, glass->place_scan, 1);
     over(glass, cmd, glass->place, SEEDS);
     over(glass, cmd, glass->settle, offsetof(virga_glass_state_gpu, settle_groups));
     if (glass->blades->rolling_rows)
-        dispatch(glass, cmd, glass->dry, groups_of((uint64_t)glass->blades->rolling_rows * glass->columns));
+        virga_dispatch_and_barrier(glass->context, cmd, glass->dry,
+                                   groups_of((uint64_t)glass->blades->rolling_rows * glass->columns));
     virga_pass_end(glass->context, cmd, scope);
 }
 
@@ -477,7 +461,8 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     const uint64_t lanes = (uint64_t)glass->columns * glass->rows / MEASURED_CELLS + 1;
-    dispatch(glass, cmd, glass->measure, groups_of(lanes > glass->def.max_drops ? lanes : glass->def.max_drops));
+    virga_dispatch_and_barrier(glass->context, cmd, glass->measure,
+                               groups_of(lanes > glass->def.max_drops ? lanes : glass->def.max_drops));
     virga_pass_end(context, cmd, scope);
 }
 

@@ -1,7 +1,7 @@
 /* gpu/budget.c - an effect that does not fit into what the memory budget has left is made with smaller pools.
  *
- * An estimate is an upper bound, and what is left is cut by pages; so an effect is simply tried, smaller each time, until
- * it fits. Pipelines come last in every create, so that a try costs the making of some buffers and no more. */
+ * An estimate is an upper bound, and what is left is cut by pages; so an effect is simply tried, smaller each time,
+ * until it fits. Pipelines come last in every create, so that a try costs the making of some buffers and no more. */
 #include "gpu/context.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* gpu/builds.c - when pipelines are built: at once, in steps of the host's choice, or by the host's jobs.
  *
  * A build that waits holds a copy of its definition. Whoever runs it, on whatever thread, calls the device and writes
- * into the build alone; the thread of the API takes the result over when it collects. So the context needs no lock: what
- * threads share of a build is its state, which moves
+ * into the build alone; the thread of the API takes the result over when it collects. So the context needs no lock:
+ * what threads share of a build is its state, which moves
  *
  *     WAITING -> RUNNING -> DONE -> collected          WAITING -> DROPPED -> DONE -> collected
  *

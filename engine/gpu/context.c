@@ -76,8 +76,8 @@ virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ti
 {
     if (!ticks || !last || (int32_t)(first - *last) > 0)
         return VIRGA_OK;
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER, "step_info.first_tick: %u after %u, expected one behind it", first,
-                  *last);
+    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                  "step_info.first_tick: %u after %u, expected one behind it", first, *last);
     return VIRGA_ERROR_INVALID;
 }
 
@@ -121,7 +121,8 @@ static virga_result check_family(const virga_context *context, uint32_t family, 
     const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     if (family < count && (families[family].queueFlags & both) == both)
         return VIRGA_OK;
-    return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute", family);
+    return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute",
+                                family);
 }
 
 static virga_result create_timers(virga_context *context, const virga_context_def *def)

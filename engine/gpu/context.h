@@ -395,15 +395,29 @@ void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scop
 void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
                    VkPipelineStageFlags to, VkAccessFlags reads);
 
+/* What a compute pass does to the buffers and images that it writes. */
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+
 /* Between two compute passes. */
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
 
-/* One compute pass. */
-void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
+/* The same where the pass before may also have written how large an indirect dispatch or draw after it is. */
+void virga_indirect_barrier(virga_context *context, VkCommandBuffer cmd);
 
-/* One as large as the head of a buffer says, e.g. of a list's (virga_list_gpu). */
+/* One compute pass, of so many workgroups in a row or in columns and rows. */
+void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
+void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
+                       uint32_t rows);
+
+/* One as large as a buffer says at `offset`, e.g. at 0 the head of a list (virga_list_gpu). */
 void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
-                             const virga_buffer *arguments);
+                             VkBuffer arguments, VkDeviceSize offset);
+
+/* One of a chain of passes, each of which works on what those before it wrote: a dispatch, then an indirect barrier. */
+void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                uint32_t groups);
+void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                         VkBuffer arguments, VkDeviceSize offset);
 
 /* Ordered compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. Leaves the list ready
  * for a pass over it. */

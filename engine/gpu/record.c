@@ -14,20 +14,47 @@ void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageF
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd)
 {
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+}
+
+void virga_indirect_barrier(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
 {
+    virga_dispatch_2d(context, cmd, pipeline, groups, 1);
+}
+
+void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
+                       uint32_t rows)
+{
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    context->vk.CmdDispatch(cmd, groups, 1, 1);
+    context->vk.CmdDispatch(cmd, columns, rows, 1);
 }
 
 void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
-                             const virga_buffer *arguments)
+                             VkBuffer arguments, VkDeviceSize offset)
 {
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    context->vk.CmdDispatchIndirect(cmd, arguments->buffer, 0);
+    context->vk.CmdDispatchIndirect(cmd, arguments, offset);
+}
+
+void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                uint32_t groups)
+{
+    virga_dispatch(context, cmd, pipeline, groups);
+    virga_indirect_barrier(context, cmd);
+}
+
+void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                         VkBuffer arguments, VkDeviceSize offset)
+{
+    virga_dispatch_indirect(context, cmd, pipeline, arguments, offset);
+    virga_indirect_barrier(context, cmd);
 }
 
 void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
@@ -37,10 +64,7 @@ void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, scan, 1);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, list, groups);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_dispatch_and_barrier(context, cmd, list, groups);
 }
 
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,

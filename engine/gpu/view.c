@@ -10,8 +10,8 @@
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
 
-/* Of the first two diagonal elements of a projection, the cotangents of half the angles that it sees: from 179.99 degrees
- * to a tenth of a microradian. Larger elements have no use, and their products leave the range of floats. */
+/* Of the first two diagonal elements of a projection, the cotangents of half the angles that it sees: from 179.99
+ * degrees to a tenth of a microradian. Larger elements have no use, and their products leave the range of floats. */
 #define LEAST_PROJECTION 1e-4f
 #define MOST_PROJECTION  1e7f
 #define MOST_TIME_S      1e9
@@ -28,7 +28,8 @@ virga_view virga_default_view(void)
     return view;
 }
 
-/* A projection with w = -z: finite, and neither a point nor endless in what it sees, so that rays can be had from it. */
+/* A projection with w = -z: finite, and neither a point nor endless in what it sees, so that rays can
+ * be had from it. */
 static virga_result check_projection(const virga_log *log, const char *name, const float p[16])
 {
     bool sound = p[11] == -1;
@@ -89,7 +90,8 @@ static virga_result check_viewport(const virga_context *context, const float box
         if (box[axis] < limits->viewportBoundsRange[0] ||
             (double)box[axis] + (double)box[2 + axis] > (double)limits->viewportBoundsRange[1] ||
             box[2 + axis] > (float)limits->maxViewportDimensions[axis])
-            return virga_wrong_argument(log, "view.viewport: %g x %g pixels at (%g, %g) are more than the device allows",
+            return virga_wrong_argument(log,
+                                        "view.viewport: %g x %g pixels at (%g, %g) are more than the device allows",
                                         (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
     if (box[2] >= 1 && box[3] >= 1)
         return VIRGA_OK;

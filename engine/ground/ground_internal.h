@@ -70,8 +70,8 @@ typedef struct ground_ripples {
     virga_pipeline *pipeline;
 } ground_ripples;
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout, virga_pipeline_group *group,
-                                   ground_ripples **ripples);
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+                                   virga_pipeline_group *group, ground_ripples **ripples);
 void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
 
@@ -103,8 +103,8 @@ struct virga_ground {
     uint32_t parity; /* which of the two cell buffers is current */
     uint64_t ticks;  /* run since creation */
 
-    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs, *spawns,
-        *no_rules;
+    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
+        *spawns, *no_rules;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *survey;

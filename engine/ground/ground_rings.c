@@ -93,8 +93,8 @@ error:
     return result;
 }
 
-virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout, virga_pipeline_group *group,
-                                   ground_ripples **ripples)
+virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
+                                   virga_pipeline_group *group, ground_ripples **ripples)
 {
     virga_result result = VIRGA_OK;
     ground_ripples *made = virga_alloc(&context->heap, sizeof *made);

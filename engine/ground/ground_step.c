@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE    (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
 #define SURVEY_TOP_M  256.0 /* above the camera */
 #define SURVEY_DEEP_M 512.0
@@ -169,14 +168,7 @@ static void bind(virga_ground *ground, VkCommandBuffer cmd)
 /* Over cells, in rows: see group_index() in shaders/ground/cells.glsl. Groups come in whole tiles. */
 static void dispatch_cells(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
 {
-    ground->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    ground->context->vk.CmdDispatch(cmd, groups / TILE_GROUPS, TILE_GROUPS, 1);
-}
-
-static void dispatch(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
-{
-    ground->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    ground->context->vk.CmdDispatch(cmd, groups, 1, 1);
+    virga_dispatch_2d(ground->context, cmd, pipeline, groups / TILE_GROUPS, TILE_GROUPS);
 }
 
 /* ---- the window follows */
@@ -305,17 +297,16 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
 /* A pass over the drops of the tick and, in the first of a step, over what splashes gave back. */
 static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
 {
-    const virga_functions *vk = &ground->context->vk;
+    virga_context *context = ground->context;
     const virga_ground_step_info *info = &ground->info;
     const VkDeviceSize groups = offsetof(virga_impacts_gpu, group_count);
-    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
     bind_source(ground, cmd, GROUND_DROPS);
-    vk->CmdDispatchIndirect(cmd, info->impacts, info->impacts_offset + groups);
+    virga_dispatch_indirect(context, cmd, pipeline, info->impacts, info->impacts_offset + groups);
     if (info->returns && ground->tick_in_step == 0) {
         bind_source(ground, cmd, GROUND_RETURNS);
-        vk->CmdDispatchIndirect(cmd, info->returns, info->returns_offset + groups);
+        virga_dispatch_indirect(context, cmd, pipeline, info->returns, info->returns_offset + groups);
     }
-    virga_compute_barrier(ground->context, cmd);
+    virga_compute_barrier(context, cmd);
 }
 
 /* Places for splashes, in the order of drops. */
@@ -324,11 +315,11 @@ static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
     const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.spawn");
     over_water(ground, cmd, ground->spawn_find);
     bind_source(ground, cmd, GROUND_DROPS);
-    dispatch(ground, cmd, ground->spawn_scan, 1);
+    virga_dispatch(ground->context, cmd, ground->spawn_scan, 1);
     virga_compute_barrier(ground->context, cmd);
     if (ground->info.returns && ground->tick_in_step == 0) {
         bind_source(ground, cmd, GROUND_RETURNS);
-        dispatch(ground, cmd, ground->spawn_scan, 1);
+        virga_dispatch(ground->context, cmd, ground->spawn_scan, 1);
         virga_compute_barrier(ground->context, cmd);
     }
     virga_pass_end(ground->context, cmd, scope);
@@ -342,7 +333,7 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.land");
     over_water(ground, cmd, ground->land);
     bind(ground, cmd);
-    dispatch(ground, cmd, ground->ring, 1);
+    virga_dispatch(ground->context, cmd, ground->ring, 1);
     over_water(ground, cmd, ground->share);
     over_water(ground, cmd, ground->soak);
     bind(ground, cmd);

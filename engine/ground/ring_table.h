@@ -36,7 +36,8 @@ double ring_gamma(double k, double h);
 double ring_depth(int layer);
 
 /* The layer of the table that water of depth h (m, any) takes: the nearest by ratio. Two layers are never mixed: their
- * waves are out of step and would cancel. It costs phase speed: 12 % at 1.4 mm of water (8.9 mm waves), less at others. */
+ * waves are out of step and would cancel. It costs phase speed: 12 % at 1.4 mm of water (8.9 mm
+ * waves), less at others. */
 int ring_layer(double h);
 
 /* How far (m) the table reaches at time t (s). Waves beyond are under 0.01 % of the energy. */

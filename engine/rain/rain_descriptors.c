@@ -28,7 +28,8 @@ enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
 
 virga_result rain_descriptors_create(virga_rain *rain)
 {
-    return virga_bindings_create(rain->context, kinds, BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu), &rain->bindings);
+    return virga_bindings_create(rain->context, kinds, BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu),
+                                 &rain->bindings);
 }
 
 static virga_bound bound_buffer(const virga_buffer *buffer, VkDeviceSize range)
@@ -80,6 +81,6 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
     const uint32_t tick = rain->tick_offset;
     const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
                                  tick + (uint32_t)offsetof(rain_tick_block, travels),
-                                 tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset}; /* by binding */
+                                 tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset};
     rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 5, offsets);
 }

@@ -1,4 +1,5 @@
-/* rain/rain_draw.c - what a view sees: selection and shading (prepare), pipelines for a target (attach), and drawing. */
+/* rain/rain_draw.c - what a view sees: selection and shading (prepare), pipelines for a
+ * target (attach), and drawing. */
 #include "rain/rain_internal.h"
 
 #include "shaders/rain_haze_frag.spv.h"
@@ -18,8 +19,6 @@
 
 #include <math.h>
 #include <string.h>
-
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 
 uint32_t rain_view_bytes(void)
 {
@@ -45,8 +44,8 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
 }
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too
- * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak would be a bar. It becomes haze, so
- * that rain is as thick at any budget. */
+ * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak
+ * would be a bar. It becomes haze, so that rain is as thick at any budget. */
 static double hazy_share(const virga_rain *rain, const rain_view_block *block, uint32_t level)
 {
     const rain_classes *classes = rain->classes;
@@ -120,7 +119,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_record_list(context, cmd, rain->prepare_find, rain->prepare_scan, rain->list, rain->groups);
-    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer);
+    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
-
 #define HITS_SIZE (sizeof(virga_impacts_gpu) + VIRGA_RAIN_MAX_HITS * sizeof(virga_impact_gpu))
 
 VkDeviceSize rain_hits_bytes(void)
@@ -89,11 +87,11 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
     virga_record_list(context, cmd, rain->hit_find, rain->hit_scan, rain->list, pane->groups);
-    virga_dispatch_indirect(context, cmd, rain->hit_count, rain->list_buffer);
+    virga_dispatch_indirect(context, cmd, rain->hit_count, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, rain->hit_place, 1);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_indirect(context, cmd, rain->hit_write, rain->list_buffer);
+    virga_dispatch_indirect(context, cmd, rain->hit_write, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT);

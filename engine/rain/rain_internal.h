@@ -162,7 +162,8 @@ struct virga_rain {
     virga_rain_stats stats;
 };
 
-/* What a tick's passes read besides travels and weights: small enough for the least uniform buffer that Vulkan allows. */
+/* What a tick's passes read besides travels and weights: small enough for the least uniform
+ * buffer that Vulkan allows. */
 typedef struct rain_tick_tables {
     virga_tick_gpu tick;
     virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE  (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define MOST_STEP_S 10.0
 
 uint32_t rain_tick_bytes(void)
@@ -208,7 +207,7 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "rain.impacts");
     virga_record_list(context, cmd, rain->impact_find, rain->impact_scan, rain->list, rain->groups);
-    virga_dispatch_indirect(context, cmd, rain->impact_write, rain->list_buffer);
+    virga_dispatch_indirect(context, cmd, rain->impact_write, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     virga_pass_end(context, cmd, scope);

@@ -127,8 +127,8 @@ static virga_result create_part(virga_scene *scene, const virga_scene_def *def, 
 }
 
 /* Parts that are still to come keep their share of what the budget has left, by what they ask for: a scene over the
- * budget is then smaller in all of its parts, instead of having first ones that leave nothing. A share is a wish: a part
- * whose smallest does not fit into it may have all that is left. */
+ * budget is then smaller in all of its parts, instead of having first ones that leave nothing. A share is a wish: a
+ * part whose smallest does not fit into it may have all that is left. */
 static virga_result create_in_share(virga_scene *scene, const virga_scene_def *def, uint32_t part, VkDeviceSize to_come)
 {
     virga_context *context = scene->context;

@@ -1,4 +1,5 @@
-/* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for a target (attach), drawing. */
+/* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for
+ * a target (attach), drawing. */
 #include "splash/splash_internal.h"
 
 #include "shaders/splash_crown_frag.spv.h"
@@ -29,8 +30,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
-
 typedef struct splash_view_block {
     virga_view_gpu view;
     virga_splash_look_gpu look;
@@ -44,8 +43,8 @@ uint32_t splash_view_bytes(void)
 
 /* ---- prepare */
 
-/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the picture's
- * right, its down and its depth span. */
+/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the
+ * picture's right, its down and its depth span. */
 static float handedness(const float clip_from_rel[16])
 {
     const float *m = clip_from_rel; /* columns */
@@ -85,32 +84,22 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .handed = handedness(out->view.clip_from_rel)};
 }
 
-static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
-{
-    virga_barrier(splash->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-}
-
-static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, const virga_buffer *buffer,
-                 size_t groups)
-{
-    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    splash->context->vk.CmdDispatchIndirect(cmd, buffer->buffer, groups);
-}
-
 /* What is to be seen of sprites and of sheets, found side by side. */
 static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
 {
     virga_context *context = splash->context;
-    over(splash, cmd, splash->few_find, splash->state, offsetof(virga_splash_state_gpu, find_groups));
-    over(splash, cmd, splash->droplet_find, splash->state, offsetof(virga_splash_state_gpu, find_droplet_groups));
-    over(splash, cmd, splash->splash_find, splash->state, offsetof(virga_splash_state_gpu, find_splash_groups));
+    virga_dispatch_indirect(context, cmd, splash->few_find, splash->state->buffer,
+                            offsetof(virga_splash_state_gpu, find_groups));
+    virga_dispatch_indirect(context, cmd, splash->droplet_find, splash->state->buffer,
+                            offsetof(virga_splash_state_gpu, find_droplet_groups));
+    virga_dispatch_indirect(context, cmd, splash->splash_find, splash->state->buffer,
+                            offsetof(virga_splash_state_gpu, find_splash_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, splash->view_scan, 2);
-    pass_barrier(splash, cmd);
-    over(splash, cmd, splash->view_list, splash->prepared_buffer, offsetof(virga_splash_prepared_gpu, list_groups));
-    pass_barrier(splash, cmd);
+    virga_indirect_barrier(context, cmd);
+    virga_dispatch_indirect(context, cmd, splash->view_list, splash->prepared_buffer->buffer,
+                            offsetof(virga_splash_prepared_gpu, list_groups));
+    virga_indirect_barrier(context, cmd);
 }
 
 static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
@@ -126,7 +115,7 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->prepared_set);
     record_lists(splash, cmd);
-    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->lists);
+    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->lists->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define ANCHOR_M   64.0 /* anchors lie on multiples of it: floats around them are exact to some micrometres */
 
 static uint32_t ring_bytes(size_t size)
@@ -149,27 +148,10 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
     virga_buffer_flush(splash->context, splash->tick_ring, splash->tick_offset, splash_tick_bytes());
 }
 
-/* What a pass wrote is seen by the next, its indirect arguments too. */
-static void pass_barrier(virga_splash *splash, VkCommandBuffer cmd)
-{
-    virga_barrier(splash->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-}
-
-static void dispatch(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
-{
-    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    splash->context->vk.CmdDispatch(cmd, groups, 1, 1);
-    pass_barrier(splash, cmd);
-}
-
 /* As large as a scan before it has written at `groups` in the state. */
-static void dispatch_indirect(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
-    splash->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    splash->context->vk.CmdDispatchIndirect(cmd, splash->state->buffer, groups);
-    pass_barrier(splash, cmd);
+    virga_dispatch_indirect_and_barrier(splash->context, cmd, pipeline, splash->state->buffer, groups);
 }
 
 static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info, uint32_t i)
@@ -179,13 +161,13 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     push_tick(splash, info, i, still);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
-    dispatch(splash, cmd, splash->spawn_scan, 1);
-    dispatch_indirect(splash, cmd, splash->spawn, offsetof(virga_splash_state_gpu, spawn_groups));
+    virga_dispatch_and_barrier(splash->context, cmd, splash->spawn_scan, 1);
+    over(splash, cmd, splash->spawn, offsetof(virga_splash_state_gpu, spawn_groups));
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "splash.step");
-    dispatch_indirect(splash, cmd, splash->step, offsetof(virga_splash_state_gpu, droplet_groups));
-    dispatch(splash, cmd, splash->fall_scan, 1);
-    dispatch_indirect(splash, cmd, splash->fall, offsetof(virga_splash_state_gpu, fall_groups));
+    over(splash, cmd, splash->step, offsetof(virga_splash_state_gpu, droplet_groups));
+    virga_dispatch_and_barrier(splash->context, cmd, splash->fall_scan, 1);
+    over(splash, cmd, splash->fall, offsetof(virga_splash_state_gpu, fall_groups));
     virga_pass_end(context, cmd, scope);
     splash->droplets = splash->droplet_buffers[splash_current(splash) ^ 1];
     splash->ticks++;
@@ -211,7 +193,8 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
         push_tick(splash, info, 0, shift);
         splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
-        dispatch(splash, cmd, splash->rebase, (most + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
+        virga_dispatch_and_barrier(splash->context, cmd, splash->rebase,
+                                   (most + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
     }
     splash->anchored = true;
 }

@@ -2,10 +2,10 @@
  *
  * Asphalt is table 1 of Mizukami et al. as printed. Concrete makes none while it is only moist, and weaker ones than
  * asphalt where a film or a puddle stands on it; 10 mm of water give a crown-cone on all materials; on dry ones a drop
- * leaves a spot, but a disk on dry steel (their sections 2.2 and 4.3). The others are set by likeness: rough and hard as
- * asphalt, smooth and hard as concrete; what is smooth and takes up nothing shows a disk as steel does; soft ones and
- * leaves take most of the drop. Shares of water are ours: the paper has none. They make droplets of 0.3 to 0.7 mm from a
- * drop of 2 mm, as such splashes have (Bai, Rusche and Gosman 2002). */
+ * leaves a spot, but a disk on dry steel (their sections 2.2 and 4.3). The others are set by likeness: rough and hard
+ * as asphalt, smooth and hard as concrete; what is smooth and takes up nothing shows a disk as steel does; soft ones
+ * and leaves take most of the drop. Shares of water are ours: the paper has none. They make droplets of 0.3 to 0.7 mm
+ * from a drop of 2 mm, as such splashes have (Bai, Rusche and Gosman 2002). */
 #include "splash/splash_internal.h"
 
 #include <math.h>

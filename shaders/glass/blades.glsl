@@ -8,7 +8,10 @@ vec2 in_blade(vec2 place, vec2 middle, vec2 along)
     return vec2(dot(off, vec2(-along.y, along.x)), dot(off, along));
 }
 
-vec2 now_in_blade(uint i, vec2 place) { return in_blade(place, to_vec2(tick.blades[i].middle), to_vec2(tick.blades[i].along)); }
+vec2 now_in_blade(uint i, vec2 place)
+{
+    return in_blade(place, to_vec2(tick.blades[i].middle), to_vec2(tick.blades[i].along));
+}
 
 vec2 before_in_blade(uint i, vec2 place)
 {
@@ -54,7 +57,8 @@ bool in_band(vec2 place)
 {
     for (uint i = 0u; i < tick.blade_count; i++) {
         const vec2 now = abs(now_in_blade(i, place));
-        if (now.x <= tick.blades[i].half_width_m + tick.band_m && now.y <= tick.blades[i].half_length_m + tick.particle_m)
+        if (now.x <= tick.blades[i].half_width_m + tick.band_m &&
+            now.y <= tick.blades[i].half_length_m + tick.particle_m)
             return true;
     }
     return false;
@@ -70,7 +74,8 @@ vec2 pushed_by(uint i, vec2 at, vec2 was, bool flip, float slide_m, inout bool p
     const float end = abs(now.y) - tick.blades[i].half_length_m;
     if (end > 0.0 && abs(now.x) < tick.blades[i].half_width_m)
         return out_of_blade(i, vec2(now.x, sign(now.y) * (tick.blades[i].half_length_m + tick.particle_m)));
-    if (end > 0.0 && abs(now.x) < reach && length(vec2(abs(now.x) - tick.blades[i].half_width_m, end)) >= tick.particle_m)
+    if (end > 0.0 && abs(now.x) < reach &&
+        length(vec2(abs(now.x) - tick.blades[i].half_width_m, end)) >= tick.particle_m)
         return at; // beside its corner
     const float side = abs(start) > 1e-7 ? sign(start) : tick.blades[i].side == 0.0 ? 1.0 : tick.blades[i].side;
     pushed = pushed || tick.blades[i].side != 0.0;

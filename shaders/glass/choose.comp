@@ -13,23 +13,28 @@ void leave_trail(uint place, uint entry, uint cell, inout virga_glass_drop_gpu d
 {
     const float square_m2 = tick.pane.cell_m * tick.pane.cell_m, a = base_radius(drop.water_nl);
     const float width = min(2.0 * a / tick.pane.cell_m, 1.0);
-    const uint left = min(round_by_chance(tick.film_m * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)), drop.water_nl / 8u);
+    const uint left =
+        min(round_by_chance(tick.film_m * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)),
+            drop.water_nl / 8u);
     film[cell] += left;
     drop.water_nl -= left;
     drop.tail_m += tick.pane.cell_m;
     const uint seed = landing_count() + entry;
     const uint hash = virga_hash3(drop.random, tick.tick, 2u);
-    if (tick.tail_radius_m <= 0.0 || drop.tail_m < tick.tail_m * (0.4 + 1.2 * virga_unit(hash)) || seeds[seed].water_nl != 0u)
+    if (tick.tail_radius_m <= 0.0 || drop.tail_m < tick.tail_m * (0.4 + 1.2 * virga_unit(hash)) ||
+        seeds[seed].water_nl != 0u)
         return;
     const float radius = tick.tail_radius_m * (0.35 + 0.65 * virga_unit(virga_hash1(hash)));
-    const uint water = min(uint(tick.drop_nl_of_m3 * radius * radius * radius), uint(tick.tail_share * float(drop.water_nl)));
+    const uint water =
+        min(uint(tick.drop_nl_of_m3 * radius * radius * radius), uint(tick.tail_share * float(drop.water_nl)));
     if (water == 0u)
         return;
     drop.tail_m = 0.0;
     drop.water_nl -= water;
     const vec2 shift = vec2(virga_unit(virga_hash2(hash, 1u)), virga_unit(virga_hash2(hash, 2u))) - 0.5;
-    seeds[seed] = virga_glass_seed_gpu(to_array(to_pane(cell_middle(cell) + 0.6 * shift * tick.pane.cell_m)), float[2](0.0, 0.0), water, 0u,
-                                       0u, cell, virga_hash2(drop.id, tick.tick), VIRGA_GLASS_DROP | VIRGA_GLASS_TAIL);
+    seeds[seed] =
+        virga_glass_seed_gpu(to_array(to_pane(cell_middle(cell) + 0.6 * shift * tick.pane.cell_m)), float[2](0.0, 0.0),
+                             water, 0u, 0u, cell, virga_hash2(drop.id, tick.tick), VIRGA_GLASS_DROP | VIRGA_GLASS_TAIL);
 }
 
 // Who came to which cell in the round before. Each cell has one writer: the one that entered, else the one that left.
@@ -52,7 +57,8 @@ void write_down(uint place, uint entry, inout virga_glass_drop_gpu drop)
     }
 }
 
-const ivec2 ways[8] = ivec2[8](ivec2(1, 0), ivec2(1, 1), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1));
+const ivec2 ways[8] = ivec2[8](ivec2(1, 0), ivec2(1, 1), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(-1, -1),
+                               ivec2(0, -1), ivec2(1, -1));
 
 // How likely the way ahead and those to its right and left are before the glass has its say, so that the mean step lies
 // in the direction of motion, which is by `off` (its tangent) to the left of the middle way. With shares s + t to the
@@ -82,9 +88,11 @@ ivec2 choose_way(virga_glass_drop_gpu drop, ivec2 cell)
     const float turn = atan(v.y, v.x) * (4.0 / 3.14159265);
     const float nearest = floor(turn + 0.5);
     const uint ahead = uint(int(nearest) + 8) & 7u, right = (ahead + 7u) & 7u, left = (ahead + 1u) & 7u;
-    const vec3 shares = even_shares(tan((turn - nearest) * (3.14159265 / 4.0)), (ahead & 1u) != 0u) *
-                        vec3(cell_draw(cell + ways[ahead]), cell_draw(cell + ways[right]), cell_draw(cell + ways[left]));
-    const float lot = virga_unit(virga_hash3(drop.random, tick.tick, 16u + round_index)) * (shares.x + shares.y + shares.z);
+    const vec3 shares =
+        even_shares(tan((turn - nearest) * (3.14159265 / 4.0)), (ahead & 1u) != 0u) *
+        vec3(cell_draw(cell + ways[ahead]), cell_draw(cell + ways[right]), cell_draw(cell + ways[left]));
+    const float lot =
+        virga_unit(virga_hash3(drop.random, tick.tick, 16u + round_index)) * (shares.x + shares.y + shares.z);
     return ways[lot < shares.x ? ahead : lot < shares.x + shares.y ? right : left];
 }
 

@@ -33,8 +33,8 @@ float holding(float a, uint cell, uint word)
 // solution of the linear equation is taken whole: without H, v goes to F / C with the time constant m / C, which gives
 // w. What holds then acts against the velocity that comes out, not the one before: v = w - H s / C v/|v|, so v lies
 // along w and is shorter by H s / C. Against the one before, slow drops would swing from side to side, ever more where
-// H s is more than F - H. A drop at rest stays there while F is below H; one that runs feels a part of H, which can stop
-// it but not push it back.
+// H s is more than F - H. A drop at rest stays there while F is below H; one that runs feels a part of H, which can
+// stop it but not push it back.
 vec2 next_velocity(vec2 velocity, vec2 force, float hold, float mass, float a)
 {
     const bool runs = length(velocity) > 1e-4;

@@ -19,7 +19,8 @@ void empty_bin(uint bin)
     const uint hash = virga_hash3(tick.blades[i].random, bin, tick.tick);
     const float share = (float(bin % VIRGA_GLASS_BINS) + virga_unit(hash)) / float(VIRGA_GLASS_BINS) - 0.5;
     const float side = tick.blades[i].side == 0.0 ? 1.0 : tick.blades[i].side;
-    const vec2 at = out_of_blade(i, vec2(side * (tick.blades[i].half_width_m + 1.5 * tick.particle_m), 2.0 * share * tick.blades[i].half_length_m));
+    const vec2 at = out_of_blade(i, vec2(side * (tick.blades[i].half_width_m + 1.5 * tick.particle_m),
+                                         2.0 * share * tick.blades[i].half_length_m));
     state.bins_nl[bin] -= parts * tick.particle_nl;
     seeds[seed] = virga_glass_seed_gpu(to_array(at), float[2](0.0, 0.0), tick.particle_nl, parts, 0u, NOWHERE,
                                        hash, VIRGA_GLASS_PARTICLE);

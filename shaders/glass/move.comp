@@ -24,7 +24,8 @@ shared uint evaporated, most_nl;
 // Water that a drop loses: tails shrink (Goto et al., 4.1), all dry.
 uint loss(uint water, uint kind, uint random, float a)
 {
-    const float rate_nl_s = 3.14159265 * a * a * ((kind & VIRGA_GLASS_TAIL) != 0u ? tick.shrink_nl_s : tick.evaporation_m_s * 1e12);
+    const float rate_nl_s =
+        3.14159265 * a * a * ((kind & VIRGA_GLASS_TAIL) != 0u ? tick.shrink_nl_s : tick.evaporation_m_s * 1e12);
     return min(round_by_chance(rate_nl_s * tick.tick_s, virga_hash3(random, tick.tick, 1u)), water);
 }
 
@@ -39,7 +40,8 @@ void let_move(uint place, uint kind, uint water, float mass, float a)
 {
     const vec2 at = to_vec2(drops[place].position), before = to_vec2(drops[place].velocity);
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP;
-    const uint cell = on_mesh ? drops[place].cell : cell_number(clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1));
+    const uint cell = on_mesh ? drops[place].cell
+                              : cell_number(clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1));
     const uint word = surface[cell];
     vec2 velocity = next_velocity(before, pull(at, mass, a, word), holding(a, cell, word), mass, a);
     const float most = 0.9 * float(tick.cells_per_tick) * tick.pane.cell_m / tick.tick_s;

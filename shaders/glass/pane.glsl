@@ -10,7 +10,8 @@ layout(scalar, set = 0, binding = 2) buffer Drops { virga_glass_drop_gpu drops[]
 layout(scalar, set = 0, binding = 5) buffer Claims { uint claims[]; }; // two for each cell, one behind the other
 layout(scalar, set = 0, binding = 6) buffer Occupants { uint occupants[]; }; // place + 1 of a cell's drop; 0: none
 layout(scalar, set = 0, binding = 7) buffer Film { uint film[]; }; // nl
-layout(scalar, set = 0, binding = 8) buffer Passed { uint passed[]; }; // tick in which a cell was last run over; 0: never
+// Tick in which a cell was last run over; 0: never.
+layout(scalar, set = 0, binding = 8) buffer Passed { uint passed[]; };
 layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]; };
 layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; };
 layout(scalar, set = 0, binding = 13) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };

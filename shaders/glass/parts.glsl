@@ -4,7 +4,8 @@
 //
 // A particle's number here is its place in the list of awake ones, which has all particles first: positions lie close
 // together.
-layout(scalar, set = 0, binding = 11) buffer Grid { uint grid[]; }; // heads of all cells, then the next of each; + 1, 0: none
+// Heads of all cells, then the next of each; + 1, 0: none.
+layout(scalar, set = 0, binding = 11) buffer Grid { uint grid[]; };
 layout(scalar, set = 0, binding = 10) buffer Ranks { uint ranks[]; };
 layout(scalar, set = 0, binding = 15) buffer Moved { vec2 moved[]; }; // positions in every other round
 

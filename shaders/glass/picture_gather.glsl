@@ -124,79 +124,7 @@ void add_balls(virga_glass_tile_gpu tile)
 #endif
 }
 
-// ---- film
-
-// Thickness of the sheet on a cell. Without a branch: in one, software Vulkan reads lane by lane.
-float sheet_m(ivec2 cell)
-{
-    const ivec2 most = ivec2(look.pane.columns, look.pane.rows) - 1, near = clamp(cell, ivec2(0), most);
-    const uint number = uint(near.x) + uint(near.y) * look.pane.columns;
-    const float nl = float(film[number]) * film_fresh(passed[number]);
-    return cell == near ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
-}
-
-// Between the middles of four cells; of the nearest where cells are smaller than texels.
-float sheet_at(vec2 place)
-{
-    if (!FILM)
-        return 0.0;
-    const bool wide = look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]);
-    const vec2 at = place / look.pane.cell_m - 0.5, low = wide ? floor(at) : floor(at + 0.5);
-    const vec2 t = wide ? at - low : vec2(0.0);
-    const ivec2 cell = ivec2(low);
-    return mix(mix(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), t.x),
-               mix(sheet_m(cell + ivec2(0, 1)), sheet_m(cell + ivec2(1, 1)), t.x), t.y);
-}
-
-// Beads with a shape of the tile's cells, and of those beside it.
-void load_beads(ivec2 tile)
-{
-    const ivec2 corner = ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1;
-    const ivec2 span = min(ivec2(floor(vec2(tile + 1) * tile_m() / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
-    const ivec2 size = ivec2(look.pane.columns, look.pane.rows);
-    for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
-        const ivec2 cell = corner + ivec2(int(i) % span.x, int(i) / span.x);
-        if (any(lessThan(cell, ivec2(0))) || any(greaterThanEqual(cell, size)))
-            continue;
-        const uint number = uint(cell.x) + uint(cell.y) * look.pane.columns;
-        const float broken_nl = float(film[number]) * (1.0 - film_fresh(passed[number]));
-        const vec2 shapes = bead_shapes(bead_radii(number, broken_nl));
-        for (uint k = 0u; k < BEADS; k++)
-            if (shapes[k] > 0.0)
-                beads[atomicAdd(bead_count, 1u)] = bead_of(cell, number, k, broken_nl);
-    }
-}
-
-void add_beads(ivec2 tile)
-{
-    if (gl_LocalInvocationIndex == 0u)
-        bead_count = 0u;
-    barrier();
-    load_beads(tile);
-    barrier();
-    for (uint i = 0u; i < bead_count; i++) {
-        const vec3 bead = beads[i];
-        add(Ball(bead.xy, vec2(0.0), 1.0 / bead.z, bead.z * look.cap_height / unit_m, bead_shapes(bead.zz).x, 0.0));
-    }
-}
-
-// (map) What the mist's map has there, as the draw of it filters it.
-float film_mist(ivec2 texel)
-{
-    if (!WITH_MAP)
-        return 0.0;
-    const vec2 most = vec2(look.mist_columns, look.mist_rows) - 1.0;
-    const vec2 at = clamp((vec2(texel) + 0.5) * texel_m() / (look.pane.cell_m * float(look.mist_cells)) - 0.5,
-                          vec2(0.0), most);
-    const uvec2 low = uvec2(at), high = min(low + 1u, uvec2(most));
-    vec4 four;
-    for (uint i = 0u; i < 4u; i++) {
-        const uvec2 from = uvec2((i & 1u) != 0u ? high.x : low.x, (i & 2u) != 0u ? high.y : low.y);
-        four[i] = unpackUnorm4x8(mist[(from.x + from.y * look.mist_pitch) / 4u])[from.x & 3u];
-    }
-    const vec2 t = at - vec2(low);
-    return mix(mix(four.x, four.y, t.x), mix(four.z, four.w, t.x), t.y);
-}
+#include "picture_gather_film.glsl"
 
 // ---- what sums come to
 
@@ -238,12 +166,32 @@ void list_tile(uint number, bool shown)
     }
 }
 
-// No branch around all of it: in one, software Vulkan reads lane by lane. A workgroup beyond the list's end does its
-// last tile once more.
-void gather()
+// The tile of this workgroup. One beyond the list's end does the last tile once more.
+uint tile_of_group()
 {
     const uint turn = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
-    const uint number = wet[min(turn, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
+    return wet[min(turn, (FILM ? work.film_tiles : work.tiles) - 1u) + (FILM ? look.max_tiles : 0u)];
+}
+
+void begin_texels(ivec2 first)
+{
+#define BEGIN(i) texel##i = Texel((vec2(first + ivec2(0, i)) + 0.5) * texel_m(), ivec4(0), 0);
+    FOR_EACH(BEGIN)
+}
+
+// True if any may have something to show.
+bool put_texels(ivec2 first)
+{
+    bool shown = false;
+#define PUT(i) shown = put(first + ivec2(0, i), texel##i) || shown;
+    FOR_EACH(PUT)
+    return shown;
+}
+
+// No branch around all of it: in one, software Vulkan reads lane by lane.
+void gather()
+{
+    const uint number = tile_of_group();
     const ivec2 tile = ivec2(number % look.tile_columns, number / look.tile_columns);
     const ivec2 first = tile * TILE + ivec2(gl_LocalInvocationIndex % TILE, gl_LocalInvocationIndex / TILE);
     const uint count = tiles[number].count;
@@ -252,15 +200,11 @@ void gather()
     // 1.6: the fatter side of one that sags.
     unit_m = max(uintBitsToFloat(work.highest), WITH_BEADS ? VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m : 1e-6) *
              look.cap_height * 1.6;
-#define BEGIN(i) texel##i = Texel((vec2(first + ivec2(0, i)) + 0.5) * texel_m(), ivec4(0), 0);
-    FOR_EACH(BEGIN)
+    begin_texels(first);
     add_balls(tiles[number]);
     if (WITH_BEADS)
         add_beads(tile);
-    bool shown = false;
-#define PUT(i) shown = put(first + ivec2(0, i), texel##i) || shown;
-    FOR_EACH(PUT)
-    const bool leads = gl_LocalInvocationIndex == 0u;
+    const bool shown = put_texels(first), leads = gl_LocalInvocationIndex == 0u;
     if (leads)
         written[holds] = (held & VIRGA_GLASS_HOLDS_RELIEF) | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
     if (shown || (leads && (held & VIRGA_GLASS_HOLDS_RELIEF) != 0u))

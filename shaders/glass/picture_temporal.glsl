@@ -2,9 +2,10 @@
 // picture_plate.glsl and picture_path.glsl.
 //
 // A drop shows the place q of the picture at the pixel p. Between p and its neighbours q changes by J, some tens of
-// pixels a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture, where the
-// water that is at p now was at p0, and showed q0. There what is at q now was not at p0, but at p0 + J^-1 (q' - q0).
-// So a picture in a drop moves with the pane, and against it only by a small part of what the scene does.
+// pixels a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture,
+// where the water that is at p now was at p0, and showed q0. There what is at q now was not at p0, but at
+// p0 + J^-1 (q' - q0). So a picture in a drop moves with the pane, and against it only by a small part of what the
+// scene does.
 #include "gpu/temporal.glsl"
 
 #if defined(MOTION) || defined(REACTIVE)
@@ -75,8 +76,8 @@ bool moves_inside(Path path, Water water)
 }
 
 // `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into
-// them, whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps still
-// its history is as good as any.
+// them, whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps
+// still its history is as good as any.
 void write_temporal(vec2 inside, float cover)
 {
     const vec2 own = water_before() + inside - gl_FragCoord.xy;

@@ -46,7 +46,8 @@ void start_particles(uint i, virga_glass_seed_gpu seed)
 {
     for (uint k = 0u; k < seed.count; k++) {
         const uint hash = virga_hash4(seed.id, tick.tick, i, k), rank = ranks[i] + k;
-        const float turn = 6.2831853 * virga_unit(hash), far = tick.particle_m * (0.2 + 0.8 * virga_unit(virga_hash1(hash)));
+        const float turn = 6.2831853 * virga_unit(hash),
+                    far = tick.particle_m * (0.2 + 0.8 * virga_unit(virga_hash1(hash)));
         const vec2 at = to_vec2(seed.position) + far * vec2(cos(turn), sin(turn));
         const uint water = seed.water_nl + (k < seed.extra_nl ? 1u : 0u);
         if (!has_glass(at))

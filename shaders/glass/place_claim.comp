@@ -25,7 +25,8 @@ virga_glass_seed_gpu arrival(uint i)
 {
     const uint hash = virga_hash3(tick.pane.seed, tick.tick, i);
     virga_glass_seed_gpu seed = no_seed();
-    const vec2 at = vec2(virga_unit(virga_hash2(hash, 1u)) * tick.pane.width_m, virga_unit(virga_hash2(hash, 2u)) * tick.pane.height_m);
+    const vec2 at = vec2(virga_unit(virga_hash2(hash, 1u)) * tick.pane.width_m,
+                         virga_unit(virga_hash2(hash, 2u)) * tick.pane.height_m);
     const float cosine = -dot(to_vec(tick.fall), normalize(frame_at(at).normal));
     if (cosine <= virga_unit(virga_hash2(hash, 3u)) * tick.fall_cosine)
         return seed;

@@ -30,7 +30,8 @@ ivec3 push_apart(uint own, uint head, vec2 at)
                     continue;
                 // Two in one place part in a direction that both find by their numbers.
                 const float turn_by = 6.2831853 * virga_unit(virga_hash2(min(own, other - 1u), max(own, other - 1u)));
-                const vec2 way = apart > 1e-7 ? off / apart : vec2(cos(turn_by), sin(turn_by)) * (own < other - 1u ? 1.0 : -1.0);
+                const vec2 way =
+                    apart > 1e-7 ? off / apart : vec2(cos(turn_by), sin(turn_by)) * (own < other - 1u ? 1.0 : -1.0);
                 sum += ivec3(ivec2(round(way * (0.5 * (1.0 + tick.penalty) * overlap / UNIT_M))), 1);
             }
         }

@@ -33,8 +33,9 @@ void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
         // The seed may hold a tail that this drop left in the same tick: that water goes along.
         const uint tail = seeds[seed_of(entry)].water_nl;
         film[drop.cell] += tail;
-        seeds[seed_of(entry)] = virga_glass_seed_gpu(drop.position, float[2](0.0, 0.0), each, parts - 1u, extra > 0u ? extra - 1u : 0u,
-                                                     NOWHERE, drop.id, VIRGA_GLASS_PARTICLE);
+        seeds[seed_of(entry)] =
+            virga_glass_seed_gpu(drop.position, float[2](0.0, 0.0), each, parts - 1u, extra > 0u ? extra - 1u : 0u,
+                                 NOWHERE, drop.id, VIRGA_GLASS_PARTICLE);
     }
     drop.water_nl = each + (extra > 0u ? 1u : 0u);
     drop.merged_nl = 0u;

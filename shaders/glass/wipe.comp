@@ -31,7 +31,8 @@ void main()
     if (here == 0u || !touched(blade, middle, middle, 0.0))
         return;
     const vec2 local = now_in_blade(blade, middle);
-    const float kept_nl = tick.blades[blade].film_m * streak(blade, local.y) * tick.pane.cell_m * tick.pane.cell_m * 1e12;
+    const float kept_nl =
+        tick.blades[blade].film_m * streak(blade, local.y) * tick.pane.cell_m * tick.pane.cell_m * 1e12;
     const uint kept = min(here, uint(kept_nl));
     film[cell] = kept;
     passed[cell] = tick.tick;

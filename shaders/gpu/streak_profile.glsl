@@ -1,4 +1,5 @@
-// streak_profile.glsl - coverage of a small round thing that moves while the shutter is open, across its way and along it.
+// streak_profile.glsl - coverage of a small round thing that moves while the shutter is open, across its way and along
+// it.
 
 // A box filter of a pixel on the edge; the profile of a disc's chords where it is wide enough to show. Narrow streaks
 // get its mean, pi / 4, so coverage does not depend on the resolution.

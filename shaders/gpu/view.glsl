@@ -5,8 +5,8 @@
 
 vec4 project(mat4 m, vec3 p) { return m * vec4(p, 1.0); }
 
-// How far it is, in pixels, from where something is on the picture now to where it was in the previous frame's. What the
-// camera had not before it then has not moved.
+// How far it is, in pixels, from where something is on the picture now to where it was in the previous frame's. What
+// the camera had not before it then has not moved.
 vec2 motion_px(vec4 now, vec4 before)
 {
     if (now.w < NEAR_W || before.w < NEAR_W)

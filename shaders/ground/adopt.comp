@@ -27,15 +27,16 @@ float noise(vec2 at)
     const ivec2 low = ivec2(floor(at));
     vec2 t = at - vec2(low);
     t = t * t * (3.0 - 2.0 * t);
-    return mix(mix(knot(low), knot(low + ivec2(1, 0)), t.x), mix(knot(low + ivec2(0, 1)), knot(low + ivec2(1, 1)), t.x), t.y);
+    return mix(mix(knot(low), knot(low + ivec2(1, 0)), t.x), mix(knot(low + ivec2(0, 1)), knot(low + ivec2(1, 1)), t.x),
+               t.y);
 }
 
 float bumps_um(ivec2 cell, virga_soil_gpu soil)
 {
     if (soil.bumps_um <= 0.0)
         return 0.0;
-    // Three octaves; cells are taken modulo a large period, with its seam 26 km out, so that floats stay fine far from the
-    // origin.
+    // Three octaves; cells are taken modulo a large period, with its seam 26 km out, so that floats stay fine far from
+    // the origin.
     const vec2 at = vec2((cell + 0x80000) & 0xfffff) / soil.bump_cells;
     return soil.bumps_um * (2.4 * noise(at) + 1.2 * noise(2.0 * at + 17.3) + 0.6 * noise(4.0 * at + 5.1));
 }

@@ -1,10 +1,10 @@
 // flow.comp - between rains: water runs downhill, sinks and dries, over all of the window.
 //
 // A thin sheet whose inertia does not matter (the diffusive wave): through the side that two cells share flows
-//   q = h^(5/3) sqrt(S) / n   per metre of width (Manning), h the water above what the roughness of the upper cell holds
-//   back, S the slope of the surface.
-// It never takes more than a quarter of that water nor a fifth of the difference in height, so five cells can not swing,
-// nor a cell run below empty. Both cells of a pair work out the same integer, so nothing is made or lost.
+//   q = h^(5/3) sqrt(S) / n   per metre of width (Manning), h the water above what the roughness of the upper cell
+//   holds back, S the slope of the surface.
+// It never takes more than a quarter of that water nor a fifth of the difference in height, so five cells can not
+// swing, nor a cell run below empty. Both cells of a pair work out the same integer, so nothing is made or lost.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -89,7 +89,8 @@ void main()
     if (own.material != NO_GROUND) {
         const virga_soil_gpu soil = tick.soils[own.material];
         cell.free_nl = uint(int(cell.free_nl) + inflow);
-        const uint hash = virga_hash2(tick.seed + 0x9e3779b9u * tick.tick, uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
+        const uint hash =
+            virga_hash2(tick.seed + 0x9e3779b9u * tick.tick, uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
         const uint sunk = min(round_fairly(soil.sink_nl_s * tick.flow_s, hash), cell.free_nl);
         cell.free_nl -= sunk;
         const uint drained = soil.drain != 0u ? cell.free_nl : 0u;

@@ -35,7 +35,8 @@ void main()
     if (lane < VIRGA_GROUND_STATES)
         states[lane] = 0u;
     barrier();
-    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex, window = tick.tiles * tick.tiles * VIRGA_GROUND_TILE_CELLS;
+    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex,
+               window = tick.tiles * tick.tiles * VIRGA_GROUND_TILE_CELLS;
     if (place < window) {
         const virga_cell_gpu cell = cells[place];
         const uint material = floors[place].material;

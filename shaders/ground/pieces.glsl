@@ -42,7 +42,8 @@ vec2 in_window(virga_impact_gpu impact)
 {
     const vec2 position = vec2(impact.position[0], impact.position[2]);
     const vec2 origin = vec2(head.origin[0], head.origin[2]);
-    const vec2 high = vec2(tick.window_high[0], tick.window_high[2]), low = vec2(tick.window_low[0], tick.window_low[2]);
+    const vec2 high = vec2(tick.window_high[0], tick.window_high[2]),
+               low = vec2(tick.window_low[0], tick.window_low[2]);
     // The same in every pass that asks: one that found another cell would leave water on its way.
     precise vec2 at = (position + ((origin - high) - low)) * tick.inv_cell_m;
     return at;

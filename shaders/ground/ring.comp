@@ -1,5 +1,5 @@
-// ring.comp - drops of this tick that fell on water start rings. One workgroup, so that places are handed out in the order
-// of impacts: the newest rings take the places of the oldest.
+// ring.comp - drops of this tick that fell on water start rings. One workgroup, so that places are handed out in the
+// order of impacts: the newest rings take the places of the oldest.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -24,10 +24,12 @@ void main()
     const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
     const float radius = VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * age;
     const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
-    const vec2 cell = vec2(ivec2(ring.cell[0], ring.cell[1]) -
-                           ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) + vec2(ring.in_cell[0], ring.in_cell[1]);
+    const vec2 cell =
+        vec2(ivec2(ring.cell[0], ring.cell[1]) - ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE) +
+        vec2(ring.in_cell[0], ring.in_cell[1]);
     offset_m = side * radius;
-    const vec2 at = (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
+    const vec2 at =
+        (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     moment = vec3(age, layer_of(ring.depth_m), ring.crater_m);
     const bool lives = ring.crater_m > 0.0 && age < VIRGA_RING_TIME_S;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

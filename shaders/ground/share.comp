@@ -25,7 +25,8 @@ void give(uint place, int nl)
         atomicAdd(arrivals[place].given_nl, uint(nl));
 }
 
-// The level to which `water` fills cells of these heights, from the lowest up (heights of who takes nothing: very high).
+// The level to which `water` fills cells of these heights, from the lowest up (heights of who takes nothing: very
+// high).
 int level_of(int heights[5], int water)
 {
     for (int i = 0; i < 4; i++) // insertion sort

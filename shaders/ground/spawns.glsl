@@ -22,7 +22,10 @@ struct Spawning {
     vec3 position;   // relative to the impacts' (or returns') origin
 };
 
-uint state_at(uint place) { return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cells[place], floors[place].material); }
+uint state_at(uint place)
+{
+    return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cells[place], floors[place].material);
+}
 
 uint material_at(uint place, virga_impact_gpu impact)
 {
@@ -46,13 +49,14 @@ vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
 uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, float depth_m)
 {
     if (head.is_return != 0u)
-        return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_diameter_m ? VIRGA_SPLASH_DOT : VIRGA_SPLASH_NONE;
+        return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_diameter_m ? VIRGA_SPLASH_DOT
+                                                                                      : VIRGA_SPLASH_NONE;
     const bool splashes = impact.diameter_m >= rule.least_diameter_m && depth_m >= rule.least_depth_m;
     return splashes ? rule.model : VIRGA_SPLASH_NONE;
 }
 
-// Within the radius that the quota gives, all drops splash; beyond, as many as fall on a disc of that radius in each ring
-// of its width.
+// Within the radius that the quota gives, all drops splash; beyond, as many as fall on a disc of that radius in each
+// ring of its width.
 float chance_to_show(float distance2, float near_m) { return min(near_m * near_m / max(distance2, 1e-6), 1.0); }
 
 // Of a piece: where it is, the hash of its chances, and the chance that such a splash is shown.

@@ -42,7 +42,8 @@ Slot slot_at(uint slot_index)
 // Nothing of a slot can come near the pane.
 bool far_away(Slot slot)
 {
-    const vec3 middle = to_vec(pane.corner) + 0.5 * (to_vec(pane.along_u) * pane.width_m + to_vec(pane.along_v) * pane.height_m);
+    const vec3 middle =
+        to_vec(pane.corner) + 0.5 * (to_vec(pane.along_u) * pane.width_m + to_vec(pane.along_v) * pane.height_m);
     const float way = length(slot.velocity - to_vec(pane.velocity)) * pane.step_s;
     return length(slot.position - middle) > 0.5 * (pane.width_m + pane.height_m) + way + 1.75 * slot.spread;
 }
@@ -52,7 +53,8 @@ vec3 shift_of(Slot slot, uint k)
     if (k == 0u)
         return vec3(0.0);
     const uint hash = virga_hash2(slot.id, k);
-    return slot.spread * (2.0 * vec3(virga_unit(virga_hash2(hash, 0u)), virga_unit(virga_hash2(hash, 1u)), virga_unit(virga_hash2(hash, 2u))) - 1.0);
+    return slot.spread * (2.0 * vec3(virga_unit(virga_hash2(hash, 0u)), virga_unit(virga_hash2(hash, 1u)),
+                                     virga_unit(virga_hash2(hash, 2u))) - 1.0);
 }
 
 Hit find_hit(Slot slot, uint k)
@@ -70,7 +72,8 @@ Hit find_hit(Slot slot, uint k)
     if (any(lessThan(hit.place, vec2(0.0))) || hit.place.x > pane.width_m || hit.place.y > pane.height_m)
         return hit;
     // Where boxes hand over to each other, each has a part of the drops.
-    if (virga_unit(virga_hash3(slot.id, k, 7u)) >= level_share(box_radius(slot.position + shift_of(slot, k)), slot.level))
+    if (virga_unit(virga_hash3(slot.id, k, 7u)) >=
+        level_share(box_radius(slot.position + shift_of(slot, k)), slot.level))
         return hit;
     const vec3 there = slot.position + shift_of(slot, k) - slot.velocity * (pane.step_s * (1.0 - share));
     if (find_shelter(there, classes[slot.size_class].slant).height < there.y)

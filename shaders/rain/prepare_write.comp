@@ -2,8 +2,8 @@
 // something, and the light in it.
 //
 // A drop of length D whose middle moves by l while the shutter is open covers a point between its ends for the share
-// D / l of the time (all of it where l < D); towards the ends less, over a ramp of the shorter of the two. In all that is
-// D x l / l: what the drop covers does not depend on its speed (after Garg and Nayar 2007, who have l >> D). What is
+// D / l of the time (all of it where l < D); towards the ends less, over a ramp of the shorter of the two. In all that
+// is D x l / l: what the drop covers does not depend on its speed (after Garg and Nayar 2007, who have l >> D). What is
 // narrower than the sampling is drawn as wide as that and covers less.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -84,12 +84,13 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
     const float radius = 0.5e-3 * diameter_mm;
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
     const float turns = hz * (view.time_close_s - view.time_open_s) * kept;
-    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
+    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) +
+                                       fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
     streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * look.oscillation);
 }
 
-// From where the drop's way is on the picture to where it was when the previous frame was drawn: the whole streak, which
-// has gone on by what the drop has in between.
+// From where the drop's way is on the picture to where it was when the previous frame was drawn: the whole streak,
+// which has gone on by what the drop has in between.
 void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
 {
     if (look.motion == 0u)
@@ -139,7 +140,8 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     streak.tail = float[2](ndc_tail.x, ndc_tail.y);
     streak.depth = float[2](ndc_head.z, ndc_tail.z);
     streak.distance = float[2](clip_head.w, clip_tail.w);
-    streak.width_alpha = halves(max(width_px, view.min_width_px), coverage(width_px, body_px, length(way) / kept, weight));
+    streak.width_alpha =
+        halves(max(width_px, view.min_width_px), coverage(width_px, body_px, length(way) / kept, weight));
     streak.id = drop.id;
     write_motion(index, head, tail, velocity);
     set_light(streak, 0.5 * (head + tail));

@@ -50,7 +50,8 @@ Streak streak_corner(uint vertex)
     streak.along = at_head ? streak.way_px + margin : -margin;
     streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
     const vec2 side = vec2(-along.y, along.x);
-    const vec2 corner = (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
+    const vec2 corner =
+        (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // The same w at all corners, so that everything is interpolated without perspective.
     const float depth = uintBitsToFloat(at_head ? depths.x : depths.y);
 #ifdef MOTION

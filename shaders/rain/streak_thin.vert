@@ -15,7 +15,8 @@ void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
-    place = vec4(streak.across, streak_begun(streak.along, streak.way_px, streak.body_px), streak_turns(streak), streak.distance);
+    place = vec4(streak.across, streak_begun(streak.along, streak.way_px, streak.body_px), streak_turns(streak),
+                 streak.distance);
     // Averaged over the width: half each where it is narrow, by u^2 where it is wide (see streak_wide.frag).
     const float wide = clamp(streak.half_width - 0.75, 0.0, 1.0);
     light_alpha = vec4(mix(streak.centre, streak.rim, wide / 3.0 + (1.0 - wide) * 0.5), streak.alpha);

@@ -30,8 +30,8 @@ vec3 through_drop(vec2 uv, vec3 d)
     return mix(refraction, reflection, fresnel);
 }
 
-// What passes a pixel of a streak shows all of the drop's height there; above and below its middle the world is bent by as
-// much to either side, so the middle stands for the mean.
+// What passes a pixel of a streak shows all of the drop's height there; above and below its middle the world is bent by
+// as much to either side, so the middle stands for the mean.
 vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 {
     const vec2 side = vec2(-direction.y, direction.x);

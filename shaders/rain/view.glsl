@@ -17,8 +17,8 @@ layout(scalar, set = 0, binding = 1) uniform View
 
 #define WIDE_PX 3.0 // from here on a streak shows the inside of its drop
 
-// Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it (body / way, and all
-// of the time where it moves by less than its own length), and of the sampling's width where the drop is narrower.
+// Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it (body / way, and
+// all of the time where it moves by less than its own length), and of the sampling's width where the drop is narrower.
 float streak_coverage(float width_px, float body, float way)
 {
     const float narrow = min(width_px / view.min_width_px, 1.0);

@@ -29,7 +29,7 @@ struct virga_droplet_gpu {
 #define VIRGA_DROPLET_MATERIAL(kind) (((kind) >> 3) & 31u)
 #define VIRGA_DROPLET_STATE(kind)    (((kind) >> 8) & 7u)  /* ground_limits.h, where it came from */
 #define VIRGA_DROPLET_INDEX(kind)    (((kind) >> 16) & 255u) /* among those of its splash */
-#define VIRGA_DROPLET_NUMBER(kind)   (((kind) >> 16) & 8191u) /* among all of its drop, which may stand for many splashes */
+#define VIRGA_DROPLET_NUMBER(kind)   (((kind) >> 16) & 8191u) /* among all of its drop, which may be many splashes */
 #define VIRGA_DROPLET_ALIVE          0x80000000u
 #define VIRGA_DROPLET_FREE           0x40000000u /* has left its pile */
 #define VIRGA_DROPLET_FALLEN         0x20000000u /* down again: its water is about to be given back */

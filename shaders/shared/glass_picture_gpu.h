@@ -76,7 +76,8 @@ struct virga_glass_picture_gpu {
     float eye_before[3];    /* where the camera was then, likewise */
 };
 
-/* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else either. */
+/* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else
+ * either. */
 #define VIRGA_GLASS_DRAW_DEPTH   1u  /* the scene's depth is there to read */
 #define VIRGA_GLASS_DRAW_LAMPS   2u  /* there are any */
 #define VIRGA_GLASS_DRAW_BEHIND  4u

@@ -1,5 +1,5 @@
-// ground_map.glsl - how a host's material reads Virga's ground maps (virga/ground.h, virga_ground_maps). For GLSL hosts:
-// include it, or write the same.
+// ground_map.glsl - how a host's material reads Virga's ground maps (virga/ground.h, virga_ground_maps). For GLSL
+// hosts: include it, or write the same.
 //
 // `at` is the place in cells from the window's low corner: (world.xz - low_m) / cell_m, worked out on the CPU for the
 // camera and added to here, so that it stays exact far from the origin. `low_cell` is the number of that corner's cell,

@@ -113,12 +113,13 @@ struct virga_rain_pane_gpu {
 
 /* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
 struct virga_streak_gpu {
-    float head[2];       /* where it is at the shutter's end (or where the drop met something), normalised device x, y */
+    float head[2];       /* where it is at the shutter's end (or where it met something), normalised device x, y */
     float tail[2];       /* where it was at its start */
     float depth[2];      /* head, tail: depth in the buffer's terms */
     float distance[2];   /* head, tail: view depth (m) */
     uint width_alpha;    /* drawn width (px); coverage at the middle line */
-    uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its light */
+    uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its
+                          * light */
     uint turns;          /* oscillations along the streak; where in a turn it is at the tail */
     uint pad;
     uint light[3];       /* radiance at the middle line (rgb), then at the edge (rgb) */

@@ -20,8 +20,8 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #define VIRGA_SPLASH_BLOCK      256 /* rings and buffers hold whole blocks of so many */
 /* A workgroup of a pass over places: small, so that few splashes keep all cores busy. */
 #define VIRGA_SPLASH_GROUP      64
-/* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes through
- * all that one does, and 256 cost it 50 us more. */
+/* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes
+ * through all that one does, and 256 cost it 50 us more. */
 #define VIRGA_SPLASH_LANES      64
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
@@ -59,8 +59,8 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_BY_MODEL 5
 #define VIRGA_SPLASH_COUNTS   165
 
-/* Splashes lie in a ring: places count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one behind the
- * other, the oldest first; a tick moves those that stay from one buffer into another. */
+/* Splashes lie in a ring: places count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one behind
+ * the other, the oldest first; a tick moves those that stay from one buffer into another. */
 struct virga_splash_state_gpu {
     uint end_droplet;       /* droplets of this tick, those that fall in it too */
     uint staying;           /* that are there after it */
@@ -99,8 +99,8 @@ struct virga_splash_look_gpu {
     float handed;        /* 1, or -1 where the picture is mirrored: which way round faces are the front */
 };
 
-/* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in a
- * word are two half floats, the first in the low bits. */
+/* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in
+ * a word are two half floats, the first in the low bits. */
 struct virga_sprite_gpu {
     float head[2];       /* ends, normalised device x, y */
     float tail[2];

@@ -24,4 +24,7 @@ float normal_between(float low, float high, uint hash)
     return clamp(0.5 * (low + high) + 0.25 * (high - low) * normal_cut(virga_unit(hash)), low, high);
 }
 
-uint whole_between(float low, float high, uint hash) { return uint(low + floor(virga_unit(hash) * (high - low + 1.0))); }
+uint whole_between(float low, float high, uint hash)
+{
+    return uint(low + floor(virga_unit(hash) * (high - low + 1.0)));
+}

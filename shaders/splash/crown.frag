@@ -1,5 +1,5 @@
-// crown.frag - a thin sheet of water, premultiplied: it reflects by Fresnel, hides little of what is behind it, and bends
-// that where it is thick or seen from its edge: at the rim and at its sides.
+// crown.frag - a thin sheet of water, premultiplied: it reflects by Fresnel, hides little of what is behind it, and
+// bends that where it is thick or seen from its edge: at the rim and at its sides.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -33,8 +33,8 @@ void main()
     vec3 n = normalize(normal);
     n = dot(n, d) > 0.0 ? -n : n;
     const float cosine = -dot(n, d), mirror = fresnel(cosine);
-    // Two parallel faces do not bend what is behind them, so the wall of a crown is nearly clear; its rim is a bead, and at
-    // its sides the eye looks along the wall.
+    // Two parallel faces do not bend what is behind them, so the wall of a crown is nearly clear; its rim is a bead,
+    // and at its sides the eye looks along the wall.
     const float rim = smoothstep(0.7, 1.0, sheet.x), edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
     const float thick = clamp(0.04 + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
     const vec3 side = n + d * cosine; // across the line of sight

@@ -1,4 +1,5 @@
-// crown.vert - a point of a sheet: crowns and low sheets that flare towards a rim with fingers, and disks that lie flat.
+// crown.vert - a point of a sheet: crowns and low sheets that flare towards a rim with fingers, and disks that lie
+// flat.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -35,7 +36,8 @@ Shape shape_of(virga_splash_gpu splash, float ago_s)
         s.crown.radius = open.radius;
     s.height = disk ? now.height : max(now.height, open.height);
     s.low = min(now.height, open.height);
-    s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0) : vec3(now.normal.z, 0.0, -now.normal.x));
+    s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0)
+                                               : vec3(now.normal.z, 0.0, -now.normal.x));
     s.across = cross(s.side, now.normal);
     s.fingers = float(clamp(now.droplets, 7u, 11u));
     s.turn = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
@@ -51,7 +53,8 @@ vec3 sheet_point(Shape s, float angle, float up)
         return outward * (s.crown.radius * wobble * up) + s.crown.normal * (s.height * (1.0 - up * up));
     }
     // Fingers are drawn out of the rim; below it the sheet is even.
-    const float wave = 0.5 + 0.5 * cos(s.fingers * angle + s.turn), uneven = 0.5 + 0.5 * sin(2.0 * angle + 1.7 * s.turn);
+    const float wave = 0.5 + 0.5 * cos(s.fingers * angle + s.turn),
+                uneven = 0.5 + 0.5 * sin(2.0 * angle + 1.7 * s.turn);
     const float rim = up * up * (0.4 * wave * wave + 0.2 * uneven);
     const float radius = s.crown.radius * (0.72 + 0.28 * up * up + 0.08 * rim);
     const vec3 leaned = vec3(s.crown.lean.x, 0.0, s.crown.lean.y) * (0.004 * up * up);

@@ -33,8 +33,8 @@ vec3 droplet_at(virga_droplet_gpu droplet, float time_s)
 
 vec3 base_of(virga_droplet_gpu droplet) { return to_vec(droplet.base) + to_vec(view.origin_offset); }
 
-// The tip of a droplet's pile at a time, and how much of the pile is left, 0 for none. One that has let its droplet go sinks
-// in as long as it took to rise.
+// The tip of a droplet's pile at a time, and how much of the pile is left, 0 for none. One that has let its droplet go
+// sinks in as long as it took to rise.
 vec4 pile_tip(virga_droplet_gpu droplet, float time_s)
 {
     const float age = droplet.age_s + time_s, free_s = unpackHalf2x16(droplet.weight_free).y;

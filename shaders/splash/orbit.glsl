@@ -6,12 +6,12 @@
 //   k = Cd rho_a S |u| / (2 m) = 3 rho_a / (4 rho_w d) (0.55 sqrt|u| + 4.8 sqrt(mu / (rho_a d)))^2.
 // (Their equation 5 drops one |V| of equation 2; equation 2 is meant.) The last form has no division by |u|.
 //
-// Their equations 6 and 7 step V by a dt, which for a droplet of 0.1 mm, whose k is 40 1/s as it falls at rest with the air, is off by a third at 60 ticks
-// a second. With k constant over a short time the law is linear and has an exact solution, an exponential (their
-// equation 1); so a step takes half of its time with the k at its start and then the whole with the k that it found in the
-// middle. That is of second order, and stable for any k. What two half steps gain on a whole one, they gain a third of
-// once more (Richardson 1911). At four steps a tick of 1/60 s droplets are within 2e-4 of their way where they should be,
-// in a gale too; without it that is 2e-2.
+// Their equations 6 and 7 step V by a dt, which for a droplet of 0.1 mm, whose k is 40 1/s as it falls at rest with the
+// air, is off by a third at 60 ticks a second. With k constant over a short time the law is linear and has an exact
+// solution, an exponential (their equation 1); so a step takes half of its time with the k at its start and then the
+// whole with the k that it found in the middle. That is of second order, and stable for any k. What two half steps gain
+// on a whole one, they gain a third of once more (Richardson 1911). At four steps a tick of 1/60 s droplets are within
+// 2e-4 of their way where they should be, in a gale too; without it that is 2e-2.
 
 #define WATER_DENSITY 998.2
 #define AIR_VISCOSITY 1.813e-5

@@ -26,7 +26,8 @@ void main()
     const vec3 face = cross(dFdx(position), dFdy(position));
     vec3 n = dot(face, face) > 0.0 ? normalize(face) : -d;
     n = dot(n, d) > 0.0 ? -n : n;
-    const vec3 light = 0.5 * environment(reflect(d, n), vec2(0.9, 0.7)) + 0.5 * environment(d, vec2(0.9, 0.7)) + 0.5 * lamps(position, d);
+    const vec3 light = 0.5 * environment(reflect(d, n), vec2(0.9, 0.7)) + 0.5 * environment(d, vec2(0.9, 0.7)) +
+                       0.5 * lamps(position, d);
     const float alpha = shade.x * (HAS_DEPTH ? soft_edge(1.0 / gl_FragCoord.w) : 1.0);
     radiance = vec4(light * alpha, alpha);
     WRITE_MOTION(motion_from(before), alpha);

@@ -18,7 +18,8 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
     const vec3 across = look.handed * cross(axis, side); // so that faces are counter-clockwise from outside
     if (corner == 4u)
         return tip;
-    return base + half_foot * (((corner + 1u) & 2u) == 0u ? side : -side) + half_foot * ((corner & 2u) == 0u ? across : -across);
+    return base + half_foot * (((corner + 1u) & 2u) == 0u ? side : -side) +
+           half_foot * ((corner & 2u) == 0u ? across : -across);
 }
 
 // Both as they were `ago_s` before the time drawn.
@@ -30,7 +31,8 @@ vec3 crown_corner(uint pyramid, uint corner, float ago_s)
     const virga_splash_gpu splash = splashes[slot];
     const Crown crown = crown_at(splash, view.time_close_s - ago_s);
     const uint spoke = pyramid % VIRGA_CROWN_PYRAMIDS;
-    const float angle = 6.2831853 * (float(spoke) + virga_unit(virga_hash2(crown.random, 5u))) / float(VIRGA_CROWN_PYRAMIDS);
+    const float angle =
+        6.2831853 * (float(spoke) + virga_unit(virga_hash2(crown.random, 5u))) / float(VIRGA_CROWN_PYRAMIDS);
     const vec3 side = normalize(abs(crown.normal.y) > 0.7 ? vec3(crown.normal.y, -crown.normal.x, 0.0)
                                                           : vec3(crown.normal.z, 0.0, -crown.normal.x));
     const vec3 outward = cos(angle) * side + sin(angle) * cross(side, crown.normal);

@@ -1,8 +1,8 @@
 // shape.glsl - how large crowns, cones and disks are, and how long they last.
 //
-// Fits to pictures of drops on deep water (Worthington 1908; Mizukami et al., figures 2 (b) and 5): a crown of a drop of 2 mm
-// is 1.5 drops high and 6 wide and lasts for 50 ms, of 4 mm 3 high and 9 wide for 100 ms. The powers of the Weber number are
-// those of a height that its energy against its surface gives, and of Clanet's spread.
+// Fits to pictures of drops on deep water (Worthington 1908; Mizukami et al., figures 2 (b) and 5): a crown of a drop
+// of 2 mm is 1.5 drops high and 6 wide and lasts for 50 ms, of 4 mm 3 high and 9 wide for 100 ms. The powers of the
+// Weber number are those of a height that its energy against its surface gives, and of Clanet's spread.
 
 float crown_height(float diameter_m, float weber) { return 0.045 * sqrt(weber) * diameter_m; }
 float crown_radius(float diameter_m, float weber) { return 0.55 * sqrt(sqrt(weber)) * diameter_m; }

@@ -10,7 +10,8 @@ layout(scalar, set = 0, binding = 3) readonly buffer Spawns
 };
 layout(scalar, set = 0, binding = 8) buffer Places
 {
-    uvec2 places[]; // by spawn: rank in its tick; first droplet from the tick's first, and from bit 24 how many droplets
+    uvec2
+        places[]; // by spawn: rank in its tick; first droplet from the tick's first, and from bit 24 how many droplets
 };
 
 // Both are decided once, by spawn_scan.comp: floats may come out otherwise in another shader.
@@ -24,7 +25,8 @@ uint spawn_count() { return min(spawns_head.count, tick.max_spawns); }
 
 virga_splash_rule_gpu rule_of(virga_spawn_gpu spawn)
 {
-    return rules.rules[((spawn.kind >> 8) & 31u) * VIRGA_GROUND_STATES + min(spawn.kind & 255u, VIRGA_GROUND_STATES - 1u)];
+    return rules
+        .rules[((spawn.kind >> 8) & 31u) * VIRGA_GROUND_STATES + min(spawn.kind & 255u, VIRGA_GROUND_STATES - 1u)];
 }
 
 float drop_speed(virga_spawn_gpu spawn) { return length(to_vec(spawn.velocity)); }
@@ -44,7 +46,8 @@ uint droplet_count(virga_spawn_gpu spawn)
     if (spawn.water_nl == 0u)
         return 0u;
     if (!is_physical())
-        return clamp(whole_between(rule.count[0], rule.count[1], hash), 1u, min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
+        return clamp(whole_between(rule.count[0], rule.count[1], hash), 1u,
+                     min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
     // A crown on deep water lets few go from its rim, and its cone one more.
     const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
     const float mean = 5.0 * splash_excess(spawn.diameter_m, drop_speed(spawn), is_wet(spawn)) * rule.strength;

@@ -69,20 +69,23 @@ void write_splash(uint place, uint first, virga_spawn_gpu spawn, vec3 position, 
     splashes[place & (tick.max_splashes - 1u)] = splash;
 }
 
-// Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into their
-// surfaces, n pi d^2 sigma, the rest moves their mass. Most are slower than that mean of squares, and none that has been
-// filmed leaves at more than a third of the drop's speed (2 m/s at 4.4 to 6.5 m/s: table 1 of Mizukami et al.).
+// Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into
+// their surfaces, n pi d^2 sigma, the rest moves their mass. Most are slower than that mean of squares, and none that
+// has been filmed leaves at more than a third of the drop's speed (2 m/s at 4.4 to 6.5 m/s: table 1 of Mizukami et
+// al.).
 float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
 {
     const float d3 = spawn.diameter_m * spawn.diameter_m * spawn.diameter_m, speed = drop_speed(spawn);
-    const float mass = WATER_DENSITY * 0.5235988 * d3, flown = 1e-9 * float(spawn.water_nl) / max(spawn.drops, 1e-3) * 0.9982;
+    const float mass = WATER_DENSITY * 0.5235988 * d3,
+                flown = 1e-9 * float(spawn.water_nl) / max(spawn.drops, 1e-3) * 0.9982;
     const float diameter = pow(6.0 / 3.14159265 * flown / (WATER_DENSITY * float(n)), 1.0 / 3.0);
     const float energy = 0.1 * mass * speed * speed - float(n) * 3.14159265 * diameter * diameter * 0.0728;
     const float fastest = sqrt(2.0 * max(energy, 0.0) / max(flown, 1e-12));
     return clamp(fastest * normal_between(0.08, 0.5, hash), 0.1, max(0.35 * speed, 0.1));
 }
 
-// A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the next.
+// A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the
+// next.
 void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 centre, uint i, uint n)
 {
     const virga_splash_rule_gpu rule = rule_of(spawn);
@@ -94,7 +97,8 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     const vec2 angles = crown ? vec2(0.87, 1.4) : vec2(rule.angle[0], rule.angle[1]);
     const float elevation = normal_between(angles.x, angles.y, virga_hash1(hash));
     const uint chance = virga_hash2(hash, 1u);
-    float speed = is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
+    float speed =
+        is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
     if (crown)
         speed *= 0.4; // deep water takes more of it
     const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
@@ -179,7 +183,8 @@ void start_splash(virga_spawn_gpu spawn, uvec2 place, Starts starts)
         start_droplets(spawn, centre, starts.droplet + first_droplet(place.y), n);
     const uint at = starts.returned + (place.x - starts.crowded_from);
     if (crowded && at < tick.max_returns) {
-        returns[at] = make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
+        returns[at] =
+            make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
         count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
     }
 }

@@ -83,7 +83,8 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     Sprite sprite = empty_sprite();
     const vec4 now = pile_tip(droplet, view.time_close_s - ago_s), before = pile_tip(droplet, view.time_open_s - ago_s);
     const vec3 base = base_of(droplet);
-    const float now_m = distance(now.xyz, base) * step(1e-4, now.w), before_m = distance(before.xyz, base) * step(1e-4, before.w);
+    const float now_m = distance(now.xyz, base) * step(1e-4, now.w),
+                before_m = distance(before.xyz, base) * step(1e-4, before.w);
     const bool longer = now_m >= before_m;
     sprite.kind = VIRGA_SPRITE_PILE;
     sprite.head = longer ? now.xyz : before.xyz;
@@ -93,15 +94,16 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     sprite.widths = pile_widths(droplet, max(now.w, before.w));
     // Fingers of a crown are fewer than its droplets: those between were torn off the rim at once.
     const bool crown = VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE;
-    const bool finger = is_upright(droplet) || (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
+    const bool finger = is_upright(droplet) ||
+                        (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
     const bool there = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
     sprite.weight = there ? droplet_weight(droplet) : 0.0;
     sprite.id = droplet.id;
     return sprite;
 }
 
-// A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they are
-// not followed one by one (a seventh of the drop's water in a dozen of them).
+// A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they
+// are not followed one by one (a seventh of the drop's water in a dozen of them).
 Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 {
     Sprite sprite = empty_sprite();
@@ -165,11 +167,13 @@ Projected project_sprite(Sprite sprite)
     }
     p.body_px = pixels(sprite.body, nearest);
     const vec2 margin = (p.width_px + 2.0) * max(p.head.w, p.tail.w) / vec2(view.viewport[2], view.viewport[3]);
-    const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w), low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
+    const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w),
+               low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
     if (any(greaterThan(high, margin)) || any(greaterThan(low, margin)))
         return p;
     const float drawn = max(view.min_width_px, 1e-3);
-    const float mean_px = sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
+    const float mean_px =
+        sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
     float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
     float shown = one;
     if (sprite.kind == VIRGA_SPRITE_DROPLET)

@@ -1,8 +1,8 @@
-// sprite_corner.glsl - a sprite's record taken apart, and its four corners around its way on the picture, half a pixel wider
-// than it is drawn.
+// sprite_corner.glsl - a sprite's record taken apart, and its four corners around its way on the picture, half a pixel
+// wider than it is drawn.
 //
-// Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan half
-// as much again.
+// Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
+// half as much again.
 layout(scalar, set = 0, binding = 13) readonly buffer Sprites { virga_sprite_gpu sprites[]; };
 
 #ifdef MOTION
@@ -33,7 +33,8 @@ void set_corner(uint vertex)
     const float margin = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : sprite.kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
     const float own = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
-    const vec2 corner = (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
+    const vec2 corner =
+        (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
 #ifdef MOTION
     const vec4 ends = motions[4u * look.max_sprites + (vertex >> 2)];
     motion = at_head ? ends.xy : ends.zw;

@@ -14,20 +14,22 @@ layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { virga_sprite_gp
 // The same buffer: behind `max_sprites` sprites of 64 bytes each lies each one's motion.
 layout(scalar, set = 0, binding = 13) writeonly buffer Motions { vec4 motions[]; };
 
-// A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines of
-// those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is white and
-// lies level, whose lobe is the cosine (moments 2/3 and 1/4).
+// A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines
+// of those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is
+// white and lies level, whose lobe is the cosine (moments 2/3 and 1/4).
 void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
     const vec3 glitter = lamps(middle, d), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
     const vec3 centre = mix(environment(d, vec2(0.97, 0.90)), sky, torn) + glitter;
-    const vec3 rim = mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) + 0.6 * glitter;
+    const vec3 rim =
+        mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) +
+        0.6 * glitter;
     record.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
-// From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there then
-// comes from where it began.
+// From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there
+// then comes from where it began.
 void write_motion(uint index, Slot slot, Sprite sprite)
 {
     const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);

@@ -1,4 +1,5 @@
-// state.glsl - what splash's passes share: buffers and places in the rings. Vertex shaders define STATE_ACCESS readonly.
+// state.glsl - what splash's passes share: buffers and places in the rings. Vertex shaders define STATE_ACCESS
+// readonly.
 #define VIRGA_GLSL
 #include "shared/splash_gpu.h"
 #include "shared/droplet.h"

@@ -19,8 +19,8 @@ bool is_cone(virga_droplet_gpu droplet)
     return VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE && VIRGA_DROPLET_INDEX(droplet.kind) == 0u;
 }
 
-// Share of a part of a tick after which the droplet leaves its pile; above 1: not in it. A pile stops growing when it has
-// grown for the unit time or over the unit distance (section 4.1, step 5), a cone when it is highest (4.2, step 3).
+// Share of a part of a tick after which the droplet leaves its pile; above 1: not in it. A pile stops growing when it
+// has grown for the unit time or over the unit distance (section 4.1, step 5), a cone when it is highest (4.2, step 3).
 float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s, float part_s, vec2 rise)
 {
     if (is_cone(droplet))
@@ -28,7 +28,8 @@ float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s,
     const vec3 base = to_vec(droplet.base);
     const float length_before = distance(from, base), length_after = distance(to, base);
     const float by_time = (tick.pile_s - before_s) / part_s;
-    const float by_way = length_after > tick.pile_m ? (tick.pile_m - length_before) / max(length_after - length_before, 1e-9) : 2.0;
+    const float by_way =
+        length_after > tick.pile_m ? (tick.pile_m - length_before) / max(length_after - length_before, 1e-9) : 2.0;
     return max(min(by_time, by_way), 0.0);
 }
 

@@ -2,8 +2,8 @@
 // environment.
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
-// What lies in a direction. The scene is taken to be far away: it is looked up where a ray from the camera itself in that
-// direction meets the picture; towards the picture's edges the environment takes over.
+// What lies in a direction. The scene is taken to be far away: it is looked up where a ray from the camera itself in
+// that direction meets the picture; towards the picture's edges the environment takes over.
 vec3 seen(vec3 direction)
 {
     const vec3 around = environment(direction, vec2(1.0));
@@ -14,19 +14,20 @@ vec3 seen(vec3 direction)
     const float inside = clip.w > 1e-4 ? clamp(8.0 - 8.0 * max(abs(ndc.x), abs(ndc.y)), 0.0, 1.0) : 0.0;
     if (inside <= 0.0)
         return around; // whatever the picture holds there
-    const vec2 pixel = vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
+    const vec2 pixel =
+        vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
     return mix(around, textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, inside);
 }
 
 float fresnel(float cosine) { return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0); }
 
-// What a ball of water shows at `side`, the way of its surface's normal across the line of sight, of length r = sin i: the
-// ray is bent by 2 (i - t) towards the other side, so the world stands on its head in it; at the rim it reflects.
+// What a ball of water shows at `side`, the way of its surface's normal across the line of sight, of length r = sin i:
+// the ray is bent by 2 (i - t) towards the other side, so the world stands on its head in it; at the rim it reflects.
 vec3 through_ball(vec3 d, vec3 side)
 {
     const float r = min(length(side), 0.999);
     const float bend = 2.0 * (asin(r) - asin(r / 1.333)), reflected = 3.14159265 - 2.0 * asin(r);
     const vec3 out_of = r > 1e-3 ? side / r : vec3(0.0);
-    return mix(seen(d * cos(bend) - out_of * sin(bend)), environment(d * cos(reflected) + out_of * sin(reflected), vec2(1.0)),
-               fresnel(sqrt(1.0 - r * r)));
+    return mix(seen(d * cos(bend) - out_of * sin(bend)),
+               environment(d * cos(reflected) + out_of * sin(reflected), vec2(1.0)), fresnel(sqrt(1.0 - r * r)));
 }

@@ -65,4 +65,5 @@ refuse 2 "expected WxH" --size 640
 refuse 2 "expected --frames N" --out "$work/x.png"
 refuse 1 "no such track" "$work/nothing.glb" --frames 1 --out "$work/x.png" --device "${VIRGA_TEST_DEVICE:-cpu}"
 echo "point 1 2" >"$work/bad.track"
-refuse 1 "bad.track:1: expected" --track "$work/bad.track" --frames 1 --out "$work/x.png" --device "${VIRGA_TEST_DEVICE:-cpu}"
+refuse 1 "bad.track:1: expected" --track "$work/bad.track" --frames 1 --out "$work/x.png" \
+    --device "${VIRGA_TEST_DEVICE:-cpu}"

@@ -1,5 +1,6 @@
-/* fuzz_scene.c - bytes become settings, motions and frames of a small scene of all effects on the software device; after
- * each frame its state is read back, and must be finite, in range and full of counted water. Anything else aborts.
+/* fuzz_scene.c - bytes become settings, motions and frames of a small scene of all effects on the software device;
+ * after each frame its state is read back, and must be finite, in range and full of counted water. Anything else
+ * aborts.
  *
  * An input is read from the front, two bytes a number; where it ends, numbers are 0. The same input gives the same
  * frames, whatever ran before: each has a scene of its own. */

@@ -2,13 +2,7 @@
 #ifndef VIRGA_TESTS_GLASS_FIXTURE_H
 #define VIRGA_TESTS_GLASS_FIXTURE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 
 #include "glass/glass_internal.h"
 
@@ -30,19 +24,6 @@ typedef struct glass_fixture {
     const virga_glass_drop_gpu *drops;
     const uint32_t *occupants, *film, *claims, *passed, *grid;
 } glass_fixture;
-
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
-
-static inline void glass_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
-{
-    (void)user;
-    if (level == VIRGA_LOG_ERROR)
-        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
-}
 
 /* A small pane. */
 static inline virga_glass_def glass_fixture_def(void)
@@ -74,19 +55,7 @@ static inline void glass_fixture_buffers(glass_fixture *f)
 static inline void glass_fixture_open(glass_fixture *f, const virga_glass_def *given)
 {
     memset(f, 0, sizeof *f);
-    if (!fixture_begin(&f->gpu)) {
-        printf("skipped: %s\n", f->gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = f->gpu.instance.instance;
-    def.physical_device = f->gpu.device.physical;
-    def.device = f->gpu.device.device;
-    def.queue_family = f->gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = glass_fixture_log;
-    def.timings = false; /* their barriers around each pass would hide those that are missing */
-    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    f->context = effect_fixture_open(&f->gpu, false, effect_fixture_log, NULL);
     const virga_glass_def small = glass_fixture_def();
     REQUIRE(virga_glass_create(f->context, given ? given : &small, &f->glass) == VIRGA_OK);
     f->settings = virga_default_glass_settings();
@@ -96,42 +65,24 @@ static inline void glass_fixture_open(glass_fixture *f, const virga_glass_def *g
 
 static inline VkCommandBuffer glass_fixture_begin(glass_fixture *f)
 {
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
-    return cmd;
+    return effect_fixture_begin(&f->gpu, f->context);
 }
 
 static inline void glass_fixture_submit(glass_fixture *f)
 {
-    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
-}
-
-static inline void glass_fixture_transfers(VkCommandBuffer cmd)
-{
-    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+    effect_fixture_complete(&f->gpu, f->context);
 }
 
 static inline const void *glass_fixture_copy(const glass_fixture *f, VkCommandBuffer cmd, const virga_buffer *from,
                                              VkDeviceSize *offset)
 {
-    const VkBufferCopy copy = {0, *offset, from->size};
-    const char *there = (const char *)f->download.mapped + *offset;
-    vkCmdCopyBuffer(cmd, from->buffer, f->download.buffer, 1, &copy);
-    *offset += from->size;
-    return there;
+    return effect_fixture_copy(cmd, from->buffer, from->size, &f->download, offset);
 }
 
 static inline void glass_fixture_read(glass_fixture *f, VkCommandBuffer cmd)
 {
     VkDeviceSize offset = 0;
-    glass_fixture_transfers(cmd);
+    effect_fixture_transfers(cmd);
     f->state = glass_fixture_copy(f, cmd, f->glass->state, &offset);
     f->drops = glass_fixture_copy(f, cmd, f->glass->drops, &offset);
     f->occupants = glass_fixture_copy(f, cmd, f->glass->occupants, &offset);
@@ -190,13 +141,8 @@ static inline uint32_t glass_fixture_end(glass_fixture *f)
 {
     virga_glass_destroy(&f->glass);
     virga_context_destroy(&f->context);
-    host_buffer *buffers[] = {&f->upload, &f->download, &f->impacts};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
-        if (buffers[i]->buffer)
-            host_buffer_destroy(&f->gpu.device, buffers[i]);
-    if (f->gpu.instance.messages)
-        fprintf(stderr, "validation: %s\n", f->gpu.instance.first_message);
-    return fixture_end(&f->gpu);
+    host_buffer *const buffers[] = {&f->upload, &f->download, &f->impacts};
+    return effect_fixture_end(&f->gpu, buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 static inline void glass_fixture_close(glass_fixture *f)

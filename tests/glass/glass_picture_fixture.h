@@ -3,16 +3,10 @@
 #ifndef VIRGA_TESTS_GLASS_PICTURE_FIXTURE_H
 #define VIRGA_TESTS_GLASS_PICTURE_FIXTURE_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 #include "camera.h"
 #include "target.h"
+#include <math.h>
 
 #include "glass/glass_picture.h"
 
@@ -42,19 +36,6 @@ typedef struct shot {
     uint32_t ball_count, cut_count;
 } shot;
 
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
-
-static inline void shot_log(void *user, virga_log_level level, virga_log_id id, const char *text)
-{
-    (void)user;
-    if (level == VIRGA_LOG_ERROR)
-        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
-}
-
 /* A small pane of few cells. */
 static inline virga_glass_def shot_def(void)
 {
@@ -69,15 +50,12 @@ static inline virga_glass_def shot_def(void)
 
 static inline void shot_begin(shot *s, VkCommandBuffer *cmd)
 {
-    REQUIRE(host_begin_frame(&s->gpu.device, cmd, s->gpu.error, sizeof s->gpu.error));
-    REQUIRE(virga_frame_begin(s->context, s->gpu.device.frame, s->gpu.device.completed) == VIRGA_OK);
+    *cmd = effect_fixture_begin(&s->gpu, s->context);
 }
 
 static inline void shot_submit(shot *s)
 {
-    REQUIRE(host_submit(&s->gpu.device, s->gpu.error, sizeof s->gpu.error));
-    REQUIRE(host_wait(&s->gpu.device, s->gpu.error, sizeof s->gpu.error));
-    REQUIRE(virga_frame_completed(s->context, s->gpu.device.completed) == VIRGA_OK);
+    effect_fixture_complete(&s->gpu, s->context);
 }
 
 /* `ticks` without rain; the first step, of one tick, makes the pane. */
@@ -115,19 +93,7 @@ static inline void shot_buffers(shot *s)
 static inline void shot_open(shot *s, const virga_glass_def *given, uint32_t width, uint32_t height, bool timings)
 {
     memset(s, 0, sizeof *s);
-    if (!fixture_begin(&s->gpu)) {
-        printf("skipped: %s\n", s->gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = s->gpu.instance.instance;
-    def.physical_device = s->gpu.device.physical;
-    def.device = s->gpu.device.device;
-    def.queue_family = s->gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = shot_log;
-    def.timings = timings; /* their barriers around each pass would hide those that are missing */
-    REQUIRE(virga_context_create(&def, &s->context) == VIRGA_OK);
+    s->context = effect_fixture_open(&s->gpu, timings, effect_fixture_log, NULL);
     const virga_glass_def small = shot_def();
     REQUIRE(virga_glass_create(s->context, given ? given : &small, &s->glass) == VIRGA_OK);
     s->settings = virga_default_glass_settings();
@@ -313,11 +279,8 @@ static inline void shot_close(shot *s)
     host_target_destroy(&s->gpu.device, &s->picture);
     if (s->plate.image)
         host_image_destroy(&s->gpu.device, &s->plate);
-    host_buffer_destroy(&s->gpu.device, &s->upload);
-    host_buffer_destroy(&s->gpu.device, &s->download);
-    if (s->gpu.instance.messages)
-        fprintf(stderr, "validation: %s\n", s->gpu.instance.first_message);
-    assert_int_equal(fixture_end(&s->gpu), 0);
+    host_buffer *const buffers[] = {&s->upload, &s->download};
+    assert_int_equal(effect_fixture_end(&s->gpu, buffers, sizeof buffers / sizeof buffers[0]), 0);
 }
 
 #endif

@@ -262,7 +262,8 @@ static void cells_know_the_bump_maps_normal(void **unused)
     glass_fixture_close(&f);
 }
 
-/* Low places draw drops on: a cell's affinity, in standard deviations, is the glass's less `pull` times its height's. */
+/* Low places draw drops on: a cell's affinity, in standard deviations, is the glass's less
+ * `pull` times its height's. */
 static void low_places_have_more_affinity(void **unused)
 {
     (void)unused;

@@ -115,7 +115,8 @@ installed=$(cd "$work/prefix" && find . -type f -o -type l | sort | tr '\n' ' ')
 for header in "$source"/engine/include/virga/*.h; do
     [ -f "$work/prefix/include/virga/${header##*/}" ] || { echo "not installed: ${header##*/}"; exit 1; }
 done
-stray=$(cd "$work/prefix" && find . \( -type f -o -type l \) ! -path './include/virga/*.h' ! -path './include/virga/shared/*.glsl' \
+stray=$(cd "$work/prefix" && find . \( -type f -o -type l \) \
+    ! -path './include/virga/*.h' ! -path './include/virga/shared/*.glsl' \
     ! -path './lib/libvirga.so*' ! -path './lib/pkgconfig/virga.pc' ! -path './lib/cmake/virga/virgaConfig*.cmake')
 [ -z "$stray" ] || { echo "installed what nobody asked for: $stray"; exit 1; }
 

@@ -27,8 +27,13 @@ typedef struct field {
 } field;
 
 #define FIELD_MEMBER(type, member) (((type *)0)->member)
-#define FIELD_KIND(x) \
-    _Generic((x), float: FIELD_FLOAT, float *: FIELD_FLOAT, double: FIELD_DOUBLE, double *: FIELD_DOUBLE, default: FIELD_UINT)
+#define FIELD_KIND(x)           \
+    _Generic((x),               \
+        float: FIELD_FLOAT,     \
+        float *: FIELD_FLOAT,   \
+        double: FIELD_DOUBLE,   \
+        double *: FIELD_DOUBLE, \
+        default: FIELD_UINT)
 #define FIELD_BYTES(x) (FIELD_KIND(x) == FIELD_DOUBLE ? sizeof(double) : sizeof(float))
 
 /* A line of a table. */

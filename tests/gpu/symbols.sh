@@ -17,7 +17,8 @@ if [ -n "$needed" ]; then
 fi
 
 exported=$(nm -D --defined-only "$library" | awk '$2 != "A" {print $NF}' | LC_ALL=C sort)
-declared=$(cat "$headers"/virga/*.h | tr '\n' ' ' | grep -o 'VIRGA_API [^;(]*(' | sed 's/ *($//; s/.*[ *]//' | grep '^virga_' | LC_ALL=C sort)
+declared=$(cat "$headers"/virga/*.h | tr '\n' ' ' | grep -o 'VIRGA_API [^;(]*(' |
+    sed 's/ *($//; s/.*[ *]//' | grep '^virga_' | LC_ALL=C sort)
 same() { # what is, what should be, where from
     difference=$(LC_ALL=C comm -3 <(echo "$1") <(echo "$2"))
     [ -z "$difference" ] && return

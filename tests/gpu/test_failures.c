@@ -278,9 +278,22 @@ static void attach_survives_every_failure(void **state)
 
 /* ---- host memory that runs out */
 
+/* The host's callbacks, for its own memory or the device's: the block of the number fail_at is refused. */
 typedef struct small_heap {
+    gpu_fixture *f; /* device memory is its device's */
     uint32_t calls, fail_at, live;
 } small_heap;
+
+/* What the library makes of a refused block. */
+typedef struct refusal {
+    virga_result result;
+    virga_log_id line;
+    const char *callback;
+} refusal;
+
+static const refusal of_host_memory = {VIRGA_ERROR_HOST_MEMORY, VIRGA_LOG_HOST_MEMORY, "alloc"};
+static const refusal of_device_memory = {VIRGA_ERROR_DEVICE_MEMORY, VIRGA_LOG_VULKAN_CALL,
+                                         "the host's device memory callback"};
 
 static void *small_alloc(void *user, size_t size)
 {
@@ -300,8 +313,8 @@ static void small_free(void *user, void *pointer)
     free(pointer);
 }
 
-/* As fail_each_call, for the host's allocator. */
-static uint32_t fail_each_block(build *b, build_fn build_it, small_heap *heap)
+/* As fail_each_call, for the host's callbacks. */
+static uint32_t fail_each_block(build *b, build_fn build_it, small_heap *heap, const refusal *expected)
 {
     virga_memory_stats before;
     virga_memory_get(b->context, &before);
@@ -317,10 +330,10 @@ static uint32_t fail_each_block(build *b, build_fn build_it, small_heap *heap)
             assert_int_equal(result, VIRGA_OK);
             return number - 1;
         }
-        if (result != VIRGA_ERROR_HOST_MEMORY)
+        if (result != expected->result)
             fail_msg("block %u was refused: the result is %s", number, virga_result_name(result));
-        assert_one_error(b->f, VIRGA_LOG_HOST_MEMORY);
-        check_nothing_left(b, &before, alive, number, "alloc");
+        assert_one_error(b->f, expected->line);
+        check_nothing_left(b, &before, alive, number, expected->callback);
         assert_int_equal(heap->live, blocks);
     }
 }
@@ -340,11 +353,11 @@ static void every_block_of_host_memory_may_be_refused(void **state)
     small_heap heap = {0};
     build b = {.f = *state, .host_memory = {&heap, small_alloc, small_free}};
     watch.keep_pipelines = true;
-    assert_int_equal(fail_each_block(&b, build_context, &heap), 1);
+    assert_int_equal(fail_each_block(&b, build_context, &heap, &of_host_memory), 1);
     assert_int_equal(heap.live, 0);
     open_on_heap(&b, &heap);
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_block(&b, builds[i], &heap) > 20);
+        assert_true(fail_each_block(&b, builds[i], &heap, &of_host_memory) > 20);
     virga_context_destroy(&b.context);
     assert_int_equal(heap.live, 0);
 }
@@ -363,7 +376,7 @@ static void every_block_of_an_attach_or_a_shape_may_be_refused(void **state)
     open_scene(&b);
     open_target(&b, false);
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_block(&b, builds[i], &heap) >= least[i]);
+        assert_true(fail_each_block(&b, builds[i], &heap, &of_host_memory) >= least[i]);
     virga_scene_destroy(&b.scene);
     virga_target_destroy(&b.target);
     gpu_picture_close(b.f, &picture);
@@ -373,15 +386,10 @@ static void every_block_of_an_attach_or_a_shape_may_be_refused(void **state)
 
 /* ---- device memory through the host's callbacks */
 
-typedef struct small_device_heap {
-    gpu_fixture *f;
-    uint32_t calls, fail_at, live;
-} small_device_heap;
-
 static VkResult small_device_alloc(void *user, const VkMemoryRequirements *need, uint32_t type, bool mapped,
                                    virga_memory_block *block)
 {
-    small_device_heap *heap = user;
+    small_heap *heap = user;
     const VkDevice device = heap->f->gpu.device.device;
     const VkMemoryAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = need->size, .memoryTypeIndex = type};
@@ -397,45 +405,22 @@ static VkResult small_device_alloc(void *user, const VkMemoryRequirements *need,
 
 static void small_device_free(void *user, const virga_memory_block *block)
 {
-    small_device_heap *heap = user;
+    small_heap *heap = user;
     vkFreeMemory(heap->f->gpu.device.device, block->memory, NULL);
     heap->live--;
-}
-
-static uint32_t fail_each_device_block(build *b, build_fn build_it, small_device_heap *heap)
-{
-    virga_memory_stats before;
-    virga_memory_get(b->context, &before);
-    const uint32_t alive = watch_sum(watch.live), blocks = heap->live;
-    for (uint32_t number = 1;; number++) {
-        gpu_forget_log(b->f);
-        heap->calls = 0;
-        heap->fail_at = number;
-        const virga_result result = build_it(b);
-        const bool failed = heap->calls >= number;
-        heap->fail_at = 0;
-        if (!failed) {
-            assert_int_equal(result, VIRGA_OK);
-            return number - 1;
-        }
-        assert_int_equal(result, VIRGA_ERROR_DEVICE_MEMORY);
-        assert_one_error(b->f, VIRGA_LOG_VULKAN_CALL);
-        check_nothing_left(b, &before, alive, number, "the host's device memory callback");
-        assert_int_equal(heap->live, blocks);
-    }
 }
 
 static void every_block_of_device_memory_may_be_refused(void **state)
 {
     static const build_fn builds[] = {build_rain, build_ground, build_splash, build_glass, build_scene};
-    small_device_heap heap = {.f = *state};
+    small_heap heap = {.f = *state};
     build b = {.f = *state};
     virga_context_def def = gpu_context_def(b.f);
     watch.keep_pipelines = true;
     def.device_memory = (virga_device_memory){&heap, small_device_alloc, small_device_free};
     REQUIRE(virga_context_create(&def, &b.context) == VIRGA_OK);
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_device_block(&b, builds[i], &heap) > 10);
+        assert_true(fail_each_block(&b, builds[i], &heap, &of_device_memory) > 10);
     virga_context_destroy(&b.context);
     assert_int_equal(heap.live, 0);
 }

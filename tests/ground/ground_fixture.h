@@ -2,13 +2,7 @@
 #ifndef VIRGA_TESTS_GROUND_FIXTURE_H
 #define VIRGA_TESTS_GROUND_FIXTURE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 
 #include "ground/ground_internal.h"
 #include "splash/splash_internal.h"
@@ -41,12 +35,6 @@ typedef struct ground_fixture {
     virga_spawn_gpu *spawns;
 } ground_fixture;
 
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
-
 static inline void ground_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
     ground_fixture *f = user;
@@ -59,20 +47,7 @@ static inline void ground_fixture_log(void *user, virga_log_level level, virga_l
 static inline void ground_fixture_open(ground_fixture *f)
 {
     memset(f, 0, sizeof *f);
-    if (!fixture_begin(&f->gpu)) {
-        printf("skipped: %s\n", f->gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = f->gpu.instance.instance;
-    def.physical_device = f->gpu.device.physical;
-    def.device = f->gpu.device.device;
-    def.queue_family = f->gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = ground_fixture_log;
-    def.timings = false; /* their barriers around each pass would hide those that are missing */
-    def.log_user = f;
-    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    f->context = effect_fixture_open(&f->gpu, false, ground_fixture_log, f);
 }
 
 /* Quads of ground, each of four corners and a material. */
@@ -171,20 +146,14 @@ static inline virga_impact_gpu *ground_fixture_drop(ground_fixture *f, int x, in
 static inline void ground_fixture_copy(VkCommandBuffer cmd, VkBuffer from, VkDeviceSize from_offset, VkBuffer to,
                                        VkDeviceSize to_offset, VkDeviceSize size)
 {
-    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+    effect_fixture_transfers(cmd);
     const VkBufferCopy copy = {from_offset, to_offset, size};
     vkCmdCopyBuffer(cmd, from, to, 1, &copy);
 }
 
 static inline void ground_fixture_submit(ground_fixture *f)
 {
-    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
+    effect_fixture_complete(&f->gpu, f->context);
 }
 
 static inline void ground_fixture_read(ground_fixture *f, VkCommandBuffer cmd)
@@ -228,7 +197,6 @@ static inline void ground_fixture_fly(ground_fixture *f, VkCommandBuffer cmd, ui
  * cells, floors, landings and spawns. */
 static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
-    VkCommandBuffer cmd;
     virga_impacts_gpu *head = f->impacts.mapped;
     memset(head, 0, sizeof *head);
     head->count = f->drop_count;
@@ -237,8 +205,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
     for (uint32_t i = 0; i < f->drop_count; i++)
         f->drops[i].tick += f->tick;
     memcpy(head + 1, f->drops, f->drop_count * sizeof f->drops[0]);
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
                                    .meshes = f->meshes,
                                    .mesh_count = f->mesh_count,
@@ -260,9 +227,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 /* Puts f->upload's contents into the cells. */
 static inline void ground_fixture_put(ground_fixture *f)
 {
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     ground_fixture_copy(cmd, f->upload.buffer, 0, f->ground->cells[f->ground->parity]->buffer, 0, f->upload.size);
     ground_fixture_submit(f);
 }
@@ -294,13 +259,8 @@ static inline void ground_fixture_close(ground_fixture *f)
     virga_splash_destroy(&f->splash);
     virga_ground_destroy(&f->ground);
     virga_context_destroy(&f->context);
-    host_buffer *buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->upload, &f->download};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
-        if (buffers[i]->buffer)
-            host_buffer_destroy(&f->gpu.device, buffers[i]);
-    if (f->gpu.instance.messages)
-        fail_msg("validation: %s", f->gpu.instance.first_message);
-    assert_int_equal(fixture_end(&f->gpu), 0);
+    host_buffer *const buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->upload, &f->download};
+    assert_int_equal(effect_fixture_end(&f->gpu, buffers, sizeof buffers / sizeof buffers[0]), 0);
 }
 
 #endif

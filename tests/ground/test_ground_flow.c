@@ -21,8 +21,8 @@ static void check_budget(void)
     virga_ground_stats s;
     virga_ground_stats_get(f.ground, &s);
     assert_true(s.landed_nl > 0);
-    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl + s.run_off_nl +
-                                      s.evaporated_nl + s.forgotten_nl);
+    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl +
+                                                   s.run_off_nl + s.evaporated_nl + s.forgotten_nl);
 }
 
 static void drops_at_random(uint32_t seed, uint32_t count, int reach, uint32_t most_nl)

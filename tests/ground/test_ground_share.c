@@ -1,5 +1,5 @@
-/* Drops on wet cells: figure 7 of Mizukami et al., on the line and on the plane, in numbers worked out by hand; and that
- * the order of drops does not matter. */
+/* Drops on wet cells: figure 7 of Mizukami et al., on the line and on the plane, in numbers worked out by hand; and
+ * that the order of drops does not matter. */
 #include "ground_fixture.h"
 
 #include <virga/shared/random.h>

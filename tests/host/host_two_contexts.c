@@ -331,8 +331,8 @@ static void a_context_alone_gives_the_same_bits_and_pixels(void **state)
     bits_free(&alone.bits);
 }
 
-/* Bit for bit the state; the picture within 0.01 in all but 0.5 % of the pixels: drops on the pane show the frame before
- * here, and this one there. */
+/* Bit for bit the state; the picture within 0.01 in all but 0.5 % of the pixels: drops on the pane show the frame
+ * before here, and this one there. */
 static void state_and_picture_are_those_of_the_offline_renderer(void **state)
 {
     (void)state;

@@ -2,10 +2,10 @@
  * tells it: of moving water before a wall with a pattern.
  *
  * Each frame is drawn with a jitter (Halton 2, 3). Its history is fetched, by a Catmull-Rom spline, from where the
- * motion vectors lead, and weighs 0.9; with a neighbourhood clamp it is first cut to the range of the 3 x 3 pixels around. Without
- * Virga's outputs motion vectors are the wall's. With them, pixels that draws have written have their vectors, and the
- * reactive mask takes weight from the history: the larger of this frame's and the last one's at the history's
- * place, as virga_temporal says. The truth is the mean of 16 jittered frames of the same moment. */
+ * motion vectors lead, and weighs 0.9; with a neighbourhood clamp it is first cut to the range of the 3 x 3 pixels
+ * around. Without Virga's outputs motion vectors are the wall's. With them, pixels that draws have written have their
+ * vectors, and the reactive mask takes weight from the history: the larger of this frame's and the last one's at the
+ * history's place, as virga_temporal says. The truth is the mean of 16 jittered frames of the same moment. */
 #ifndef VIRGA_TESTS_RESOLVE_H
 #define VIRGA_TESTS_RESOLVE_H
 

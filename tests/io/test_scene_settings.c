@@ -1,4 +1,5 @@
-/* test_scene_settings.c - settings of a scene as a list: what there is, what is taken, and what comes back as a file. */
+/* test_scene_settings.c - settings of a scene as a list: what there is, what is taken, and what comes
+ * back as a file. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

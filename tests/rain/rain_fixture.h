@@ -2,13 +2,7 @@
 #ifndef VIRGA_TESTS_RAIN_FIXTURE_H
 #define VIRGA_TESTS_RAIN_FIXTURE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 
 #include <virga/virga.h>
 #include <virga/shared/drop.h>
@@ -39,30 +33,11 @@ static inline void rain_fixture_log(void *user, virga_log_level level, virga_log
     }
 }
 
-#define REQUIRE(condition)                                                                                             \
-    do {                                                                                                               \
-        if (!(condition))                                                                                              \
-            fail_msg("not so: %s", #condition);                                                                        \
-    } while (0)
-
 /* Device and context, without rain. Exits with 77 where there is no device. */
 static inline void rain_fixture_open(rain_fixture *f)
 {
     memset(f, 0, sizeof *f);
-    if (!fixture_begin(&f->gpu)) {
-        printf("skipped: %s\n", f->gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = f->gpu.instance.instance;
-    def.physical_device = f->gpu.device.physical;
-    def.device = f->gpu.device.device;
-    def.queue_family = f->gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = rain_fixture_log;
-    def.timings = false; /* their barriers around each pass would hide those that are missing */
-    def.log_user = f;
-    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    f->context = effect_fixture_open(&f->gpu, false, rain_fixture_log, f);
 }
 
 /* Quads, each of four corners: positions only. */
@@ -112,11 +87,7 @@ static inline void rain_fixture_rain(rain_fixture *f, const virga_rain_def *def)
 
 static inline void rain_fixture_copy(VkCommandBuffer cmd, const virga_rain_buffer *from, const host_buffer *to)
 {
-    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+    effect_fixture_transfers(cmd);
     const VkBufferCopy copy = {from->offset, 0, from->size};
     vkCmdCopyBuffer(cmd, from->buffer, to->buffer, 1, &copy);
 }
@@ -124,10 +95,8 @@ static inline void rain_fixture_copy(VkCommandBuffer cmd, const virga_rain_buffe
 /* One frame: occlusion, a step of dt, and read-back. */
 static inline void rain_fixture_step(rain_fixture *f, double dt_s)
 {
-    VkCommandBuffer cmd;
     virga_rain_buffer impacts, drops;
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     if (f->occluder_count)
         REQUIRE(virga_rain_occlusion(f->rain, cmd, f->camera, f->occluders, f->occluder_count) == VIRGA_OK);
     const virga_rain_step_info info = {.dt_s = dt_s, .camera_m = {f->camera[0], f->camera[1], f->camera[2]}};
@@ -136,8 +105,7 @@ static inline void rain_fixture_step(rain_fixture *f, double dt_s)
     virga_rain_drops(f->rain, &drops, NULL, f->origin);
     rain_fixture_copy(cmd, &impacts, &f->impacts);
     rain_fixture_copy(cmd, &drops, &f->drops);
-    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    effect_fixture_submit(&f->gpu);
     host_buffer_invalidate(&f->gpu.device, &f->impacts);
     host_buffer_invalidate(&f->gpu.device, &f->drops);
 }
@@ -168,17 +136,13 @@ static inline uint64_t rain_fixture_hash(const void *data, size_t size, uint64_t
 
 static inline VkCommandBuffer rain_fixture_begin_frame(rain_fixture *f)
 {
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
-    return cmd;
+    return effect_fixture_begin(&f->gpu, f->context);
 }
 
 /* Submits the frame and waits for it. */
 static inline void rain_fixture_end_frame(rain_fixture *f)
 {
-    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
+    effect_fixture_submit(&f->gpu);
 }
 
 static inline void rain_fixture_record_step(rain_fixture *f, VkCommandBuffer cmd, double dt_s)
@@ -216,13 +180,8 @@ static inline void rain_fixture_close(rain_fixture *f)
     virga_memory_stats stats;
     virga_context_destroy(&f->context);
     virga_memory_get(f->context, &stats);
-    host_buffer *buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->drops};
-    for (size_t i = 0; i < 4; i++)
-        if (buffers[i]->buffer)
-            host_buffer_destroy(&f->gpu.device, buffers[i]);
-    if (f->gpu.instance.messages)
-        fail_msg("validation: %s", f->gpu.instance.first_message);
-    assert_int_equal(fixture_end(&f->gpu), 0);
+    host_buffer *const buffers[] = {&f->vertices, &f->indices, &f->impacts, &f->drops};
+    assert_int_equal(effect_fixture_end(&f->gpu, buffers, sizeof buffers / sizeof buffers[0]), 0);
 }
 
 #endif

@@ -1,5 +1,5 @@
-/* test_rain_wind.c - gusts are the noise that rain.h describes, drops follow by drag, and a host's 3D wind moves them as
- * the law of motion does. */
+/* test_rain_wind.c - gusts are the noise that rain.h describes, drops follow by drag, and a host's 3D wind moves them
+ * as the law of motion does. */
 #include "rain_fixture.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* rain_triangle.c - triangle.c with rain over it: what is more here than there are the parts that README.md, "Embed it",
- * has in its six steps, and the tests hold all three together.
+/* rain_triangle.c - triangle.c with rain over it: what is more here than there are the parts that README.md,
+ * "Embed it", has in its six steps, and the tests hold all three together.
  *
  *     rain_triangle [PICTURE.ppm]
  */

@@ -1,5 +1,6 @@
-/* triangle.c - where a newcomer begins: a Vulkan triangle as tutorials have it, with two frames in flight, no camera and
- * no depth; without a window, its last frame is a picture. rain_triangle.c is this and the parts of README.md, "Embed it".
+/* triangle.c - where a newcomer begins: a Vulkan triangle as tutorials have it, with two frames in flight, no camera
+ * and no depth; without a window, its last frame is a picture. rain_triangle.c is this and the parts of README.md,
+ * "Embed it".
  *
  *     glslangValidator -V triangle.vert -o triangle.vert.spv && glslangValidator -V triangle.frag -o triangle.frag.spv
  *     cc triangle.c -o triangle -lvulkan

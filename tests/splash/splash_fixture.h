@@ -2,13 +2,7 @@
 #ifndef VIRGA_TESTS_SPLASH_FIXTURE_H
 #define VIRGA_TESTS_SPLASH_FIXTURE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 
 #include "splash/splash_internal.h"
 
@@ -34,19 +28,6 @@ typedef struct splash_fixture {
     const virga_impacts_gpu *returns_head;
     const virga_impact_gpu *returns;
 } splash_fixture;
-
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
-
-static inline void splash_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
-{
-    (void)user;
-    if (level == VIRGA_LOG_ERROR)
-        fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
-}
 
 /* Small rings, and ticks of the default length. */
 static inline virga_splash_def splash_fixture_def(void)
@@ -79,19 +60,7 @@ static inline void splash_fixture_buffers(splash_fixture *f)
 static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def *given)
 {
     memset(f, 0, sizeof *f);
-    if (!fixture_begin(&f->gpu)) {
-        printf("skipped: %s\n", f->gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = f->gpu.instance.instance;
-    def.physical_device = f->gpu.device.physical;
-    def.device = f->gpu.device.device;
-    def.queue_family = f->gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = splash_fixture_log;
-    def.timings = false; /* their barriers around each pass would hide those that are missing */
-    REQUIRE(virga_context_create(&def, &f->context) == VIRGA_OK);
+    f->context = effect_fixture_open(&f->gpu, false, effect_fixture_log, NULL);
     const virga_splash_def small = splash_fixture_def();
     REQUIRE(virga_splash_create(f->context, given ? given : &small, &f->splash) == VIRGA_OK);
     f->settings = virga_default_splash_settings();
@@ -126,42 +95,24 @@ static inline virga_spawn_gpu *splash_fixture_spawn(splash_fixture *f, uint32_t 
 
 static inline VkCommandBuffer splash_fixture_begin(splash_fixture *f)
 {
-    VkCommandBuffer cmd;
-    REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_begin(f->context, f->gpu.device.frame, f->gpu.device.completed) == VIRGA_OK);
-    return cmd;
+    return effect_fixture_begin(&f->gpu, f->context);
 }
 
 static inline void splash_fixture_submit(splash_fixture *f)
 {
-    REQUIRE(host_submit(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
-    REQUIRE(virga_frame_completed(f->context, f->gpu.device.completed) == VIRGA_OK);
-}
-
-static inline void splash_fixture_transfers(VkCommandBuffer cmd)
-{
-    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
+    effect_fixture_complete(&f->gpu, f->context);
 }
 
 static inline const void *splash_fixture_copy(const splash_fixture *f, VkCommandBuffer cmd, const virga_buffer *from,
                                               VkDeviceSize *offset)
 {
-    const VkBufferCopy copy = {0, *offset, from->size};
-    const char *there = (const char *)f->download.mapped + *offset;
-    vkCmdCopyBuffer(cmd, from->buffer, f->download.buffer, 1, &copy);
-    *offset += from->size;
-    return there;
+    return effect_fixture_copy(cmd, from->buffer, from->size, &f->download, offset);
 }
 
 static inline void splash_fixture_read(splash_fixture *f, VkCommandBuffer cmd)
 {
     VkDeviceSize offset = 0;
-    splash_fixture_transfers(cmd);
+    effect_fixture_transfers(cmd);
     f->state = splash_fixture_copy(f, cmd, f->splash->state, &offset);
     f->droplets = splash_fixture_copy(f, cmd, f->splash->droplets, &offset);
     f->splashes = splash_fixture_copy(f, cmd, f->splash->splashes, &offset);
@@ -204,7 +155,7 @@ static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu
     if (count)
         memcpy((char *)f->upload.mapped + state_size, droplets, count * sizeof *droplets);
     const VkCommandBuffer cmd = splash_fixture_begin(f);
-    splash_fixture_transfers(cmd);
+    effect_fixture_transfers(cmd);
     const VkBufferCopy copies[2] = {{0, 0, state_size}, {state_size, 0, size}};
     vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->state->buffer, 1, &copies[0]);
     vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->droplets->buffer, 1, &copies[1]);
@@ -235,13 +186,8 @@ static inline uint32_t splash_fixture_end(splash_fixture *f)
 {
     virga_splash_destroy(&f->splash);
     virga_context_destroy(&f->context);
-    host_buffer *buffers[] = {&f->spawns, &f->upload, &f->download};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
-        if (buffers[i]->buffer)
-            host_buffer_destroy(&f->gpu.device, buffers[i]);
-    if (f->gpu.instance.messages)
-        fprintf(stderr, "validation: %s\n", f->gpu.instance.first_message);
-    return fixture_end(&f->gpu);
+    host_buffer *const buffers[] = {&f->spawns, &f->upload, &f->download};
+    return effect_fixture_end(&f->gpu, buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 static inline void splash_fixture_close(splash_fixture *f)

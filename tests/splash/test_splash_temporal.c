@@ -78,7 +78,7 @@ static void draw_frame(shot *s)
     const VkBufferCopy sprites = {0, 0, FEW * sizeof(virga_sprite_gpu)},
                        motions = {splash_max_sprites(&splash->def) * sizeof(virga_sprite_gpu), 0, FEW * 16},
                        prepared = {0, 0, sizeof(virga_splash_prepared_gpu)};
-    splash_fixture_transfers(cmd);
+    effect_fixture_transfers(cmd);
     vkCmdCopyBuffer(cmd, splash->sprites->buffer, s->sprites.buffer, 1, &sprites);
     vkCmdCopyBuffer(cmd, splash->sprites->buffer, s->motions.buffer, 1, &motions);
     vkCmdCopyBuffer(cmd, splash->prepared_buffer->buffer, s->prepared.buffer, 1, &prepared);

@@ -41,13 +41,15 @@ cat >"$work/scene.yaml" <<'END'
 virga: 1
 meshes: [{file: floor.obj}]
 lights: [{position_m: [0, 3, -3], intensity_w_sr: 6}]
-camera: {keys: [{time_s: 0, position_m: [0, 1.5, 4], look_at_m: [0, 1, 0]}, {time_s: 2, position_m: [0, 1.5, 3], look_at_m: [0, 1, 0]}]}
+camera: {keys: [{time_s: 0, position_m: [0, 1.5, 4], look_at_m: [0, 1, 0]},
+                {time_s: 2, position_m: [0, 1.5, 3], look_at_m: [0, 1, 0]}]}
 frames: {size: [320, 180]}
 rain: {rate_mm_h: 40, max_drops: 8192, range_m: 8, occlusion_size: 128}
 ground: {on: true, cells: 128}
 splash: {max_splashes: 4096, max_droplets: 4096}
 glass:
-  - {name: pane, width_m: 0.6, height_m: 0.3, follow: camera, position_m: [0, -0.2, 0.8], max_drops: 1024, max_texels: 128,
+  - {name: pane, width_m: 0.6, height_m: 0.3, follow: camera, position_m: [0, -0.2, 0.8], max_drops: 1024,
+     max_texels: 128,
      wipers: [{pivot_m: [0.3, -0.05], reach_m: 0.3, blade_m: 0.2, low_deg: 160, high_deg: 20}]}
 END
 

@@ -87,8 +87,8 @@ bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size);
 /* The maps and panorama that the material reads; after stage_create and whenever it returns with *resized. */
 void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment);
 
-/* Begins a frame. *cmd is NULL where none can be drawn now (minimised; or resized, with *resized set: sizes, `depth` and
- * `behind` are others now). */
+/* Begins a frame. *cmd is NULL where none can be drawn now (minimised; or resized, with *resized set: sizes, `depth`
+ * and `behind` are others now). */
 bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size);
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
                        const virga_lighting *lighting);

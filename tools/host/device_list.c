@@ -151,12 +151,25 @@ static bool matches(const host_device_info *info, const char *wanted)
     return contains(info->name, wanted);
 }
 
+/* "no device 7: there is only 0, cpu", or "there are 0, gpu; 1, cpu": by what --device takes. */
+static bool no_such_number(const host_device_info *infos, uint32_t count, const char *wanted, char *error,
+                           size_t error_size)
+{
+    char list[256] = "";
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%u, %s", i ? "; " : "", i,
+                 matches(&infos[i], "cpu") ? "cpu" : "gpu");
+    }
+    return host_fail(error, error_size, "no device %s: there %s %s", wanted, count == 1 ? "is only" : "are", list);
+}
+
 static bool pick_number(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index,
                         char *error, size_t error_size)
 {
     unsigned long number = strtoul(wanted, NULL, 10);
     if (number >= count)
-        return host_fail(error, error_size, "device %s: there are %u devices, numbered from 0", wanted, count);
+        return no_such_number(infos, count, wanted, error, error_size);
     if (!infos[number].usable)
         return host_fail(error, error_size, "device %s (%s) cannot be used: %s", wanted, infos[number].name,
                          infos[number].reason);

@@ -27,8 +27,8 @@ bool host_renderer_set_environment(host_renderer *renderer, const host_environme
 /* Takes up to 16 lights, as the rain does; more are not used. */
 void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights, uint32_t count);
 
-/* Takes the maps of a wet ground, which are read where the meshes are drawn; NULL for none. The device must be idle when
- * the images change; where they lie may change every frame. */
+/* Takes the maps of a wet ground, which are read where the meshes are drawn; NULL for none. The device must be idle
+ * when the images change; where they lie may change every frame. */
 void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *maps);
 
 /* From here on puddles mirror the scene, not the sky alone: a picture of half the size of `target` is drawn before each

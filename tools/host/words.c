@@ -8,8 +8,9 @@
 
 #include <virga/shared/splash_rule.h>
 
-static const char *const names[] = {"default", "asphalt", "concrete", "stone", "brick",  "grass", "sand",   "soil",
-                                    "wood",    "metal",   "glass",    "water", "leaves", "cloth", "plastic", "tile", "drain"};
+static const char *const names[] = {"default", "asphalt", "concrete", "stone", "brick", "grass",
+                                    "sand",    "soil",    "wood",     "metal", "glass", "water",
+                                    "leaves",  "cloth",   "plastic",  "tile",  "drain"};
 
 /* More telling words come first: "grass-road" is grass. */
 static const struct {
@@ -65,10 +66,10 @@ bool host_name_contains(const char *name, const char *word)
 
 bool host_is_ground(const char *name, uint32_t material)
 {
-    static const char *const others[] = {"house", "building", "church", "wall",  "roof",    "window", "door",   "shutter",
-                                         "car",   "truck",    "bin",    "lamp",  "lantern", "bench",  "crate",  "bollard",
-                                         "bar",   "balcony",  "tree_",  "pole",  "pylon",   "tire",   "fence",  "sign",
-                                         "box",   "awning",   "poutre", "border"};
+    static const char *const others[] = {"house",   "building", "church", "wall",    "roof",   "window",  "door",
+                                         "shutter", "car",      "truck",  "bin",     "lamp",   "lantern", "bench",
+                                         "crate",   "bollard",  "bar",    "balcony", "tree_",  "pole",    "pylon",
+                                         "tire",    "fence",    "sign",   "box",     "awning", "poutre",  "border"};
     if (material >= 10 && material <= 14) /* glass, water, leaves, cloth and plastic */
         return false;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)

@@ -385,7 +385,8 @@ static const scene_rule rules[] = {
     {"frames.shutter_deg", 0, 360, "180", LIVE,
      "how long the shutter is open: 360 is a whole frame, 180 the half of film"},
     {"frames.size", 16, 16384, "[1280, 720]", RESTARTS, "pixels of the picture"},
-    {"frames.preroll_s", 0, 3600, "0", RESTARTS, "rain falls so long before the first frame, so that a shot begins wet"},
+    {"frames.preroll_s", 0, 3600, "0", RESTARTS,
+     "rain falls so long before the first frame, so that a shot begins wet"},
 
     {"preview", 0, 0, "{}", LIVE, "how previews are shown"},
     {"preview.exposure_ev", -30, 30, "0", LIVE, "brightens what is shown, in stops; layers stay as they are"},

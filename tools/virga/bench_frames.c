@@ -57,9 +57,9 @@ static bool set_rain(virga_scene *scene)
            virga_ground_set(virga_scene_ground(scene), &ground) == VIRGA_OK;
 }
 
-/* What a frame takes, in milliseconds. Of processors: that of the thread that records, and of all the process's threads,
- * among them those of software Vulkan. It leaves out the time in which the machine did something else, so it tells
- * whether frames differ in what they do. */
+/* What a frame takes, in milliseconds. Of processors: that of the thread that records, and of all the process's
+ * threads, among them those of software Vulkan. It leaves out the time in which the machine did something else, so it
+ * tells whether frames differ in what they do. */
 typedef struct frame_times {
     double record, whole, record_cpu, whole_cpu;
     double bare; /* a kernel that does the same each time, after the frame: how even the machine itself is */

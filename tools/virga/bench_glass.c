@@ -1,5 +1,5 @@
-/* bench_glass.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits and the 30
- * to 40 frames a second of Goto, Tanaka and Sagawa 2009 (3,000 metaballs, 1024 x 1024). */
+/* bench_glass.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits
+ * and the 30 to 40 frames a second of Goto, Tanaka and Sagawa 2009 (3,000 metaballs, 1024 x 1024). */
 #include "bench.h"
 #include "camera.h"
 #include "options.h"

@@ -1,4 +1,5 @@
-/* cmd_bench.c - `virga bench`: what each pass of an effect costs, beside what the machine itself can do in the same run. */
+/* cmd_bench.c - `virga bench`: what each pass of an effect costs, beside what the machine itself can do in the same
+ * run. */
 #include "bench.h"
 #include "commands.h"
 #include "options.h"
@@ -19,16 +20,18 @@ static const option_row rows[] = {
 
 void bench_help(void)
 {
-    printf(
-        "virga bench rain|ground|splash|glass|frames [options]\n\n"
-        "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
-        "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
-        "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the paper's\n"
-        "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with two wipers\n"
-        "frames  start of a scene of all effects, cold and warm, and how even 2000 frames of steady rain are\n\n"
-        "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a dispatch and\n"
-        "a full fill of the picture in the same run. Absolute times are noisy: compare ratios inside one run.\n\n",
-        BENCH_RUNS);
+    printf("virga bench rain|ground|splash|glass|frames [options]\n\n"
+           "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
+           "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
+           "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the\n"
+           "        paper's\n"
+           "glass   motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with\n"
+           "        two wipers\n"
+           "frames  start of a scene of all effects, cold and warm, and how even 2000 frames of steady rain are\n\n"
+           "Medians of %d runs, beside a buffer copy, a bare kernel that reads and writes the same state, a\n"
+           "dispatch and a full fill of the picture in the same run. Absolute times are noisy: compare ratios\n"
+           "inside one run.\n\n",
+           BENCH_RUNS);
     options_print(rows, sizeof rows / sizeof rows[0]);
 }
 

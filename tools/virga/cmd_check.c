@@ -18,10 +18,10 @@ static const option_row rows[] = {
 
 void check_help(void)
 {
-    printf(
-        "virga check SCENE.yaml [--set KEY=VALUE]...\n\n"
-        "Reads a scene file as `virga render` would: every key, type, range and unit, and every mesh and picture that\n"
-        "it names. Prints what is in it, or one line with file, line and key of the first thing that is wrong.\n\n");
+    printf("virga check SCENE.yaml [--set KEY=VALUE]...\n\n"
+           "Reads a scene file as `virga render` would: every key, type, range and unit, and every mesh and\n"
+           "picture that it names. Prints what is in it, or one line with file, line and key of the first\n"
+           "thing that is wrong.\n\n");
     options_print(rows, sizeof rows / sizeof rows[0]);
 }
 

@@ -13,8 +13,8 @@ static const option_row rows[] = {
 void info_help(void)
 {
     printf("virga info [--device N|cpu|gpu|NAME]\n\n"
-           "Lists the Vulkan devices in the loader's order, marks the one that would be used, and says for each other\n"
-           "one why it can not be.\n\n");
+           "Lists the Vulkan devices in the loader's order, marks the one that would be used, and says for\n"
+           "each other one why it can not be.\n\n");
     options_print(rows, sizeof rows / sizeof rows[0]);
 }
 

@@ -63,13 +63,14 @@ void render_help(void)
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
-           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 --set 'rain.wind_m_s=[6, 0, 0]'\n"
+           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 \\\n"
+           "      --set 'rain.wind_m_s=[6, 0, 0]'\n"
            "  virga render assets/scenes/window.yaml -o out --set frames.preroll_s=60\n"
-           "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr --layers "
-           "glass,refraction\n\n"
-           "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk full,\n"
-           "device lost; finished frames are kept), 2 wrong command line or scene, or a file that it names, 130\n"
-           "interrupted.\n");
+           "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr \\\n"
+           "      --layers glass,refraction\n\n"
+           "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk\n"
+           "full, device lost; finished frames are kept), 2 wrong command line or scene, or a file that it\n"
+           "names, 130 interrupted.\n");
 }
 
 typedef struct render_job {

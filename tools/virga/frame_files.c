@@ -82,7 +82,7 @@ static const layer_row layer_rows[LAYER_COUNT] = {
                         {"velocity.X", "velocity.Y"},
                         EXR_SAMPLE_HALF,
                         NEEDS_NOTHING,
-                        "of the plate, in pixels a frame, right and down; see --water-velocity"},
+                        "of the plate, px a frame right and down; see --water-velocity"},
     [LAYER_NORMAL] =
         {"normal", {"normal.X", "normal.Y", "normal.Z"}, EXR_SAMPLE_HALF, NEEDS_NOTHING, "of the plate, in the world"},
     [LAYER_ID] = {"id", {"id.Y"}, EXR_SAMPLE_UINT, NEEDS_NOTHING, "of the plate's objects; the sky is 0"},
@@ -168,9 +168,9 @@ void frame_layers_help(void)
             const size_t used = strlen(channels);
             snprintf(channels + used, sizeof channels - used, "%s%s", c ? " " : "", dot ? dot + 1 : row->channels[c]);
         }
-        printf("      %-12s %-16s %s%s\n", row->name, channels, row->help,
-               row->needs >= NEEDS_SPLASH ? ", where the scene has some" : "");
+        printf("    %c %-12s %-16s %s\n", row->needs >= NEEDS_SPLASH ? '*' : ' ', row->name, channels, row->help);
     }
+    printf("    * where the scene has some\n");
 }
 
 /* ---- EXR */
@@ -352,14 +352,25 @@ static bool write_points(const char *directory, uint32_t system, uint32_t frame,
 
 #define AT(type, member, place) (offsetof(type, member) + 4 * (place))
 
+/* The columns that all point caches begin with. */
+/* clang-format off */
+#define POINT_COLUMNS(type)                           \
+    {"x", PLY_FLOAT, AT(type, position, 0)},          \
+    {"y", PLY_FLOAT, AT(type, position, 1)},          \
+    {"z", PLY_FLOAT, AT(type, position, 2)},          \
+    {"vx", PLY_FLOAT, AT(type, velocity, 0)},         \
+    {"vy", PLY_FLOAT, AT(type, velocity, 1)},         \
+    {"vz", PLY_FLOAT, AT(type, velocity, 2)},         \
+    {"radius", PLY_FLOAT, AT(type, radius_m, 0)},     \
+    {"id", PLY_UINT, AT(type, id, 0)},                \
+    {"age", PLY_FLOAT, AT(type, age_s, 0)}
+/* clang-format on */
+
 static bool write_drops(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     static const ply_property properties[] = {
-        {"x", PLY_FLOAT, AT(shot_point, position, 0)},      {"y", PLY_FLOAT, AT(shot_point, position, 1)},
-        {"z", PLY_FLOAT, AT(shot_point, position, 2)},      {"vx", PLY_FLOAT, AT(shot_point, velocity, 0)},
-        {"vy", PLY_FLOAT, AT(shot_point, velocity, 1)},     {"vz", PLY_FLOAT, AT(shot_point, velocity, 2)},
-        {"radius", PLY_FLOAT, AT(shot_point, radius_m, 0)}, {"id", PLY_UINT, AT(shot_point, id, 0)},
-        {"age", PLY_FLOAT, AT(shot_point, age_s, 0)},       {"weight", PLY_FLOAT, AT(shot_point, weight, 0)},
+        POINT_COLUMNS(shot_point),
+        {"weight", PLY_FLOAT, AT(shot_point, weight, 0)},
     };
     shot_point *points;
     uint32_t count;
@@ -375,13 +386,12 @@ static bool write_drops(shot *s, const char *directory, uint32_t frame, char *er
 static bool write_droplets(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     static const ply_property properties[] = {
-        {"x", PLY_FLOAT, AT(shot_droplet, position, 0)},        {"y", PLY_FLOAT, AT(shot_droplet, position, 1)},
-        {"z", PLY_FLOAT, AT(shot_droplet, position, 2)},        {"vx", PLY_FLOAT, AT(shot_droplet, velocity, 0)},
-        {"vy", PLY_FLOAT, AT(shot_droplet, velocity, 1)},       {"vz", PLY_FLOAT, AT(shot_droplet, velocity, 2)},
-        {"radius", PLY_FLOAT, AT(shot_droplet, radius_m, 0)},   {"id", PLY_UINT, AT(shot_droplet, id, 0)},
-        {"age", PLY_FLOAT, AT(shot_droplet, age_s, 0)},         {"model", PLY_UINT, AT(shot_droplet, model, 0)},
-        {"material", PLY_UINT, AT(shot_droplet, material, 0)},  {"state", PLY_UINT, AT(shot_droplet, state, 0)},
-        {"parent", PLY_UINT, AT(shot_droplet, parent, 0)},      {"index", PLY_UINT, AT(shot_droplet, index, 0)},
+        POINT_COLUMNS(shot_droplet),
+        {"model", PLY_UINT, AT(shot_droplet, model, 0)},
+        {"material", PLY_UINT, AT(shot_droplet, material, 0)},
+        {"state", PLY_UINT, AT(shot_droplet, state, 0)},
+        {"parent", PLY_UINT, AT(shot_droplet, parent, 0)},
+        {"index", PLY_UINT, AT(shot_droplet, index, 0)},
         {"water_ul", PLY_FLOAT, AT(shot_droplet, water_ul, 0)},
     };
     shot_droplet *droplets;
@@ -400,12 +410,10 @@ static bool write_droplets(shot *s, const char *directory, uint32_t frame, char 
 static bool write_glass_drops(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
 {
     static const ply_property properties[] = {
-        {"x", PLY_FLOAT, AT(shot_glass_drop, position, 0)},        {"y", PLY_FLOAT, AT(shot_glass_drop, position, 1)},
-        {"z", PLY_FLOAT, AT(shot_glass_drop, position, 2)},        {"vx", PLY_FLOAT, AT(shot_glass_drop, velocity, 0)},
-        {"vy", PLY_FLOAT, AT(shot_glass_drop, velocity, 1)},       {"vz", PLY_FLOAT, AT(shot_glass_drop, velocity, 2)},
-        {"radius", PLY_FLOAT, AT(shot_glass_drop, radius_m, 0)},   {"id", PLY_UINT, AT(shot_glass_drop, id, 0)},
-        {"age", PLY_FLOAT, AT(shot_glass_drop, age_s, 0)},         {"kind", PLY_UINT, AT(shot_glass_drop, kind, 0)},
-        {"flags", PLY_UINT, AT(shot_glass_drop, flags, 0)},        {"pane", PLY_UINT, AT(shot_glass_drop, pane, 0)},
+        POINT_COLUMNS(shot_glass_drop),
+        {"kind", PLY_UINT, AT(shot_glass_drop, kind, 0)},
+        {"flags", PLY_UINT, AT(shot_glass_drop, flags, 0)},
+        {"pane", PLY_UINT, AT(shot_glass_drop, pane, 0)},
         {"water_ul", PLY_FLOAT, AT(shot_glass_drop, water_ul, 0)},
     };
     shot_glass_drop *drops;

@@ -27,10 +27,10 @@ static void print_overview(void)
     for (size_t i = 0; i < COMMAND_COUNT; i++)
         printf("  %-10s %s\n", commands[i].name, commands[i].summary);
     printf("  %-10s %s\n\n", "help", "this, or `virga help COMMAND` for all of a command's options");
-    printf(
-        "A first frame:\n\n"
-        "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n\n"
-        "Exit codes: 0 done, 1 failed, 2 wrong command line or input, 130 interrupted (what was finished is kept).\n");
+    printf("A first frame:\n\n"
+           "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n\n"
+           "Exit codes: 0 done, 1 failed, 2 wrong command line or input, 130 interrupted (what was finished is\n"
+           "kept).\n");
 }
 
 static const command *find_command(const char *name)

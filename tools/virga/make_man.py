@@ -10,7 +10,8 @@ def says(*arguments):
 
 
 def roff(text):
-    return "\n".join("\\&" + line.replace("\\", "\\e").replace("-", "\\-") if line else "" for line in text.splitlines())
+    lines = ("\\&" + line.replace("\\", "\\e").replace("-", "\\-") if line else "" for line in text.splitlines())
+    return "\n".join(lines)
 
 
 overview = says("help")

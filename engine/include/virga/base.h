@@ -43,7 +43,8 @@ typedef enum virga_result {
     VIRGA_OK = 0,
     VIRGA_NOT_READY = 1,               /* nothing was drawn or stepped: something it needs has not been given yet */
     VIRGA_DEGRADED = 2,                /* done, with a part switched off or shrunk; the log says which */
-    VIRGA_ERROR_INVALID = -1,          /* an argument is wrong; nothing changed; the log says which and what was expected */
+    VIRGA_ERROR_INVALID = -1,          /* an argument is wrong; nothing changed; the log says which and what was
+                                        * expected */
     VIRGA_ERROR_HOST_MEMORY = -2,      /* the host allocator returned NULL; nothing changed */
     VIRGA_ERROR_DEVICE_MEMORY = -3,    /* no device memory, or over the budget; nothing changed */
     VIRGA_ERROR_UNSUPPORTED = -4,      /* the device lacks a required feature or format; the log names it */

@@ -21,8 +21,8 @@
  * inside rendering, last of all but for what is nearer to the eye than the pane, calls virga_glass_draw.
  *
  * Water is counted in whole nanolitres: what landed is on the pane, run off its edges, wiped off or evaporated, to the
- * last one. Deterministic: the same steps give the same bits. Thread-safety: as virga/vulkan.h says.
- */
+ * last one. Deterministic: the same steps give the same bits.
+ * Thread-safety: as virga/vulkan.h says. */
 #ifndef VIRGA_GLASS_H
 #define VIRGA_GLASS_H
 
@@ -99,8 +99,9 @@ VIRGA_API void virga_glass_windshield(float width_m, float height_m, float rake_
  * VIRGA_ERROR_INVALID where an index is out of range, or no triangle covers anything, or columns and rows are not
  * [2; 1025], or width_m and height_m not (0; 10]. The largest grid with hardly a triangle takes seconds. */
 VIRGA_API virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
-                                             const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
-                                             uint32_t columns, uint32_t rows, float *grid, uint8_t *mask);
+                                             const uint32_t *indices, uint32_t index_count, float width_m,
+                                             float height_m, uint32_t columns, uint32_t rows, float *grid,
+                                             uint8_t *mask);
 
 /* The rectangle that stands for the pane where drops are caught on a plane (virga_rain_pane): of its width and height,
  * around the middle of its corners; in its own frame. along_u and along_v have unit length. */
@@ -266,8 +267,8 @@ VIRGA_API virga_result virga_glass_shape_set(virga_glass *glass, const virga_gla
 VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
 
 /* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
- * VIRGA_ERROR_INVALID and nothing changes. A density or blend that this pane has not had yet needs three more pipelines,
- * built as virga_context_def.pipelines says; the pane is not drawn until they are there. Errors of those as
+ * VIRGA_ERROR_INVALID and nothing changes. A density or blend that this pane has not had yet needs three more
+ * pipelines, built as virga_context_def.pipelines says; the pane is not drawn until they are there. Errors of those as
  * virga_glass_create, and nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);
 VIRGA_API void virga_glass_get(const virga_glass *glass, virga_glass_settings *settings);

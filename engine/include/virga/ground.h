@@ -46,7 +46,8 @@ typedef struct virga_ground_def {
     uint32_t kept_tiles;    /* [0; 60000] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
     uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
-    float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default 0.005 */
+    float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default
+                             * 0.005 */
     double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
     uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
     uint32_t max_impacts;   /* [256; 4194240] the same as rain's. Default 65536 */
@@ -129,7 +130,8 @@ typedef struct virga_ground_step_info {
     VkDeviceSize impacts_offset;
     uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks. Ticks that do not come after those
                                  * of the steps before are refused (VIRGA_LOG_FRAME_ORDER) */
-    VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none do */
+    VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none
+                            * do */
     VkDeviceSize splash_rules_offset;
     VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the
                        * first tick of the step; give each return to one step with ticks only */
@@ -164,8 +166,8 @@ typedef struct virga_ground_maps {
 
 VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps);
 
-/* The cells themselves (virga/shared/ground_cell.h), for whoever shows or checks them. Each buffer has an entry for each
- * cell of the window, tile by tile: the cell (x, z), counted from the world's origin, lies at
+/* The cells themselves (virga/shared/ground_cell.h), for whoever shows or checks them. Each buffer has an entry for
+ * each cell of the window, tile by tile: the cell (x, z), counted from the world's origin, lies at
  *     ((z / 64 mod tiles) x tiles + (x / 64 mod tiles)) x 4096 + (z mod 64) x 64 + x mod 64
  * with divisions and remainders rounded down, also of negative numbers. */
 typedef struct virga_ground_cells {
@@ -185,8 +187,8 @@ VIRGA_API void virga_ground_cells_get(const virga_ground *ground, virga_ground_c
 /* What the impacts of the newest step met: virga_landing_gpu by index of impact. */
 VIRGA_API void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);
 
-/* The splashes of the newest step: a virga_spawns_gpu, then def.max_spawns x virga_spawn_gpu. Ready to be read by compute
- * and as indirect arguments. */
+/* The splashes of the newest step: a virga_spawns_gpu, then def.max_spawns x virga_spawn_gpu. Ready to be read by
+ * compute and as indirect arguments. */
 VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size);
 
 /* Newest statistics of completed frames. Water in nanolitres since creation. While `measure` is on, and nothing is

@@ -143,7 +143,8 @@ VIRGA_API virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBu
 
 /* The maps in use, for whoever shows or checks them. */
 typedef struct virga_rain_occlusion_map {
-    VkImageView depth;         /* 2D array: 0 on top, 1 at the bottom or where nothing is; VK_NULL_HANDLE: no maps yet */
+    VkImageView depth;         /* 2D array: 0 on top, 1 at the bottom or where nothing is; VK_NULL_HANDLE: no maps
+                                * yet */
     VkImageLayout layout;      /* for sampling */
     uint32_t size;             /* texels along a side */
     uint32_t cascades, slants; /* layer cascade x slants + slant; the narrowest cascade comes first */

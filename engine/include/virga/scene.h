@@ -37,8 +37,8 @@ typedef struct virga_scene_def {
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
 
-/* Device memory in bytes that virga_scene_create will take at most: the sum of its effects' estimates. 0 for a definition
- * that it would refuse. Thread-safety: any thread. */
+/* Device memory in bytes that virga_scene_create will take at most: the sum of its effects' estimates. 0 for a
+ * definition that it would refuse. Thread-safety: any thread. */
 VIRGA_API VkDeviceSize virga_scene_estimate(const virga_scene_def *def);
 
 /* Creates all effects of the definition: rain, ground, splash, panes. VIRGA_DEGRADED where the context's memory_budget
@@ -99,9 +99,9 @@ typedef struct virga_scene_frame {
 VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
 
 /* Occlusion, rain, ground, splash, panes and prepare, in that order. Panes get the rate, sizes, air and wind of the
- * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready; and for a view of no pixels,
- * where all else is done. Else the worst of the effects' results is returned. VIRGA_ERROR_INVALID for a scene with panes
- * and none in `frame`, and for numbers out of range: nothing is recorded then. */
+ * rain's settings. VIRGA_NOT_READY, and nothing recorded or stepped, until virga_scene_ready; and for a view of no
+ * pixels, where all else is done. Else the worst of the effects' results is returned. VIRGA_ERROR_INVALID for a scene
+ * with panes and none in `frame`, and for numbers out of range: nothing is recorded then. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
 /* Prepares the panes of a frame with `panes_later`, at their own time: outside rendering, once view->color holds the

@@ -3,9 +3,9 @@
  * The three models are those of Mizukami et al., "Rendering of water splash": which one a drop makes, and how large,
  * follows from the material and the water that it falls on (virga_splash_row, table 1 of the paper). Scattering: piles
  * rise from a circle, each with a droplet for its tip, which it lets go. Crown-cone, on deep water: a crown rises and
- * falls, a cone rises in its middle and lets one droplet go at its peak. Disk: the drop flattens and stays, on dry steel.
- * Droplets fly by the paper's drag (equations 2 to 5), gravity and wind, carry water that is their drop's, and give it
- * back where they fall.
+ * falls, a cone rises in its middle and lets one droplet go at its peak. Disk: the drop flattens and stays, on dry
+ * steel. Droplets fly by the paper's drag (equations 2 to 5), gravity and wind, carry water that is their drop's, and
+ * give it back where they fall.
  *
  * A frame: after virga_ground_step (or a host's own list of spawns) and outside rendering,
  *
@@ -16,8 +16,8 @@
  * say what splashes (virga_splash_rules) and, a step later, the water that fell back (virga_splash_returns).
  * virga/scene.h does all of that.
  *
- * Deterministic: the same spawns in the same ticks give the same bits. Thread-safety: as virga/vulkan.h says.
- */
+ * Deterministic: the same spawns in the same ticks give the same bits.
+ * Thread-safety: as virga/vulkan.h says. */
 #ifndef VIRGA_SPLASH_H
 #define VIRGA_SPLASH_H
 
@@ -90,12 +90,13 @@ typedef struct virga_splash_settings {
                                * its droplet go (section 4.1, step 5). Default 0.012 and 0.008 */
     float bounce;             /* [0; 1] share of the drop's velocity along the surface that its droplets take over
                                * (section 4.5). Default 0.25 */
-    float wind_share;         /* [0; 2] of the wind in the step's info that blows where droplets fly. The logarithmic law has
-                               * 0.4 of the wind at 10 m at a height of 0.1 m over a street (roughness length 3 mm). The
-                               * paper takes the rain's wind as it is: 1. Default 0.4 */
-    float droplets_m;         /* [0; 1000] nearer splashes have droplets; farther ones show as a whole: beyond some metres a droplet is a
-                               * hundredth of a pixel wide. Default 2.5 */
-    float dot_mm;             /* [0.05; 5] droplets that are at least as large make a dot where they fall. Default 0.5 */
+    float wind_share;         /* [0; 2] of the wind in the step's info that blows where droplets fly. The logarithmic
+                               * law has 0.4 of the wind at 10 m at a height of 0.1 m over a street (roughness length 3
+                               * mm). The paper takes the rain's wind as it is: 1. Default 0.4 */
+    float droplets_m;         /* [0; 1000] nearer splashes have droplets; farther ones show as a whole: beyond some
+                               * metres a droplet is a hundredth of a pixel wide. Default 2.5 */
+    float dot_mm;             /* [0.05; 5] droplets that are at least as large make a dot where they fall. Default
+                               * 0.5 */
     float air_density;        /* [0.3; 2] kg/m^3. Default 1.204 */
 
     virga_lighting lighting;
@@ -121,8 +122,9 @@ VIRGA_API void virga_splash_destroy(virga_splash **splash);
  * why one could not be built. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS always VIRGA_OK. Costs nothing. */
 VIRGA_API virga_result virga_splash_ready(const virga_splash *splash);
 
-/* Takes new settings at once; what is in the air keeps what it started with, but wind, air and piles' ends are live. Out of range: clamped, logged,
- * VIRGA_DEGRADED. NaN, infinite or wrong cookie: VIRGA_ERROR_INVALID and nothing changes. */
+/* Takes new settings at once; what is in the air keeps what it started with, but wind, air and piles' ends are live.
+ * Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie: VIRGA_ERROR_INVALID and nothing
+ * changes. */
 VIRGA_API virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings);
 VIRGA_API void virga_splash_get(const virga_splash *splash, virga_splash_settings *settings);
 
@@ -135,8 +137,8 @@ typedef struct virga_splash_buffer {
     VkDeviceSize offset, size;
 } virga_splash_buffer;
 
-/* The rules for virga_ground_step_info.splash_rules: a virga_splash_rules_gpu in a uniform buffer, as settings were at the
- * first call in a frame. Call it after virga_frame_begin (before the first: nothing); good for that frame. */
+/* The rules for virga_ground_step_info.splash_rules: a virga_splash_rules_gpu in a uniform buffer, as settings were at
+ * the first call in a frame. Call it after virga_frame_begin (before the first: nothing); good for that frame. */
 VIRGA_API void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules);
 
 /* Water that fell back in the newest step, for virga_ground_step_info.returns of the next: a virga_impacts_gpu with
@@ -155,23 +157,25 @@ typedef struct virga_splash_step_info {
 } virga_splash_step_info;
 
 /* Starts the splashes of the spawns, moves droplets, and gives back the water of those that fell. Outside rendering.
- * The first step's first tick is number 1, as rain's is, or times do not agree. A frame with 0 ticks costs next to nothing. */
+ * The first step's first tick is number 1, as rain's is, or times do not agree. A frame with 0 ticks costs next to
+ * nothing. */
 VIRGA_API virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
 
 /* Simulated time (s) that draw times count from: that of the newest tick, as the first step's first tick began at 0. */
 VIRGA_API double virga_splash_time(const virga_splash *splash);
 
-/* Chooses and shades what a view sees at `time_s`; at most VIRGA_SPLASH_MAX_VIEWS a frame; normally virga_splash_time, or a part of a tick before or after.
- * Outside rendering, after the step; once for each view, directly before its draw. */
+/* Chooses and shades what a view sees at `time_s`; at most VIRGA_SPLASH_MAX_VIEWS a frame; normally virga_splash_time,
+ * or a part of a tick before or after. Outside rendering, after the step; once for each view,
+ * directly before its draw. */
 VIRGA_API virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, const virga_view *view,
                                             double time_s);
 
 /* Builds the pipelines for a target; at most 8 targets. Where compiling is fine. */
 VIRGA_API virga_result virga_splash_attach(virga_splash *splash, const virga_target *target);
 
-/* Draws what the newest prepare of this frame chose, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of `target`; sets pipeline,
- * descriptors, viewport and scissor. VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or without a
- * prepare in this frame. */
+/* Draws what the newest prepare of this frame chose, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside
+ * rendering of `target`; sets pipeline, descriptors, viewport and scissor. VIRGA_NOT_READY (and nothing drawn) for a
+ * target that was not attached, or without a prepare in this frame. */
 VIRGA_API virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target);
 
 /* The droplets of the newest tick: def.max_droplets (as raised) x virga_droplet_gpu, those alive first, with
@@ -188,7 +192,8 @@ typedef struct virga_splash_stats {
     uint64_t droplets, fallen; /* that ever flew; that fell back */
     uint64_t flown_nl, returned_nl; /* water: taken up, and given back. The difference is in the air */
     uint32_t splashes_alive, droplets_alive; /* of the newest tick; splashes: places in use from the oldest alive on */
-    uint64_t crowded;         /* splashes that found no room for their droplets (or had none, behind one that did not) */
+    uint64_t crowded;         /* splashes that found no room for their droplets (or had none, behind one that did
+                               * not) */
     uint32_t sprites;         /* of the newest prepare */
     uint32_t sprites_cut, sheets_cut; /* that it had no room for: max_droplets sprites, a tenth as many sheets */
 } virga_splash_stats;

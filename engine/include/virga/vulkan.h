@@ -76,8 +76,8 @@ typedef struct virga_device_memory {
     void (*free)(void *user, const virga_memory_block *block);
 } virga_device_memory;
 
-/* When the pipelines of effects are built. A scene of all effects has some 90 (120 with three targets); a driver takes 1
- * to 80 ms for each that its caches do not know. */
+/* When the pipelines of effects are built. A scene of all effects has some 90 (120 with three targets); a driver takes
+ * 1 to 80 ms for each that its caches do not know. */
 typedef enum virga_pipelines_when {
     VIRGA_PIPELINES_AT_ONCE = 0,  /* in create and attach, on their thread, before they return: for loading screens */
     VIRGA_PIPELINES_IN_STEPS = 1, /* create and attach return at once; virga_pipelines_build builds as many as it is
@@ -144,15 +144,14 @@ VIRGA_API void virga_context_destroy(virga_context **context);
  * `completed_index` is the last frame whose device work has completed (0: none yet; indices start at 1). At most
  * frames_in_flight frames may be open: frame_index - completed_index <= frames_in_flight is required.
  * To name a frame that the device still runs is an error that cannot be noticed here: what it uses is freed, and the
- * driver crashes at best. A host with N command buffers that waits for the fence of each before it records into it again
- * knows frame_index - N to be complete (0 while there is none).
- * Frees what completed frames held, takes in their timings and statistics. Costs microseconds. VIRGA_DEGRADED: the
- * frame has begun, and timings could not be had. */
+ * driver crashes at best. A host with N command buffers that waits for the fence of each before it records into it
+ * again knows frame_index - N to be complete (0 while there is none). Frees what completed frames held, takes in their
+ * timings and statistics. Costs microseconds. VIRGA_DEGRADED: the frame has begun, and timings could not be had. */
 VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uint64_t completed_index);
 
-/* Says between frames that a frame has completed, for hosts that wait for their device (an offline renderer): timings and
- * statistics of that frame are then there at once. Frees nothing. `completed_index` must not fall, nor pass the newest
- * frame begun (VIRGA_ERROR_INVALID). */
+/* Says between frames that a frame has completed, for hosts that wait for their device (an offline renderer): timings
+ * and statistics of that frame are then there at once. Frees nothing. `completed_index` must not fall, nor pass the
+ * newest frame begun (VIRGA_ERROR_INVALID). */
 VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t completed_index);
 
 /* Builds up to `most` of the pipelines that wait (VIRGA_PIPELINES_IN_STEPS, oldest first, on this thread; with jobs it
@@ -318,8 +317,8 @@ typedef struct virga_view {
     float viewport[4];            /* x, y, width, height in pixels, within what the device allows */
     bool reversed_depth;          /* must match the target's. Default false */
     bool infinite_far;            /* the projection has no far plane. Default false */
-    virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the scene (also where a
-                                   * target has no depth attached), soft edges and haze; layout and
+    virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the
+                                   * scene (also where a target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
                                    * aspect. Attached in the same pass too it must be read only, with
                                    * VK_ATTACHMENT_STORE_OP_NONE: a store counts as a write whatever the layout says.

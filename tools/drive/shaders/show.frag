@@ -1,5 +1,6 @@
 #version 460
-// show.frag - the finished picture for the display: a stop brighter, highlights rolled off. sRGB is the target's format.
+// show.frag - the finished picture for the display: a stop brighter, highlights rolled off. sRGB is the target's
+// format.
 
 layout(set = 0, binding = 0) uniform sampler2D picture;
 

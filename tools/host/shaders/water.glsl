@@ -1,7 +1,7 @@
 // water.glsl - a material that is damp, wet or under water.
 //
-// Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes it
-// glossier; a puddle is a mirror of its own over it, with the reflectance of water (0.0204 at right angles) and the
+// Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes
+// it glossier; a puddle is a mirror of its own over it, with the reflectance of water (0.0204 at right angles) and the
 // level normal.
 #include "shared/ground_map.glsl"
 

@@ -21,22 +21,31 @@ static const option_row rows[] = {
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
 };
 
-#define ROW_COUNT (sizeof rows / sizeof rows[0])
+#define HELP_COLUMNS 100
+#define ROW_COUNT    (sizeof rows / sizeof rows[0])
+
+static void print_views(void)
+{
+    size_t column = (size_t)printf("\nViews:") - 1;
+    for (uint32_t mode = 0; mode < VIEW_MODES; mode++) {
+        const char *name = view_mode(mode)->name, *comma = mode + 1 < VIEW_MODES ? "," : "\n";
+        if (column + strlen(name) + 2 > HELP_COLUMNS)
+            column = (size_t)printf("\n      ") - 1;
+        column += (size_t)printf(" %s%s", name, comma);
+    }
+}
 
 void view_help(void)
 {
-    printf(
-        "virga view SCENE.yaml [options]\n\n"
-        "Shows a scene in a window, with every setting on a panel. Time is the scene's; the camera flies with the\n"
-        "mouse and W A S D. Save writes the tuned scene as YAML: the keys of its file with what was changed in them\n"
-        "(comments of the file are lost), which virga render takes.\n\n");
+    printf("virga view SCENE.yaml [options]\n\n"
+           "Shows a scene in a window, with every setting on a panel. Time is the scene's; the camera flies\n"
+           "with the mouse and W A S D. Save writes the tuned scene as YAML: the keys of its file with what was\n"
+           "changed in them (comments of the file are lost), which virga render takes.\n\n");
     options_print(rows, ROW_COUNT);
     printf("\nKeys:\n");
     for (uint32_t line = 0; view_key_help(line); line++)
         printf("  %s\n", view_key_help(line));
-    printf("\nViews: ");
-    for (uint32_t mode = 0; mode < VIEW_MODES; mode++)
-        printf("%s%s", view_mode(mode)->name, mode + 1 < VIEW_MODES ? ", " : "\n");
+    print_views();
     printf("\nLines of a script, with '#' before remarks; each frame is then one of the scene's:\n");
     view_script_help();
     printf("\nExamples:\n"

@@ -5,7 +5,7 @@
  *   view_actions.c   what keys, buttons and scripts do
  *   view_camera.c    the camera that flies
  *   view_script.c    lines that drive it
- *   view_panel.cpp   the panel; C++ as Dear ImGui is
+ *   view_panel.cpp   the panel; C++ as Dear ImGui is, with its parts in view_panel_*.cpp
  *   view_picture.c   what is shown beside it
  *   view_modes.c     the list of what can be shown
  *   view_presets.c   the list of presets
@@ -146,7 +146,8 @@ bool view_frame(viewer *v);
 void view_camera_to_path(viewer *v);
 void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, double pitch_deg);
 
-/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time goes on by `dt_s`. */
+/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time
+ * goes on by `dt_s`. */
 void view_camera_move(viewer *v, double wall_s, double dt_s);
 
 /* ---- view_script.c */

@@ -166,9 +166,9 @@ bool view_shoot(viewer *v, const char *path)
 /* ---- keys */
 
 static const char *const key_lines[] = {
-    "right mouse button: look around     W A S D, Q E: fly (Shift: faster)     C: back to the camera's path",
+    "right mouse button: look around   W A S D, Q E: fly (Shift: faster)   C: back to the camera's path",
     "Space: pause     N: one frame on     [ ]: slower, faster     R: start anew     1 to 5: presets",
-    "V, Shift V: next, previous view     B: picture     P: screenshot     F2: save     Tab: panel     Esc: quit",
+    "V, Shift V: next, previous view   B: picture   P: screenshot   F2: save   Tab: panel   Esc: quit",
 };
 
 const char *view_key_help(uint32_t line)

@@ -1,4 +1,5 @@
-/* view_script.c - a viewer driven by lines of a file: for pictures of tuned scenes, for demonstrations, and for tests. */
+/* view_script.c - a viewer driven by lines of a file: for pictures of tuned scenes, for
+ * demonstrations, and for tests. */
 #include "view.h"
 
 #include "file.h"

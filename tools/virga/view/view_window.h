@@ -42,8 +42,8 @@ bool view_window_attach(view_window *window, const host_instance *instance, host
 void view_window_detach(view_window *window);
 void view_window_close(view_window *window);
 
-/* Takes the next image to draw into: `*ready` is false where there is none now (minimised, just resized), and nothing is
- * to be drawn then. Waits where the screen has not shown the last ones. */
+/* Takes the next image to draw into: `*ready` is false where there is none now (minimised, just resized), and nothing
+ * is to be drawn then. Waits where the screen has not shown the last ones. */
 bool view_window_acquire(view_window *window, bool *ready, char *error, size_t error_size);
 
 /* Begins and ends drawing into it, at the end of a frame's command buffer. */

@@ -79,7 +79,8 @@ vec3 velocity_color(vec2 pixels)
 
 vec3 id_color(uint id)
 {
-    return id == 0u ? vec3(0.0) : mix(vec3(0.85), hue(float(id) * 0.61803399), 0.55) * (0.55 + 0.45 * fract(float(id) * 0.37));
+    return id == 0u ? vec3(0.0)
+                    : mix(vec3(0.85), hue(float(id) * 0.61803399), 0.55) * (0.55 + 0.45 * fract(float(id) * 0.37));
 }
 
 // ---- cells, where the picture shows them

@@ -1,4 +1,5 @@
-/* view_gpu.h - what the shaders of `virga view` are told, read by C and by GLSL: vec4s only, so both lay it out alike. */
+/* view_gpu.h - what the shaders of `virga view` are told, read by C and by GLSL: vec4s only, so both
+ * lay it out alike. */
 #ifndef VIEW_GPU_H
 #define VIEW_GPU_H
 
@@ -42,13 +43,15 @@ typedef int32_t view_ivec4[4];
 struct view_gpu {
     VIEW_VEC4 area;      /* of the picture in the window, pixels: low corner, size */
     VIEW_VEC4 picture;   /* its own size, exposure as a factor, far plane or range of what is shown */
-    VIEW_UVEC4 mode;     /* VIEW_..., layer, whether layers are there: 1 splash, 2 glass, 4 ground, 8 maps, 16 heights */
+    VIEW_UVEC4 mode;     /* VIEW_..., layer, whether layers are there: 1 splash, 2 glass, 4 ground, 8 maps, 16
+                          * heights */
     VIEW_VEC4 projection; /* P00, P11, P22, P32 */
     VIEW_VEC4 jitter;    /* P20, P21; height of the camera in the world */
     VIEW_VEC4 right;     /* axes of the camera in the world */
     VIEW_VEC4 up;
     VIEW_VEC4 back;
-    VIEW_VEC4 ground;    /* low corner of the window of cells relative to the camera (x, z), 1 / side of a cell, cells */
+    VIEW_VEC4 ground;    /* low corner of the window of cells relative to the camera (x, z), 1 / side of a cell,
+                          * cells */
     VIEW_IVEC4 cells;    /* first tile of the window (x, z), tiles, nl of a micrometre on a cell */
     VIEW_UVEC4 capacity[8]; /* nl that pores hold, by material */
     VIEW_VEC4 palette[VIEW_PALETTE]; /* by state or material */

@@ -1,0 +1,338 @@
+/* rain_picture_fixture.h - rain, a camera in it, the picture that its streaks are drawn into by any way to render, and
+ * what prepare wrote for it. */
+#ifndef VIRGA_TESTS_RAIN_PICTURE_FIXTURE_H
+#define VIRGA_TESTS_RAIN_PICTURE_FIXTURE_H
+
+#include "rain_fixture.h"
+
+#include <dlfcn.h>
+#include <math.h>
+
+#include "camera.h"
+#include "rain/rain_internal.h"
+#include "target.h"
+
+/* ---- a device that can also render dynamically, where there is such a thing */
+
+static bool dynamic_rendering_there;
+static PFN_vkCmdBeginRenderingKHR begin_rendering;
+static PFN_vkCmdEndRenderingKHR end_rendering;
+
+static inline bool has_dynamic_rendering(VkPhysicalDevice physical)
+{
+    uint32_t count = 0;
+    bool found = false;
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
+    VkExtensionProperties *all = calloc(count + 1, sizeof *all);
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all);
+    for (uint32_t i = 0; i < count; i++)
+        found = found || !strcmp(all[i].extensionName, VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
+    free(all);
+    return found;
+}
+
+/* Stands in front of the loader's: tools/host asks for no more than it uses, and dynamic rendering it does not use. */
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo *info,
+                                              const VkAllocationCallbacks *allocator, VkDevice *device)
+{
+    static const char *const names[] = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME};
+    PFN_vkCreateDevice create = NULL;
+    void *symbol = dlsym(RTLD_NEXT, "vkCreateDevice");
+    memcpy(&create, &symbol, sizeof create);
+    dynamic_rendering_there = has_dynamic_rendering(physical) && !info->enabledExtensionCount;
+    if (!dynamic_rendering_there)
+        return create(physical, info, allocator, device);
+    VkPhysicalDeviceDynamicRenderingFeatures feature = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
+    feature.pNext = (void *)(uintptr_t)info->pNext;
+    VkDeviceCreateInfo more = *info;
+    more.pNext = &feature;
+    more.enabledExtensionCount = 1;
+    more.ppEnabledExtensionNames = names;
+    const VkResult result = create(physical, &more, allocator, device);
+    if (result == VK_SUCCESS) {
+        begin_rendering = (PFN_vkCmdBeginRenderingKHR)vkGetDeviceProcAddr(*device, "vkCmdBeginRenderingKHR");
+        end_rendering = (PFN_vkCmdEndRenderingKHR)vkGetDeviceProcAddr(*device, "vkCmdEndRenderingKHR");
+    }
+    return result;
+}
+
+/* ---- a shot: rain, a picture, and what prepare wrote for it */
+
+enum { EVERY_STREAK = -1, DRAW_BYTES = 2 * sizeof(virga_draw_gpu) };
+
+typedef struct shot {
+    rain_fixture f;
+    host_target picture;
+    VkRenderPass tested_pass; /* with the plate's depth attached */
+    VkFramebuffer tested_framebuffer;
+    virga_target *layer; /* of the pass that is drawn into */
+    virga_target_def layer_def;
+    host_camera camera, open;
+    double shutter_s;
+    host_buffer streaks, prepared, slots;
+    float scene_depth; /* in the depth buffer's terms */
+    bool give_depth, reversed;
+    int only; /* the one streak to be drawn, by its place */
+} shot;
+
+static inline void add_picture(shot *s, uint32_t width, uint32_t height)
+{
+    REQUIRE(host_target_create(&s->f.gpu.device, width, height, &s->picture, s->f.gpu.error, sizeof s->f.gpu.error));
+    s->layer_def = virga_default_target_def();
+    host_target_describe_layer(&s->picture, &s->layer_def);
+    REQUIRE(virga_target_create(s->f.context, &s->layer_def, &s->layer) == VIRGA_OK);
+    REQUIRE(virga_rain_attach(s->f.rain, s->layer) == VIRGA_OK);
+}
+
+static inline void remove_picture(shot *s)
+{
+    virga_target_destroy(&s->layer);
+    vkDestroyFramebuffer(s->f.gpu.device.device, s->tested_framebuffer, NULL);
+    vkDestroyRenderPass(s->f.gpu.device.device, s->tested_pass, NULL);
+    s->tested_framebuffer = VK_NULL_HANDLE;
+    s->tested_pass = VK_NULL_HANDLE;
+    host_target_destroy(&s->f.gpu.device, &s->picture);
+}
+
+/* Rain in the open, a camera at a man's height that looks level along -Z. */
+static inline void open_shot(shot *s, float rate_mm_h)
+{
+    virga_rain_def def = virga_default_rain_def();
+    def.max_drops = 16384;
+    def.range_m = 8;
+    def.occlusion_size = 0;
+    memset(s, 0, sizeof *s);
+    rain_fixture_open(&s->f);
+    rain_fixture_rain(&s->f, &def);
+    const virga_rain *rain = s->f.rain;
+    rain_fixture_readback(&s->f, rain->streak_buffer->size, &s->streaks);
+    rain_fixture_readback(&s->f, rain->prepared_buffer->size, &s->prepared);
+    rain_fixture_readback(&s->f, rain->slot_buffer->size, &s->slots);
+    s->f.settings.rate_mm_h = rate_mm_h;
+    s->f.camera[1] = 1.7;
+    s->shutter_s = 1.0 / 96;
+    s->only = EVERY_STREAK;
+    s->scene_depth = 1;
+}
+
+static inline void close_shot(shot *s)
+{
+    remove_picture(s);
+    host_buffer *buffers[] = {&s->streaks, &s->prepared, &s->slots};
+    for (size_t i = 0; i < 3; i++)
+        host_buffer_destroy(&s->f.gpu.device, buffers[i]);
+    rain_fixture_close(&s->f);
+}
+
+static inline void apply_settings(shot *s)
+{
+    assert_int_equal(virga_rain_set(s->f.rain, &s->f.settings), VIRGA_OK);
+}
+
+static inline void aim(shot *s, host_camera *camera, const double at[3], const double to[3])
+{
+    const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
+    const host_camera_path path = {&key, 1, 40, 0.1, 100};
+    host_camera_at(&path, 0, s->picture.width, s->picture.height, NULL, camera);
+}
+
+static inline void aim_level(shot *s)
+{
+    aim(s, &s->camera, s->f.camera, (const double[3]){0, s->f.camera[1], -5});
+    s->open = s->camera;
+}
+
+/* Nearer is greater: depth' = 1 - depth. */
+static inline void reverse_projection(float m[16])
+{
+    m[10] = -1 - m[10];
+    m[14] = -m[14];
+}
+
+static inline virga_view view_of(const shot *s)
+{
+    virga_view view = virga_default_view();
+    host_camera_view(&s->camera, &s->open, s->shutter_s, &view);
+    if (s->reversed) {
+        reverse_projection(view.clip_from_view);
+        reverse_projection(view.open_clip_from_view);
+        view.reversed_depth = true;
+    }
+    if (s->give_depth)
+        view.depth = host_target_depth(&s->picture);
+    return view;
+}
+
+/* Depth buffer value of a distance along the camera's axis. */
+static inline float stored_depth(const shot *s, double distance_m)
+{
+    const double stored = -(double)s->camera.clip_from_view[10] + (double)s->camera.clip_from_view[14] / distance_m;
+    return (float)(s->reversed ? 1 - stored : stored);
+}
+
+/* ---- drawing a frame */
+
+static inline void record_scene_depth(const shot *s, VkCommandBuffer cmd)
+{
+    const VkClearAttachment clear = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {s->scene_depth, 0}}};
+    const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
+    host_target_begin_plate(&s->picture, cmd);
+    vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
+    host_target_end_plate(&s->picture, cmd);
+}
+
+static inline void memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
+                                  VkPipelineStageFlags to, VkAccessFlags reads)
+{
+    const VkMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = wrote, .dstAccessMask = reads};
+    vkCmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
+/* What prepare left is read back, and its draw cut down to one streak where one is asked for. */
+static inline void record_prepared(shot *s, VkCommandBuffer cmd)
+{
+    const virga_rain *rain = s->f.rain;
+    const virga_rain_buffer from[] = {{rain->streak_buffer->buffer, 0, rain->streak_buffer->size},
+                                      {rain->prepared_buffer->buffer, 0, rain->prepared_buffer->size},
+                                      {rain->slot_buffer->buffer, 0, rain->slot_buffer->size},
+                                      {rain->drop_buffer->buffer, 0, rain->drop_buffer->size}};
+    const host_buffer *to[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops};
+    for (size_t i = 0; i < 4; i++)
+        rain_fixture_copy(cmd, &from[i], to[i]);
+    if (s->only == EVERY_STREAK)
+        return;
+    const virga_draw_gpu draws[2] = {{0, 1, 0, 0, 0}, {6, 1, 6 * (uint32_t)s->only, 0, 0}};
+    memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdUpdateBuffer(cmd, rain->prepared_buffer->buffer, 0, DRAW_BYTES, draws);
+    memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+static const host_image *layer_image(const shot *s)
+{
+    return &s->picture.images[HOST_LAYER];
+}
+
+/* The layer with dynamic rendering, and with the plate's depth attached where the target has it. */
+static inline void record_dynamic(const shot *s, VkCommandBuffer cmd)
+{
+    const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                             .imageView = layer_image(s)->view,
+                                             .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                             .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                             .imageView = s->picture.images[HOST_DEPTH].view,
+                                             .imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+                                             .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                  .renderArea = {{0, 0}, {s->picture.width, s->picture.height}},
+                                  .layerCount = 1,
+                                  .colorAttachmentCount = 1,
+                                  .pColorAttachments = &color,
+                                  .pDepthAttachment = s->layer_def.depth_attached ? &depth : NULL};
+    host_image_barrier(cmd, layer_image(s), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                       VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+    begin_rendering(cmd, &info);
+    REQUIRE(virga_rain_draw(s->f.rain, cmd, s->layer) == VIRGA_OK);
+    end_rendering(cmd);
+    host_image_barrier(cmd, layer_image(s), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+static inline void record_tested(const shot *s, VkCommandBuffer cmd)
+{
+    const VkClearValue clears[2] = {{.color = {.float32 = {0}}}, {.depthStencil = {1, 0}}};
+    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                         .renderPass = s->tested_pass,
+                                         .framebuffer = s->tested_framebuffer,
+                                         .renderArea = {{0, 0}, {s->picture.width, s->picture.height}},
+                                         .clearValueCount = 2,
+                                         .pClearValues = clears};
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    REQUIRE(virga_rain_draw(s->f.rain, cmd, s->layer) == VIRGA_OK);
+    vkCmdEndRenderPass(cmd);
+}
+
+static inline void record_layer(const shot *s, VkCommandBuffer cmd)
+{
+    if (s->layer_def.kind == VIRGA_TARGET_DYNAMIC) {
+        record_dynamic(s, cmd);
+    } else if (s->tested_pass) {
+        record_tested(s, cmd);
+    } else {
+        host_target_begin_layer(&s->picture, cmd);
+        REQUIRE(virga_rain_draw(s->f.rain, cmd, s->layer) == VIRGA_OK);
+        host_target_end_layer(&s->picture, cmd);
+    }
+}
+
+/* Steps, prepares and draws the layer. Its pixels live until the next frame. */
+static const float *draw_frame(shot *s, double dt_s)
+{
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s->f);
+    rain_fixture_record_step(&s->f, cmd, dt_s);
+    record_scene_depth(s, cmd);
+    const virga_view view = view_of(s);
+    REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain)) == VIRGA_OK);
+    record_prepared(s, cmd);
+    record_layer(s, cmd);
+    host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER);
+    rain_fixture_end_frame(&s->f);
+    const host_buffer *reads[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops};
+    for (size_t i = 0; i < 4; i++)
+        host_buffer_invalidate(&s->f.gpu.device, reads[i]);
+    return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
+}
+
+static inline float *draw_copy(shot *s, double dt_s)
+{
+    const float *pixels = draw_frame(s, dt_s);
+    const size_t bytes = (size_t)s->picture.width * s->picture.height * 4 * sizeof(float);
+    float *copy = malloc(bytes);
+    return memcpy(copy, pixels, bytes);
+}
+
+static inline double sum_of(const shot *s, const float *pixels, int channel)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)s->picture.width * s->picture.height; i++)
+        sum += (double)pixels[i * 4 + (size_t)channel];
+    return sum;
+}
+
+static inline uint32_t streak_count(const shot *s)
+{
+    return ((const virga_prepared_gpu *)s->prepared.mapped)->streaks;
+}
+
+static const virga_streak_gpu *streak_list(const shot *s)
+{
+    return s->streaks.mapped;
+}
+
+static inline double half_value(uint32_t bits)
+{
+    const int exponent = (int)(bits >> 10 & 31), mantissa = (int)(bits & 1023);
+    const double size = exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24);
+    return bits & 0x8000 ? -size : size;
+}
+
+static inline double low_half(uint32_t pair)
+{
+    return half_value(pair & 0xffff);
+}
+
+static inline double high_half(uint32_t pair)
+{
+    return half_value(pair >> 16);
+}
+
+#endif

@@ -1,0 +1,236 @@
+/* test_rain_coverage.c - what streaks and haze cover of the picture, and what the scene's depth leaves of them. */
+#include "rain_expected_streak.h"
+
+/* ---- coverage */
+
+enum { THIN_STREAKS = 6, GAIN = 4 /* so that single drops are dense enough farther away */ };
+
+/* One drop each, well inside the picture, thinner than a pixel and still dense enough not to fade at half the size. */
+static uint32_t choose_thin(const shot *s, uint32_t *ids)
+{
+    const uint32_t wide = ((const virga_prepared_gpu *)s->prepared.mapped)->wide.index_count / 6;
+    uint32_t found = 0;
+    for (uint32_t i = wide; i < streak_count(s) && found < THIN_STREAKS; i++) {
+        const virga_streak_gpu *streak = &streak_list(s)[i];
+        expected e;
+        if (!streak->width_alpha || !expect_streak(s, slot_of(streak), &e))
+            continue;
+        const bool shown =
+            fmax(fabs(e.head[0]), fabs(e.tail[0])) < 0.95 && fmax(fabs(e.head[1]), fabs(e.tail[1])) < 0.95;
+        const double at_half = GAIN * e.weight * e.body_px / fmax(e.way_px, e.body_px) * 0.5 * e.width_px;
+        if (shown && e.width_px < 0.98 && at_half > 2.02 / 400 && e.weight < 1.001 && e.way_px > 20 * e.body_px)
+            ids[found++] = streak->id;
+    }
+    return found;
+}
+
+static int place_of(const shot *s, uint32_t id)
+{
+    for (uint32_t i = 0; i < streak_count(s); i++)
+        if (streak_list(s)[i].id == id)
+            return (int)i;
+    fail_msg("a streak is gone");
+    return 0;
+}
+
+/* Many drops of about 2 mm, so that there are single ones where they are a pixel wide. */
+static void rain_of_big_drops(shot *s)
+{
+    static const double diameters[2] = {0.0018, 0.0026}, numbers[2] = {1, 1};
+    s->f.settings.sizes = (virga_sizes){VIRGA_SIZES_TABLE, diameters, numbers, 2};
+    s->f.settings.oscillation = 0;
+}
+
+/* Over the shutter time a drop passes; at each moment it covers its own disc. So all that its streak covers is the
+ * disc's area in pixels, whatever the length of the streak. */
+static void a_thin_streak_covers_its_disc_at_any_resolution(void **state)
+{
+    (void)state;
+    shot s;
+    uint32_t ids[THIN_STREAKS], count = 0;
+    double shares[2][THIN_STREAKS];
+    open_shot(&s, 1);
+    rain_of_big_drops(&s);
+    s.f.settings.streak_gain = GAIN;
+    apply_settings(&s);
+    for (int run = 0; run < 2; run++) {
+        add_picture(&s, run ? 160 : 320, run ? 120 : 240);
+        aim_level(&s);
+        s.only = EVERY_STREAK;
+        draw_frame(&s, run ? 0 : 0.2);
+        count = run ? count : choose_thin(&s, ids);
+        for (uint32_t i = 0; i < count; i++) {
+            expected e;
+            s.only = place_of(&s, ids[i]);
+            const double sum = sum_of(&s, draw_frame(&s, 0), 3);
+            assert_true(expect_streak(&s, ids[i] & ((1u << VIRGA_RAIN_ID_SLOT_BITS) - 1), &e));
+            const double disc = GAIN * 0.785398 * e.width_px * e.body_px * e.weight;
+            assert_true(fabs(sum / disc - 1) < 0.02);
+
+            shares[run][i] = sum / (s.picture.width * s.picture.height);
+        }
+        remove_picture(&s);
+    }
+    printf("%u streaks\n", count);
+    assert_true(count >= 3);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(fabs(shares[1][i] / shares[0][i] - 1) < 0.02);
+    close_shot(&s);
+}
+
+static void an_even_environment_gives_its_radiance_times_the_coverage(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 40);
+    add_picture(&s, 320, 240);
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.lighting.environment_sh[0][c] = (float)(c + 1) / 0.282095f;
+    s.f.settings.oscillation = 0;
+    apply_settings(&s);
+    aim_level(&s);
+    const float *pixels = draw_frame(&s, 0.2);
+    uint32_t covered = 0;
+    for (size_t i = 0; i < (size_t)s.picture.width * s.picture.height; i++) {
+        covered += pixels[i * 4 + 3] > 0;
+        for (int c = 0; c < 3; c++)
+            assert_true(fabsf(pixels[i * 4 + (size_t)c] - (float)(c + 1) * pixels[i * 4 + 3]) <
+                        2e-3f * (float)(c + 1) * pixels[i * 4 + 3] + 1e-6f);
+    }
+    assert_true(covered > 5000);
+    close_shot(&s);
+}
+
+/* ---- haze */
+
+/* All drops are below 2 mm, and none of these is drawn one by one. */
+static void rain_of_haze(shot *s)
+{
+    static const double diameters[2] = {0.0005, 0.0015}, numbers[2] = {1, 1};
+    s->f.settings.sizes = (virga_sizes){VIRGA_SIZES_TABLE, diameters, numbers, 2};
+    s->f.settings.bodies_min_mm = 2;
+    s->f.settings.haze = 4;
+    s->give_depth = true;
+    for (int c = 0; c < 3; c++)
+        s->f.settings.lighting.environment_sh[3][c] = 0.3f; /* another one on the right than on the left */
+}
+
+static void check_haze(shot *s, double distance_m)
+{
+    s->scene_depth = stored_depth(s, distance_m);
+    const float *pixels = draw_frame(s, 0.02);
+    const double extinction = virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
+    const float *p = s->camera.clip_from_view;
+    assert_int_equal(streak_count(s), 0);
+    for (size_t i = 0; i < (size_t)s->picture.width * s->picture.height; i += 7) {
+        const double x = (((double)(i % s->picture.width) + 0.5) / s->picture.width * 2 - 1) / (double)p[0],
+                     y = (((double)(i / s->picture.width) + 0.5) / s->picture.height * 2 - 1) / (double)p[5];
+        const double length = sqrt(1 + x * x + y * y), alpha = 1 - exp(-extinction * distance_m * length);
+        double radiance[3];
+        environment_at(s, (const double[3]){x / length, y / length, -1 / length}, (const double[3]){1, 0.97, 0.94},
+                       radiance);
+        assert_true(fabs((double)pixels[i * 4 + 3] - alpha) < 2e-3 * alpha);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs((double)pixels[i * 4 + (size_t)c] - radiance[c] * alpha) < 4e-3 * radiance[c] * alpha);
+    }
+}
+
+static void haze_thickens_by_beers_law(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    rain_of_haze(&s);
+    apply_settings(&s);
+    aim_level(&s);
+    check_haze(&s, 1.5); /* within the boxes */
+    check_haze(&s, 6);
+    check_haze(&s, 30); /* beyond them */
+    close_shot(&s);
+}
+
+static void there_is_no_haze_before_the_sky_or_without_depth(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    rain_of_haze(&s);
+    apply_settings(&s);
+    aim_level(&s);
+    assert_true(sum_of(&s, draw_frame(&s, 0.02), 3) == 0);
+    s.scene_depth = stored_depth(&s, 20);
+    assert_true(sum_of(&s, draw_frame(&s, 0.02), 3) > 0);
+    s.give_depth = false;
+    assert_true(sum_of(&s, draw_frame(&s, 0.02), 3) == 0);
+    close_shot(&s);
+}
+
+/* ---- the scene's depth */
+
+static void streaks_end_at_the_scene_over_soft_m(void **state)
+{
+    (void)state;
+    static const double in_front[] = {-0.5, -0.01, 0.05, 0.1, 0.15, 0.2, 1};
+    shot s;
+    double distance;
+    open_shot(&s, 80);
+    add_picture(&s, 160, 120);
+    s.f.settings.soft_m = 0.2f;
+    s.f.settings.haze = 0;
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    s.only = choose_streak(&s, &distance);
+    s.give_depth = true;
+    float *whole = draw_copy(&s, 0);
+    assert_true(sum_of(&s, whole, 3) > 0.01);
+    for (size_t i = 0; i < sizeof in_front / sizeof in_front[0]; i++) {
+        s.scene_depth = stored_depth(&s, distance + in_front[i]);
+        const float *pixels = draw_frame(&s, 0);
+        const double share = clamp01(in_front[i] / 0.2);
+        assert_true(fabs(sum_of(&s, pixels, 3) / sum_of(&s, whole, 3) - share) < 2e-3);
+        for (size_t j = 0; j < (size_t)s.picture.width * s.picture.height * 4; j++)
+            assert_true(fabs((double)pixels[j] - share * (double)whole[j]) < 3e-3 * (double)whole[j] + 1e-7);
+    }
+    free(whole);
+    close_shot(&s);
+}
+
+/* With soft_m 0 it is a step. */
+static void without_softness_the_scene_cuts(void **state)
+{
+    (void)state;
+    shot s;
+    double distance;
+    open_shot(&s, 80);
+    add_picture(&s, 160, 120);
+    s.f.settings.soft_m = 0;
+    s.f.settings.haze = 0;
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    s.only = choose_streak(&s, &distance);
+    s.give_depth = true;
+    const double whole = sum_of(&s, draw_frame(&s, 0), 3);
+    s.scene_depth = stored_depth(&s, distance + 0.001);
+    assert_true(sum_of(&s, draw_frame(&s, 0), 3) == whole);
+    s.scene_depth = stored_depth(&s, distance - 0.001);
+    assert_true(sum_of(&s, draw_frame(&s, 0), 3) == 0);
+    close_shot(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_thin_streak_covers_its_disc_at_any_resolution),
+        cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
+        cmocka_unit_test(haze_thickens_by_beers_law),
+        cmocka_unit_test(there_is_no_haze_before_the_sky_or_without_depth),
+        cmocka_unit_test(streaks_end_at_the_scene_over_soft_m),
+        cmocka_unit_test(without_softness_the_scene_cuts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

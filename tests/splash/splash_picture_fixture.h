@@ -1,0 +1,357 @@
+/* splash_picture_fixture.h - splashes, a camera before them, the picture that they are drawn into, and droplets that a
+ * test chooses. */
+#ifndef VIRGA_TESTS_SPLASH_PICTURE_FIXTURE_H
+#define VIRGA_TESTS_SPLASH_PICTURE_FIXTURE_H
+
+#include "splash_fixture.h"
+
+#include <limits.h>
+#include <math.h>
+
+#include "camera.h"
+#include "target.h"
+
+#define GRAVITY     9.80665
+#define FOV_DEG     40.0
+#define HALF_OF_ONE 0x3c00u /* 1 as a half float in the low bits */
+
+enum { SIDE = 128, FEW_SPRITES = 64, BLOB_PLACES = 4 };
+
+/* ---- a shot: splashes, a picture, and what prepare wrote for it */
+
+typedef struct shot {
+    splash_fixture f;
+    host_target picture;
+    VkRenderPass tested_pass; /* with the plate's depth attached */
+    VkFramebuffer tested_framebuffer;
+    virga_target *layer;
+    virga_target_def layer_def;
+    host_camera camera;
+    double shutter_s, after_s; /* open for so long; drawn so long after the newest tick */
+    float scene_depth;         /* in the depth buffer's terms */
+    bool give_depth, give_color, reversed;
+    host_buffer sprites, prepared;
+} shot;
+
+static inline void add_picture(shot *s, uint32_t side)
+{
+    char *error = s->f.gpu.error;
+    REQUIRE(host_target_create(&s->f.gpu.device, side, side, &s->picture, error, sizeof s->f.gpu.error));
+    REQUIRE(host_target_add_splash(&s->f.gpu.device, &s->picture, error, sizeof s->f.gpu.error));
+    s->layer_def = virga_default_target_def();
+    host_target_describe_layer(&s->picture, &s->layer_def);
+    REQUIRE(virga_target_create(s->f.context, &s->layer_def, &s->layer) == VIRGA_OK);
+    REQUIRE(virga_splash_attach(s->f.splash, s->layer) == VIRGA_OK);
+}
+
+static inline void remove_picture(shot *s)
+{
+    virga_target_destroy(&s->layer);
+    vkDestroyFramebuffer(s->f.gpu.device.device, s->tested_framebuffer, NULL);
+    vkDestroyRenderPass(s->f.gpu.device.device, s->tested_pass, NULL);
+    s->tested_framebuffer = VK_NULL_HANDLE;
+    s->tested_pass = VK_NULL_HANDLE;
+    host_target_destroy(&s->f.gpu.device, &s->picture);
+}
+
+static inline void readback(shot *s, VkDeviceSize size, host_buffer *buffer)
+{
+    REQUIRE(host_buffer_create(&s->f.gpu.device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "read",
+                               buffer, s->f.gpu.error, sizeof s->f.gpu.error));
+}
+
+static inline void apply_settings(shot *s)
+{
+    REQUIRE(virga_splash_set(s->f.splash, &s->f.settings) == VIRGA_OK);
+}
+
+/* Nothing fades for being near; edges at the scene are hard; the shutter does not stay open. */
+static inline void open_shot_of(shot *s, const virga_splash_def *def)
+{
+    memset(s, 0, sizeof *s);
+    splash_fixture_open(&s->f, def);
+    s->f.settings.near_m = 0;
+    s->f.settings.soft_m = 0;
+    apply_settings(s);
+    readback(s, FEW_SPRITES * sizeof(virga_sprite_gpu), &s->sprites);
+    readback(s, sizeof(virga_splash_prepared_gpu), &s->prepared);
+    s->scene_depth = 1;
+    add_picture(s, SIDE);
+}
+
+static inline void open_shot(shot *s)
+{
+    open_shot_of(s, NULL);
+}
+
+static inline void close_shot(shot *s)
+{
+    remove_picture(s);
+    host_buffer_destroy(&s->f.gpu.device, &s->sprites);
+    host_buffer_destroy(&s->f.gpu.device, &s->prepared);
+    splash_fixture_close(&s->f);
+}
+
+static inline void aim(shot *s, const double at[3], const double to[3])
+{
+    const host_camera_key key = {0, {at[0], at[1], at[2]}, {to[0], to[1], to[2]}, 0, false};
+    const host_camera_path path = {&key, 1, FOV_DEG, 0.02, 100};
+    host_camera_at(&path, 0, s->picture.width, s->picture.height, NULL, &s->camera);
+}
+
+/* From a distance, level, along -Z. */
+static inline void aim_from(shot *s, double distance_m)
+{
+    aim(s, (const double[3]){0, 0, distance_m}, (const double[3]){0, 0, 0});
+}
+
+/* Nearer is greater: depth' = 1 - depth. */
+static inline void reverse_projection(float m[16])
+{
+    m[10] = -1 - m[10];
+    m[14] = -m[14];
+}
+
+static inline virga_view view_of(const shot *s)
+{
+    virga_view view = virga_default_view();
+    host_camera_view(&s->camera, &s->camera, s->shutter_s, &view);
+    if (s->reversed) {
+        reverse_projection(view.clip_from_view);
+        reverse_projection(view.open_clip_from_view);
+        view.reversed_depth = true;
+    }
+    if (s->give_depth)
+        view.depth = host_target_depth(&s->picture);
+    if (s->give_color)
+        view.color = host_target_color(&s->picture);
+    return view;
+}
+
+/* Depth buffer value of a distance along the camera's axis. */
+static inline float stored_depth(const shot *s, double distance_m)
+{
+    const double stored = -(double)s->camera.clip_from_view[10] + (double)s->camera.clip_from_view[14] / distance_m;
+    return (float)(s->reversed ? 1 - stored : stored);
+}
+
+/* Metres that a pixel is wide at a distance along the axis. */
+static inline double pixel_m(const shot *s, double distance_m)
+{
+    return 2 * tan(FOV_DEG * M_PI / 360) / s->picture.height * distance_m;
+}
+
+/* Pixels right and down, of a place in the world. */
+static inline double to_pixels(const shot *s, const double place[3], double pixel[2])
+{
+    const float *m = s->camera.view_from_world, *p = s->camera.clip_from_view;
+    double v[3];
+    for (int row = 0; row < 3; row++) {
+        v[row] = 0;
+        for (int i = 0; i < 3; i++)
+            v[row] += (double)m[4 * i + row] * (place[i] - s->camera.position_m[i]);
+    }
+    pixel[0] = (0.5 + 0.5 * (double)p[0] * v[0] / -v[2]) * s->picture.width;
+    pixel[1] = (0.5 + 0.5 * (double)p[5] * v[1] / -v[2]) * s->picture.height;
+    return -v[2];
+}
+
+/* ---- drawing a frame */
+
+static inline void clear_part(VkCommandBuffer cmd, VkRect2D part, float r, float g, float b)
+{
+    const VkClearAttachment clear = {VK_IMAGE_ASPECT_COLOR_BIT, HOST_COLOR, {.color = {.float32 = {r, g, b, 1}}}};
+    const VkClearRect rect = {part, 0, 1};
+    vkCmdClearAttachments(cmd, 1, &clear, 1, &rect);
+}
+
+/* The scene: one depth; red on the left, green on the right, and blue as well in the upper half. */
+static inline void record_plate(const shot *s, VkCommandBuffer cmd)
+{
+    const uint32_t w = s->picture.width / 2, h = s->picture.height / 2;
+    const VkClearAttachment clear = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {s->scene_depth, 0}}};
+    const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
+    host_target_begin_plate(&s->picture, cmd);
+    vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
+    clear_part(cmd, (VkRect2D){{0, 0}, {w, h}}, 1, 0, 1);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, 0}, {w, h}}, 0, 1, 1);
+    clear_part(cmd, (VkRect2D){{0, (int32_t)h}, {w, h}}, 1, 0, 0);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, (int32_t)h}, {w, h}}, 0, 1, 0);
+    host_target_end_plate(&s->picture, cmd);
+}
+
+static inline virga_result prepare(const shot *s, VkCommandBuffer cmd)
+{
+    const virga_view view = view_of(s);
+    return virga_splash_prepare(s->f.splash, cmd, &view, virga_splash_time(s->f.splash) + s->after_s);
+}
+
+static inline void record_prepared(shot *s, VkCommandBuffer cmd)
+{
+    const VkBufferCopy sprites = {0, 0, FEW_SPRITES * sizeof(virga_sprite_gpu)},
+                       draws = {0, 0, sizeof(virga_splash_prepared_gpu)};
+    effect_fixture_transfers(cmd);
+    vkCmdCopyBuffer(cmd, s->f.splash->sprites->buffer, s->sprites.buffer, 1, &sprites);
+    vkCmdCopyBuffer(cmd, s->f.splash->prepared_buffer->buffer, s->prepared.buffer, 1, &draws);
+}
+
+static inline virga_result record_tested(const shot *s, VkCommandBuffer cmd)
+{
+    const VkClearValue clears[2] = {{.color = {.float32 = {0}}}, {.depthStencil = {1, 0}}};
+    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                         .renderPass = s->tested_pass,
+                                         .framebuffer = s->tested_framebuffer,
+                                         .renderArea = {{0, 0}, {s->picture.width, s->picture.height}},
+                                         .clearValueCount = 2,
+                                         .pClearValues = clears};
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    const virga_result result = virga_splash_draw(s->f.splash, cmd, s->layer);
+    vkCmdEndRenderPass(cmd);
+    return result;
+}
+
+static inline virga_result record_layer(const shot *s, VkCommandBuffer cmd, host_output output)
+{
+    if (s->tested_pass)
+        return record_tested(s, cmd);
+    if (output == HOST_LAYER)
+        host_target_begin_layer(&s->picture, cmd);
+    else
+        host_target_begin_splash(&s->picture, cmd);
+    const virga_result result = virga_splash_draw(s->f.splash, cmd, s->layer);
+    host_target_end_layer(&s->picture, cmd);
+    return result;
+}
+
+static const float *finish_frame(shot *s, VkCommandBuffer cmd)
+{
+    host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER | 1u << HOST_SPLASH);
+    splash_fixture_submit(&s->f);
+    host_buffer_invalidate(&s->f.gpu.device, &s->sprites);
+    host_buffer_invalidate(&s->f.gpu.device, &s->prepared);
+    return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
+}
+
+/* Both layers hold nothing. */
+static inline void record_empty(const shot *s, VkCommandBuffer cmd)
+{
+    host_target_begin_layer(&s->picture, cmd);
+    host_target_end_layer(&s->picture, cmd);
+    host_target_begin_splash(&s->picture, cmd);
+    host_target_end_layer(&s->picture, cmd);
+}
+
+/* Prepares and draws the newest tick. Its pixels live until the next frame. */
+static const float *draw_frame(shot *s)
+{
+    const VkCommandBuffer cmd = splash_fixture_begin(&s->f);
+    record_empty(s, cmd);
+    record_plate(s, cmd);
+    REQUIRE(prepare(s, cmd) == VIRGA_OK);
+    record_prepared(s, cmd);
+    REQUIRE(record_layer(s, cmd, HOST_LAYER) == VIRGA_OK);
+    return finish_frame(s, cmd);
+}
+
+static inline size_t pixel_count(const shot *s)
+{
+    return (size_t)s->picture.width * s->picture.height;
+}
+
+static inline float *copy_of(const shot *s, const float *pixels)
+{
+    float *copy = malloc(pixel_count(s) * 16);
+    return memcpy(copy, pixels, pixel_count(s) * 16);
+}
+
+static inline double sum_of(const shot *s, const float *pixels, int channel)
+{
+    double sum = 0;
+    for (size_t i = 0; i < pixel_count(s); i++)
+        sum += (double)pixels[i * 4 + (size_t)channel];
+    return sum;
+}
+
+static inline double drawn_alpha(shot *s)
+{
+    return sum_of(s, draw_frame(s), 3);
+}
+
+static const virga_splash_prepared_gpu *prepared(const shot *s)
+{
+    return s->prepared.mapped;
+}
+
+static inline void assert_near(double value, double expected, double share)
+{
+    if (!(fabs(value - expected) <= share * fabs(expected)))
+        fail_msg("%g is not within %g %% of %g", value, share * 100, expected);
+}
+
+/* ---- droplets that a test chooses */
+
+/* One that flies far above its ground, and has no pile any more. After a tick it is about where it is to be, and moves
+ * so. */
+static inline virga_droplet_gpu flying(double diameter_m, const double place[3], const double velocity[3])
+{
+    const double tick_s = 1.0 / 60, up = velocity[1] + GRAVITY * tick_s;
+    return (virga_droplet_gpu){.position = {(float)(place[0] - velocity[0] * tick_s),
+                                            (float)(place[1] - up * tick_s + 0.5 * GRAVITY * tick_s * tick_s),
+                                            (float)(place[2] - velocity[2] * tick_s)},
+                               .age_s = 1,
+                               .velocity = {(float)velocity[0], (float)up, (float)velocity[2]},
+                               .diameter_m = (float)diameter_m,
+                               .base = {0, -1000, 0},
+                               .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE | VIRGA_DROPLET_FREE,
+                               .water_nl = 1,
+                               .weight_free = HALF_OF_ONE};
+}
+
+static const double nowhere[3], at_rest[3];
+
+static inline void put_flying(shot *s, double diameter_m, const double place[3], const double velocity[3])
+{
+    const virga_droplet_gpu droplet = flying(diameter_m, place, velocity);
+    splash_fixture_put(&s->f, &droplet, 1);
+    splash_fixture_step(&s->f, 1);
+    REQUIRE(s->f.state->staying == 1);
+}
+
+/* Where the droplet is so long after the newest tick. */
+static inline void droplet_at(const shot *s, double time_s, double place[3])
+{
+    const virga_droplet_gpu *droplet = &s->f.droplets[0];
+    for (int i = 0; i < 3; i++)
+        place[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
+                   (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
+}
+
+/* A droplet whose pile rises from 20 mm below the picture's middle. */
+static inline virga_droplet_gpu rising(float age_s)
+{
+    return (virga_droplet_gpu){.position = {0, -0.02f, 0},
+                               .age_s = age_s,
+                               .velocity = {0, 1, 0},
+                               .diameter_m = 2e-3f,
+                               .base = {0, -0.02f, 0},
+                               .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE,
+                               .water_nl = 4,
+                               .weight_free = HALF_OF_ONE};
+}
+
+static inline void put_pile(shot *s, float age_s)
+{
+    const virga_droplet_gpu droplet = rising(age_s);
+    splash_fixture_put(&s->f, &droplet, 1);
+    splash_fixture_step(&s->f, 1);
+}
+
+/* A drop of 2 mm on deep water, at the start of the newest tick. It lets nothing go. */
+static inline void put_crown(shot *s)
+{
+    splash_fixture_clear(&s->f);
+    splash_fixture_spawn(&s->f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_10)->water_nl = 0;
+    splash_fixture_step(&s->f, 1);
+}
+
+#endif

@@ -1,0 +1,331 @@
+/* test_splash_shapes.c - piles, crowns and disks in the picture while they live, near by and far away. */
+#include "splash_picture_fixture.h"
+
+/* ---- piles */
+
+/* A droplet and its pile are two sprites, and a view has room for as many as there are droplets. */
+static void sprites_that_have_no_room_are_counted(void **state)
+{
+    (void)state;
+    enum { PILES = 200, ROOM = 256 };
+    virga_splash_def def = splash_fixture_def();
+    virga_droplet_gpu droplets[PILES];
+    virga_splash_stats stats;
+    shot s;
+    def.max_droplets = ROOM;
+    open_shot_of(&s, &def);
+    aim_from(&s, 0.1);
+    for (int style = 0; style < 2; style++) {
+        s.f.settings.style = style ? VIRGA_SPLASH_STYLE_FILM : VIRGA_SPLASH_STYLE_PAPER;
+        apply_settings(&s);
+        put_pile(&s, 0);
+        REQUIRE(drawn_alpha(&s) > 0);
+        virga_splash_stats_get(s.f.splash, &stats);
+        assert_int_equal(stats.sprites, 2);
+        assert_int_equal(stats.sprites_cut, 0);
+        for (int i = 0; i < PILES; i++)
+            droplets[i] = rising(0);
+        splash_fixture_put(&s.f, droplets, PILES);
+        splash_fixture_step(&s.f, 1);
+        REQUIRE(drawn_alpha(&s) > 0);
+        virga_splash_stats_get(s.f.splash, &stats);
+        assert_int_equal(stats.sprites, ROOM);
+        assert_int_equal(stats.sprites_cut, 2 * PILES - ROOM);
+        assert_int_equal(stats.sheets_cut, 0);
+    }
+    close_shot(&s);
+}
+
+static const virga_sprite_gpu *sprite_of_kind(const shot *s, uint32_t kind)
+{
+    const virga_sprite_gpu *list = s->sprites.mapped;
+    for (uint32_t i = 0; i < prepared(s)->sprites; i++)
+        if (list[i].kind == kind)
+            return &list[i];
+    return NULL;
+}
+
+/* Coverage of what lies between two heights above the middle (m). */
+static double covered_between(const shot *s, const float *pixels, double low_m, double high_m)
+{
+    double sum = 0, low[2], high[2];
+    to_pixels(s, (const double[3]){0, low_m, 0}, low);
+    to_pixels(s, (const double[3]){0, high_m, 0}, high);
+    for (size_t i = 0; i < pixel_count(s); i++) {
+        const double y = (double)(i / s->picture.width) + 0.5;
+        sum += y > high[1] && y < low[1] ? (double)pixels[i * 4 + 3] : 0;
+    }
+    return sum;
+}
+
+/* Droplet and tip, where doubles put the droplet. */
+static void check_tip(shot *s)
+{
+    double place[3], pixel[2];
+    for (int i = -1; i <= 1; i++) {
+        s->after_s = i * 0.004;
+        draw_frame(s);
+        const virga_sprite_gpu *pile = sprite_of_kind(s, VIRGA_SPRITE_PILE),
+                               *droplet = sprite_of_kind(s, VIRGA_SPRITE_DROPLET);
+        assert_non_null(pile);
+        assert_non_null(droplet);
+        droplet_at(s, s->after_s, place);
+        to_pixels(s, place, pixel);
+        for (int axis = 0; axis < 2; axis++) {
+            assert_true(fabsf(pile->head[axis] - droplet->head[axis]) < 1e-6f);
+            assert_true(fabs((0.5 + 0.5 * (double)pile->head[axis]) * SIDE - pixel[axis]) < 0.01);
+        }
+    }
+    s->after_s = 0;
+}
+
+static void a_pile_stands_until_its_droplet_leaves_and_then_sinks(void **state)
+{
+    (void)state;
+    shot s;
+    double place[3];
+    open_shot(&s);
+    s.f.settings.pile_s = 0.1f;
+    s.f.settings.pile_m = 0.2f;
+    apply_settings(&s);
+    aim_from(&s, 0.1);
+    put_pile(&s, -0.05f); /* has not risen yet */
+    assert_true(drawn_alpha(&s) == 0);
+    put_pile(&s, 0);
+    droplet_at(&s, 0, place);
+    double below = covered_between(&s, draw_frame(&s), -0.02, place[1] - 2e-3);
+    assert_true(below > 20); /* 23 px high and 2 or more wide */
+    assert_int_equal(prepared(&s)->sprites, 2);
+    check_tip(&s);
+    /* It leaves at 20 ms, and the pile is down again at 40 ms. */
+    s.f.settings.pile_s = 0.02f;
+    apply_settings(&s);
+    splash_fixture_step(&s.f, 1);
+    droplet_at(&s, 0, place);
+    REQUIRE(s.f.droplets[0].kind & VIRGA_DROPLET_FREE);
+    const double free_s = 0.02, since = 2.0 / 60 - free_s, left = 1 - since / free_s * (since / free_s);
+    double tip[3], top[2];
+    droplet_at(&s, -since, tip);
+    tip[1] = -0.02 + left * (tip[1] + 0.02);
+    to_pixels(&s, tip, top);
+    below = covered_between(&s, draw_frame(&s), -0.02, place[1] - 2e-3);
+    assert_true(below > 5);
+    assert_true(covered_between(&s, draw_frame(&s), tip[1] + 1e-3, place[1] - 2e-3) < 1e-6);
+    const virga_sprite_gpu *pile = sprite_of_kind(&s, VIRGA_SPRITE_PILE);
+    assert_non_null(pile);
+    assert_true(fabs((0.5 + 0.5 * (double)pile->head[1]) * SIDE - top[1]) < 0.1);
+    splash_fixture_step(&s.f, 1);
+    droplet_at(&s, 0, place);
+    const float *pixels = draw_frame(&s);
+    assert_int_equal(prepared(&s)->sprites, 1);
+    assert_true(covered_between(&s, pixels, -0.03, place[1] - 2e-3) == 0);
+    assert_true(sum_of(&s, pixels, 3) > 5);
+    close_shot(&s);
+}
+
+/* ---- crowns, disks */
+
+/* Pieces of what is covered: pixels that touch, also at corners. */
+static uint32_t pieces(const shot *s, const float *pixels)
+{
+    const int w = (int)s->picture.width, h = (int)s->picture.height;
+    int *stack = malloc(pixel_count(s) * sizeof *stack);
+    bool *seen = calloc(pixel_count(s), sizeof *seen);
+    uint32_t found = 0;
+    for (int start = 0; start < w * h; start++) {
+        int depth = 0;
+        if (seen[start] || !(pixels[start * 4 + 3] > 0))
+            continue;
+        found++;
+        seen[start] = true;
+        stack[depth++] = start;
+        while (depth) {
+            const int at = stack[--depth];
+            for (int i = 0; i < 9; i++) {
+                const int x = at % w + i % 3 - 1, y = at / w + i / 3 - 1;
+                if (x < 0 || y < 0 || x >= w || y >= h || seen[y * w + x] || !(pixels[(y * w + x) * 4 + 3] > 0))
+                    continue;
+                seen[y * w + x] = true;
+                stack[depth++] = y * w + x;
+            }
+        }
+    }
+    free(stack);
+    free(seen);
+    return found;
+}
+
+/* Its life is 50 ms: three ticks. Nothing is left of it then, neither between ticks nor after some more of them. */
+static void check_end(shot *s)
+{
+    splash_fixture_step(&s->f, 1);
+    assert_true(drawn_alpha(s) > 20);
+    s->after_s = 0.02; /* of age 53 ms */
+    assert_true(drawn_alpha(s) == 0);
+    assert_int_equal(prepared(s)->sprites, 0);
+    s->after_s = 0;
+    splash_fixture_step(&s->f, 2);
+    assert_true(drawn_alpha(s) == 0);
+    assert_int_equal(prepared(s)->sprites, 0);
+}
+
+static void a_crown_near_by_is_a_sheet_while_it_lives(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_crown(&s);
+    aim(&s, (const double[3]){0, 0.02, 0.06}, nowhere);
+    assert_true(drawn_alpha(&s) > 20);
+    assert_int_equal(prepared(&s)->crowns.index_count, VIRGA_CROWN_INDICES);
+    assert_int_equal(prepared(&s)->crowns.instance_count, 1);
+    assert_int_equal(prepared(&s)->sprites, 0);
+    check_end(&s);
+    assert_int_equal(prepared(&s)->crowns.instance_count, 0);
+    close_shot(&s);
+}
+
+static void a_crown_of_the_paper_is_of_pyramids(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    s.f.settings.style = VIRGA_SPLASH_STYLE_PAPER;
+    apply_settings(&s);
+    put_crown(&s);
+    aim(&s, (const double[3]){0, 0.04, 0.004}, nowhere); /* from above */
+    const float *pixels = draw_frame(&s);
+    const uint32_t count = pieces(&s, pixels);
+    printf("%u pyramids\n", count);
+    assert_int_equal(count, VIRGA_CROWN_PYRAMIDS);
+    assert_int_equal(prepared(&s)->crowns.index_count, 12 * VIRGA_CROWN_PYRAMIDS);
+    assert_int_equal(prepared(&s)->sprites, 0);
+    check_end(&s);
+    assert_int_equal(prepared(&s)->crowns.index_count, 0);
+    close_shot(&s);
+}
+
+/* Width and height of what is covered. */
+static void extent_of(const shot *s, const float *pixels, int extent[2])
+{
+    int low[2] = {INT_MAX, INT_MAX}, high[2] = {-1, -1};
+    for (size_t i = 0; i < pixel_count(s); i++) {
+        const int at[2] = {(int)(i % s->picture.width), (int)(i / s->picture.width)};
+        for (int axis = 0; axis < 2 && pixels[i * 4 + 3] > 0.01f; axis++) {
+            low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
+            high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
+        }
+    }
+    for (int axis = 0; axis < 2; axis++)
+        extent[axis] = high[axis] < 0 ? 0 : high[axis] - low[axis] + 1;
+}
+
+static void put_disk(shot *s)
+{
+    splash_fixture_clear(&s->f);
+    const virga_spawn_gpu *spawn = splash_fixture_spawn(&s->f, VIRGA_MATERIAL_STEEL, VIRGA_GROUND_DRY);
+    REQUIRE((spawn->kind >> 16 & 255) == VIRGA_SPLASH_DISK);
+    splash_fixture_step(&s->f, 1);
+}
+
+static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
+{
+    (void)state;
+    shot s;
+    int extent[2];
+    open_shot(&s);
+    put_disk(&s);
+    for (int i = 0; i < 4; i++)
+        splash_fixture_step(&s.f, 15); /* of age 61 / 60 s */
+    const double weber = 998.2 * 6.5 * 6.5 * 2e-3 / 0.0728, radius = 0.5 * 2e-3 * pow(weber, 0.25) * 0.65;
+    aim(&s, (const double[3]){0, 0.05, 0.001}, nowhere);
+    const float *pixels = draw_frame(&s);
+    const double early = sum_of(&s, pixels, 3), across = 2 * radius / pixel_m(&s, 0.05);
+    extent_of(&s, pixels, extent);
+    printf("from above a disk is %d x %d px, of %.1f\n", extent[0], extent[1], across);
+    for (int axis = 0; axis < 2; axis++)
+        assert_near(extent[axis], across, 0.15);         /* its rim is wavy by a tenth */
+    aim(&s, (const double[3]){0, 0.01, 0.049}, nowhere); /* a fifth as high as far */
+    extent_of(&s, draw_frame(&s), extent);
+    printf("from the side %d x %d px\n", extent[0], extent[1]);
+    assert_near(extent[0], across, 0.15);
+    assert_true(fabs(extent[1] - 0.2 * across) < 2);
+    aim(&s, (const double[3]){0, 0.05, 0.001}, nowhere);
+    splash_fixture_step(&s.f, 15);
+    assert_near(drawn_alpha(&s), early, 1e-3);
+    for (int i = 0; i < 2; i++)
+        splash_fixture_step(&s.f, 16);
+    splash_fixture_step(&s.f, 8); /* of age 116 / 60 */
+    const double late = drawn_alpha(&s);
+    assert_true(late > 0 && late < 0.5 * early);
+    splash_fixture_step(&s.f, 6);
+    assert_true(drawn_alpha(&s) == 0);
+    close_shot(&s);
+}
+
+/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. */
+static double blob_alpha(shot *s, double distance_m)
+{
+    const double pixel = pixel_m(s, distance_m);
+    double sum = 0;
+    for (int i = 0; i < BLOB_PLACES * BLOB_PLACES; i++) {
+        const double right = (double)(i % BLOB_PLACES) / BLOB_PLACES * pixel,
+                     up = (double)(i / BLOB_PLACES) / BLOB_PLACES * pixel;
+        aim(s, (const double[3]){right, 0.5 * distance_m + up, 0.8660254 * distance_m},
+            (const double[3]){right, up, 0});
+        const float *pixels = draw_frame(s);
+        sum += sum_of(s, pixels, 3) / (BLOB_PLACES * BLOB_PLACES);
+        assert_int_equal(pieces(s, pixels), 1);
+        assert_int_equal(prepared(s)->sprites, 1);
+        assert_int_equal(prepared(s)->crowns.instance_count, 0);
+    }
+    return sum;
+}
+
+/* Times the square of the distance it stays the same, from blobs of 9 pixels to those of less than one. */
+static void check_blob(shot *s, double first_m)
+{
+    const double at_first = blob_alpha(s, first_m) * first_m * first_m;
+    double worst = 0;
+    for (int i = 1; i < 5; i++) {
+        const double distance = ldexp(first_m, i), share = blob_alpha(s, distance) * distance * distance / at_first;
+        printf("from %.2f m: %.3f of the blob\n", distance, share);
+        worst = fmax(worst, fabs(share - 1));
+    }
+    assert_true(worst < 0.1);
+}
+
+static void a_crown_far_away_is_a_blob_that_covers_what_its_size_gives(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_crown(&s);
+    check_blob(&s, 0.25);
+    close_shot(&s);
+}
+
+static void a_disk_far_away_is_a_blob_that_covers_what_its_size_gives(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_disk(&s);
+    splash_fixture_step(&s.f, 15);
+    check_blob(&s, 0.25);
+    close_shot(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sprites_that_have_no_room_are_counted),
+        cmocka_unit_test(a_pile_stands_until_its_droplet_leaves_and_then_sinks),
+        cmocka_unit_test(a_crown_near_by_is_a_sheet_while_it_lives),
+        cmocka_unit_test(a_crown_of_the_paper_is_of_pyramids),
+        cmocka_unit_test(a_disk_lies_flat_and_stays_for_two_seconds),
+        cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
+        cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
