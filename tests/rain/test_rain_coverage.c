@@ -175,7 +175,7 @@ static void streaks_end_at_the_scene_over_soft_m(void **state)
     (void)state;
     static const double in_front[] = {-0.5, -0.01, 0.05, 0.1, 0.15, 0.2, 1};
     shot s;
-    double distance;
+    double distance = 0;
     open_shot(&s, 80);
     add_picture(&s, 160, 120);
     s.f.settings.soft_m = 0.2f;
@@ -204,7 +204,7 @@ static void without_softness_the_scene_cuts(void **state)
 {
     (void)state;
     shot s;
-    double distance;
+    double distance = 0;
     open_shot(&s, 80);
     add_picture(&s, 160, 120);
     s.f.settings.soft_m = 0;

@@ -68,7 +68,7 @@ static void an_attached_depth_hides_what_is_behind_it(void **state)
 {
     (void)state;
     shot s;
-    double distance;
+    double distance = 0;
     open_shot(&s, 80);
     add_picture(&s, 160, 120);
     apply_settings(&s);
