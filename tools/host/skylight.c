@@ -110,24 +110,24 @@ static bool create_images(host_device *device, host_skylight *s, char *error, si
     return true;
 }
 
+/* What the gathering pass is bound to: numbers, the depth maps, the volume. */
+static const VkDescriptorType gather_kinds[3] = {
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+
 static bool create_set(host_device *device, host_skylight *s, char *error, size_t error_size)
 {
-    const VkDescriptorSetLayoutBinding bindings[] = {
-        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
-        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
-        {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
-    };
+    VkDescriptorSetLayoutBinding bindings[3];
+    VkDescriptorPoolSize sizes[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        bindings[i] = (VkDescriptorSetLayoutBinding){i, gather_kinds[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+        sizes[i] = (VkDescriptorPoolSize){gather_kinds[i], 1};
+    }
     VkDescriptorSetLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
         .bindingCount = 3,
         .pBindings = bindings,
     };
     HOST_TRY(vkCreateDescriptorSetLayout(device->device, &layout, NULL, &s->set_layout));
-    const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
-    };
     VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = 1,
@@ -142,6 +142,11 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
         .pSetLayouts = &s->set_layout,
     };
     HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &s->set));
+    return true;
+}
+
+static bool create_sampler(host_device *device, host_skylight *s, char *error, size_t error_size)
+{
     VkSamplerCreateInfo sampler = {
         /* nearest: depth must not be mixed */
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -150,7 +155,11 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
         .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
     };
     HOST_TRY(vkCreateSampler(device->device, &sampler, NULL, &s->sampler));
+    return true;
+}
 
+static void write_set(host_device *device, host_skylight *s)
+{
     const VkDescriptorBufferInfo buffer = {s->numbers.buffer, 0, VK_WHOLE_SIZE};
     const VkDescriptorImageInfo images[] = {
         {s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL},
@@ -163,12 +172,11 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
             .dstSet = s->set,
             .dstBinding = i,
             .descriptorCount = 1,
-            .descriptorType = bindings[i].descriptorType,
+            .descriptorType = gather_kinds[i],
             .pBufferInfo = i == 0 ? &buffer : NULL,
             .pImageInfo = i > 0 ? &images[i - 1] : NULL,
         };
     vkUpdateDescriptorSets(device->device, 3, writes, 0, NULL);
-    return true;
 }
 
 /* ---- pipelines ---------------------------------------------------------------------------------------------- */
@@ -241,9 +249,11 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
         create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
         host_buffer_create(device, sizeof s->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
-        create_set(device, s, error, error_size) && create_layouts(device, material_layout, s, error, error_size) &&
-        create_pipelines(device, s, error, error_size);
-    if (!ok)
+        create_set(device, s, error, error_size) && create_sampler(device, s, error, error_size) &&
+        create_layouts(device, material_layout, s, error, error_size) && create_pipelines(device, s, error, error_size);
+    if (ok)
+        write_set(device, s);
+    else
         host_skylight_destroy(device, s);
     return ok;
 }
