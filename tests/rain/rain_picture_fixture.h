@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <math.h>
 
+#include "../host/picture_depth.h"
 #include "camera.h"
 #include "rain/rain_internal.h"
 #include "target.h"
@@ -64,8 +65,7 @@ enum { EVERY_STREAK = -1, DRAW_BYTES = 2 * sizeof(virga_draw_gpu) };
 typedef struct shot {
     rain_fixture f;
     host_target picture;
-    VkRenderPass tested_pass; /* with the plate's depth attached */
-    VkFramebuffer tested_framebuffer;
+    tested_pass tested;  /* with the plate's depth attached */
     virga_target *layer; /* of the pass that is drawn into */
     virga_target_def layer_def;
     host_camera camera, open;
@@ -88,10 +88,7 @@ static inline void add_picture(shot *s, uint32_t width, uint32_t height)
 static inline void remove_picture(shot *s)
 {
     virga_target_destroy(&s->layer);
-    vkDestroyFramebuffer(s->f.gpu.device.device, s->tested_framebuffer, NULL);
-    vkDestroyRenderPass(s->f.gpu.device.device, s->tested_pass, NULL);
-    s->tested_framebuffer = VK_NULL_HANDLE;
-    s->tested_pass = VK_NULL_HANDLE;
+    tested_pass_destroy(&s->f.gpu.device, &s->tested);
     host_target_destroy(&s->f.gpu.device, &s->picture);
 }
 
@@ -143,32 +140,20 @@ static inline void aim_level(shot *s)
     s->open = s->camera;
 }
 
-/* Nearer is greater: depth' = 1 - depth. */
-static inline void reverse_projection(float m[16])
-{
-    m[10] = -1 - m[10];
-    m[14] = -m[14];
-}
-
 static inline virga_view view_of(const shot *s)
 {
     virga_view view = virga_default_view();
     host_camera_view(&s->camera, &s->open, s->shutter_s, &view);
-    if (s->reversed) {
-        reverse_projection(view.clip_from_view);
-        reverse_projection(view.open_clip_from_view);
-        view.reversed_depth = true;
-    }
+    if (s->reversed)
+        picture_reverse_depth(&view);
     if (s->give_depth)
         view.depth = host_target_depth(&s->picture);
     return view;
 }
 
-/* Depth buffer value of a distance along the camera's axis. */
 static inline float stored_depth(const shot *s, double distance_m)
 {
-    const double stored = -(double)s->camera.clip_from_view[10] + (double)s->camera.clip_from_view[14] / distance_m;
-    return (float)(s->reversed ? 1 - stored : stored);
+    return picture_stored_depth(&s->camera, s->reversed, distance_m);
 }
 
 /* ---- drawing a frame */
@@ -249,14 +234,7 @@ static inline void record_dynamic(const shot *s, VkCommandBuffer cmd)
 
 static inline void record_tested(const shot *s, VkCommandBuffer cmd)
 {
-    const VkClearValue clears[2] = {{.color = {.float32 = {0}}}, {.depthStencil = {1, 0}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = s->tested_pass,
-                                         .framebuffer = s->tested_framebuffer,
-                                         .renderArea = {{0, 0}, {s->picture.width, s->picture.height}},
-                                         .clearValueCount = 2,
-                                         .pClearValues = clears};
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    tested_pass_begin(&s->tested, &s->picture, cmd);
     REQUIRE(virga_rain_draw(s->f.rain, cmd, s->layer) == VIRGA_OK);
     vkCmdEndRenderPass(cmd);
 }
@@ -265,7 +243,7 @@ static inline void record_layer(const shot *s, VkCommandBuffer cmd)
 {
     if (s->layer_def.kind == VIRGA_TARGET_DYNAMIC) {
         record_dynamic(s, cmd);
-    } else if (s->tested_pass) {
+    } else if (s->tested.pass) {
         record_tested(s, cmd);
     } else {
         host_target_begin_layer(&s->picture, cmd);

@@ -4,62 +4,17 @@
 
 /* ---- ways to render */
 
-/* A pass that draws the layer and tests it against the plate's depth, which stays as it is. */
-static void create_tested_pass(shot *s)
-{
-    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
-                                                    {.format = VK_FORMAT_D32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-                                                     .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL}};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
-    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          .colorAttachmentCount = 1,
-                                          .pColorAttachments = &color,
-                                          .pDepthStencilAttachment = &depth};
-    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | draws, draws, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
-        {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         VK_ACCESS_TRANSFER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    REQUIRE(vkCreateRenderPass(s->f.gpu.device.device, &info, NULL, &s->tested_pass) == VK_SUCCESS);
-    const VkImageView views[2] = {layer_image(s)->view, s->picture.images[HOST_DEPTH].view};
-    const VkFramebufferCreateInfo framebuffer = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                                 .renderPass = s->tested_pass,
-                                                 .attachmentCount = 2,
-                                                 .pAttachments = views,
-                                                 .width = s->picture.width,
-                                                 .height = s->picture.height,
-                                                 .layers = 1};
-    REQUIRE(vkCreateFramebuffer(s->f.gpu.device.device, &framebuffer, NULL, &s->tested_framebuffer) == VK_SUCCESS);
-}
-
 /* Another kind of target for the same rain. */
 static void change_target(shot *s, virga_target_kind kind, bool depth_attached)
 {
     virga_target_destroy(&s->layer);
-    if (depth_attached && !s->tested_pass)
-        create_tested_pass(s);
+    if (depth_attached && !s->tested.pass)
+        tested_pass_create(&s->f.gpu.device, &s->picture, layer_image(s)->view, &s->tested);
     s->layer_def.kind = kind;
     s->layer_def.depth_attached = depth_attached;
     s->layer_def.depth_format = depth_attached ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED;
     s->layer_def.reversed_depth = s->reversed;
-    s->layer_def.render_pass = kind == VIRGA_TARGET_DYNAMIC ? VK_NULL_HANDLE : s->tested_pass;
+    s->layer_def.render_pass = kind == VIRGA_TARGET_DYNAMIC ? VK_NULL_HANDLE : s->tested.pass;
     REQUIRE(virga_target_create(s->f.context, &s->layer_def, &s->layer) == VIRGA_OK);
     REQUIRE(virga_rain_attach(s->f.rain, s->layer) == VIRGA_OK);
 }

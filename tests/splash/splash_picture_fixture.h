@@ -8,6 +8,7 @@
 #include <limits.h>
 #include <math.h>
 
+#include "../host/picture_depth.h"
 #include "camera.h"
 #include "target.h"
 
@@ -22,8 +23,7 @@ enum { SIDE = 128, FEW_SPRITES = 64, BLOB_PLACES = 4 };
 typedef struct shot {
     splash_fixture f;
     host_target picture;
-    VkRenderPass tested_pass; /* with the plate's depth attached */
-    VkFramebuffer tested_framebuffer;
+    tested_pass tested; /* with the plate's depth attached */
     virga_target *layer;
     virga_target_def layer_def;
     host_camera camera;
@@ -47,10 +47,7 @@ static inline void add_picture(shot *s, uint32_t side)
 static inline void remove_picture(shot *s)
 {
     virga_target_destroy(&s->layer);
-    vkDestroyFramebuffer(s->f.gpu.device.device, s->tested_framebuffer, NULL);
-    vkDestroyRenderPass(s->f.gpu.device.device, s->tested_pass, NULL);
-    s->tested_framebuffer = VK_NULL_HANDLE;
-    s->tested_pass = VK_NULL_HANDLE;
+    tested_pass_destroy(&s->f.gpu.device, &s->tested);
     host_target_destroy(&s->f.gpu.device, &s->picture);
 }
 
@@ -105,22 +102,12 @@ static inline void aim_from(shot *s, double distance_m)
     aim(s, (const double[3]){0, 0, distance_m}, (const double[3]){0, 0, 0});
 }
 
-/* Nearer is greater: depth' = 1 - depth. */
-static inline void reverse_projection(float m[16])
-{
-    m[10] = -1 - m[10];
-    m[14] = -m[14];
-}
-
 static inline virga_view view_of(const shot *s)
 {
     virga_view view = virga_default_view();
     host_camera_view(&s->camera, &s->camera, s->shutter_s, &view);
-    if (s->reversed) {
-        reverse_projection(view.clip_from_view);
-        reverse_projection(view.open_clip_from_view);
-        view.reversed_depth = true;
-    }
+    if (s->reversed)
+        picture_reverse_depth(&view);
     if (s->give_depth)
         view.depth = host_target_depth(&s->picture);
     if (s->give_color)
@@ -128,11 +115,9 @@ static inline virga_view view_of(const shot *s)
     return view;
 }
 
-/* Depth buffer value of a distance along the camera's axis. */
 static inline float stored_depth(const shot *s, double distance_m)
 {
-    const double stored = -(double)s->camera.clip_from_view[10] + (double)s->camera.clip_from_view[14] / distance_m;
-    return (float)(s->reversed ? 1 - stored : stored);
+    return picture_stored_depth(&s->camera, s->reversed, distance_m);
 }
 
 /* Metres that a pixel is wide at a distance along the axis. */
@@ -197,14 +182,7 @@ static inline void record_prepared(shot *s, VkCommandBuffer cmd)
 
 static inline virga_result record_tested(const shot *s, VkCommandBuffer cmd)
 {
-    const VkClearValue clears[2] = {{.color = {.float32 = {0}}}, {.depthStencil = {1, 0}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = s->tested_pass,
-                                         .framebuffer = s->tested_framebuffer,
-                                         .renderArea = {{0, 0}, {s->picture.width, s->picture.height}},
-                                         .clearValueCount = 2,
-                                         .pClearValues = clears};
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    tested_pass_begin(&s->tested, &s->picture, cmd);
     const virga_result result = virga_splash_draw(s->f.splash, cmd, s->layer);
     vkCmdEndRenderPass(cmd);
     return result;
@@ -212,7 +190,7 @@ static inline virga_result record_tested(const shot *s, VkCommandBuffer cmd)
 
 static inline virga_result record_layer(const shot *s, VkCommandBuffer cmd, host_output output)
 {
-    if (s->tested_pass)
+    if (s->tested.pass)
         return record_tested(s, cmd);
     if (output == HOST_LAYER)
         host_target_begin_layer(&s->picture, cmd);

@@ -122,60 +122,15 @@ static void a_thin_moving_droplet_covers_its_disc(void **state)
 
 /* ---- the scene's depth, and the picture's edge */
 
-/* A pass that draws the layer and tests it against the plate's depth, which stays as it is. */
-static void create_tested_pass(shot *s)
-{
-    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
-                                                    {.format = VK_FORMAT_D32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-                                                     .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL}};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
-    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          .colorAttachmentCount = 1,
-                                          .pColorAttachments = &color,
-                                          .pDepthStencilAttachment = &depth};
-    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | draws, draws, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
-        {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         VK_ACCESS_TRANSFER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    REQUIRE(vkCreateRenderPass(s->f.gpu.device.device, &info, NULL, &s->tested_pass) == VK_SUCCESS);
-    const VkImageView views[2] = {s->picture.images[HOST_LAYER].view, s->picture.images[HOST_DEPTH].view};
-    const VkFramebufferCreateInfo framebuffer = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                                 .renderPass = s->tested_pass,
-                                                 .attachmentCount = 2,
-                                                 .pAttachments = views,
-                                                 .width = s->picture.width,
-                                                 .height = s->picture.height,
-                                                 .layers = 1};
-    REQUIRE(vkCreateFramebuffer(s->f.gpu.device.device, &framebuffer, NULL, &s->tested_framebuffer) == VK_SUCCESS);
-}
-
 static void attach_depth(shot *s)
 {
     virga_target_destroy(&s->layer);
-    if (!s->tested_pass)
-        create_tested_pass(s);
+    if (!s->tested.pass)
+        tested_pass_create(&s->f.gpu.device, &s->picture, s->picture.images[HOST_LAYER].view, &s->tested);
     s->layer_def.depth_attached = true;
     s->layer_def.depth_format = VK_FORMAT_D32_SFLOAT;
     s->layer_def.reversed_depth = s->reversed;
-    s->layer_def.render_pass = s->tested_pass;
+    s->layer_def.render_pass = s->tested.pass;
     REQUIRE(virga_target_create(s->f.context, &s->layer_def, &s->layer) == VIRGA_OK);
     REQUIRE(virga_splash_attach(s->f.splash, s->layer) == VIRGA_OK);
 }
