@@ -368,6 +368,34 @@ static void fine_film_covers_what_its_beads_do(void **state)
     shot_close(&s);
 }
 
+/* Beside a drop the height map goes on below the glass, for the drop's rim. Where a sheet of film ends there it ends on
+ * the glass, and does not fall down to that. */
+static void a_film_ends_on_the_glass_beside_drops(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    uint32_t ends = 0;
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = i % s.glass->columns % 6 < 3 ? 20 : 0; /* in stripes, so that many end near drops */
+        s.passed[i] = s.glass->last_tick;
+    }
+    shot_draw(&s, false);
+    for (uint32_t row = 1; row + 1 < s.rows; row++)
+        for (uint32_t column = 1; column + 1 < s.columns; column++) {
+            const double left = (double)texel(&s, column - 1, row)[1], right = (double)texel(&s, column + 1, row)[1];
+            if (texel(&s, column, row)[3] < 2e-6f || texel(&s, column, row)[0] > 0.49f)
+                continue;
+            const float slope = s.relief[4 * ((size_t)row * s.columns + column) + 1];
+            ends += left < -1e-5 || right < -1e-5;
+            assert_float_equal(slope, 0.5 * (fmax(right, 0) - fmax(left, 0)) / (0.096 / s.columns), 2e-3);
+        }
+    assert_true(ends > 20);
+    shot_close(&s);
+}
+
 /* Slopes that the draws read are central differences of the heights, texel by texel, over the borders of tiles too. */
 static void slopes_are_differences_of_heights(void **state)
 {
@@ -688,6 +716,7 @@ int main(void)
         cmocka_unit_test(sub_balls_flow_into_their_drop_and_keep_its_water),
         cmocka_unit_test(tiles_without_room_are_counted_and_empty),
         cmocka_unit_test(fine_film_covers_what_its_beads_do),
+        cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),
