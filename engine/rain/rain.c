@@ -130,8 +130,9 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
     const VkDeviceSize maps =
         (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades * def.occlusion_slants;
-    return slots * (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) +
-                    (def.wind_texture ? 40 : 0) + (def.points ? sizeof(virga_point_gpu) : 0)) +
+    return slots *
+               (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) + (def.wind_texture ? 40 : 0) +
+                (def.points ? sizeof(virga_point_gpu) : 0) + (def.max_panes ? sizeof(uint32_t) : 0)) +
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (RAIN_STREAK_BYTES + 48) + maps + def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
@@ -141,7 +142,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 /* ---- creating */
 
 /* What rain makes and lets go of, each in one table for both. */
-enum { BUFFERS = 16, PASSES = 15 };
+enum { BUFFERS = 17, PASSES = 15 };
 
 static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 {
@@ -165,6 +166,7 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
         {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
         {&rain->hit_buffer, rain->def.max_panes * rain_hits_bytes(), storage, device, "rain.hits"},
+        {&rain->hit_places, rain->def.max_panes ? slots * sizeof(uint32_t) : 0, storage, device, "rain.hit_places"},
         {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
          "rain.sways"},
         {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},

@@ -22,6 +22,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 16 list of picked slots */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},     /* 17 streaks as texels */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 18 hits of a pane */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 19 where each slot's hits go */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -72,7 +73,9 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
         bound_buffer(rain->list_buffer, 0),
         {.texels = rain->streak_buffer->texels},
         rain->hit_buffer ? bound_buffer(rain->hit_buffer, rain_hits_bytes())
-                         : bound_buffer(unused, sizeof(virga_prepared_gpu))};
+                         : bound_buffer(unused, sizeof(virga_prepared_gpu)),
+        bound_buffer(rain->hit_places ? rain->hit_places : unused, 0),
+    };
     return virga_bindings_write(context, rain->bindings, index, bound);
 }
 

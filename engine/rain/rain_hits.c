@@ -7,8 +7,7 @@
 
 VkDeviceSize rain_hits_bytes(void)
 {
-    const VkDeviceSize size = HITS_SIZE + VIRGA_RAIN_MAX_HITS * sizeof(uint32_t); /* and where each slot's go */
-    return (size + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT;
+    return (HITS_SIZE + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT;
 }
 
 static bool unit_length(const float v[3])

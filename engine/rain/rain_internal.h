@@ -128,7 +128,7 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *hit_buffer, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
+        *prepared_buffer, *hit_buffer, *hit_places, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
     virga_mesh_map *map;
     virga_image_2d *blank;      /* depth, for the scene depth that a view has not */

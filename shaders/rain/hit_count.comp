@@ -1,4 +1,4 @@
-// hit_count.comp - how many drops of each of these slots did.
+// hit_count.comp - how many drops of each of these slots met the pane.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,8 +16,10 @@ void main()
     if (i >= list.count)
         return;
     const Slot slot = slot_at(listed[i]);
+    Walk walk = walk_of(slot);
+    Hit hit;
     uint found = 0u;
-    for (uint k = 0u; k < slot.count; k++)
-        found += find_hit(slot, k).share >= 0.0 ? 1u : 0u;
+    while (next_hit(slot, walk, hit))
+        found += under_sky(slot, hit) ? 1u : 0u;
     hit_places[i] = found;
 }

@@ -3,5 +3,8 @@ layout(scalar, set = 0, binding = 18) buffer Hits
 {
     virga_impacts_gpu hit_head;
     virga_impact_gpu hits[VIRGA_RAIN_MAX_HITS];
-    uint hit_places[VIRGA_RAIN_MAX_HITS]; // by entry of the list of slots: how many it has, then where they go
+};
+layout(scalar, set = 0, binding = 19) buffer HitPlaces
+{
+    uint hit_places[]; // by entry of the list of slots: how many it has, then where they go
 };

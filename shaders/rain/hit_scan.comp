@@ -1,4 +1,4 @@
-// hit_scan.comp - gives slots of which drops met the pane their places in a list.
+// hit_scan.comp - gives slots of which drops may have met the pane their places in a list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,4 +9,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { scan_picks(pane.groups, VIRGA_RAIN_MAX_HITS); }
+void main() { scan_picks(pane.groups, pane.groups * VIRGA_RAIN_GROUP); }

@@ -11,33 +11,40 @@
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
 // Water of one of a slot's drops, rounded so that sums are right on average.
-uint water_of(Slot slot, uint k)
+uint water_of(Slot slot, uint number)
 {
-    const float mm = classes[slot.size_class].diameter_m * 1e3, stands_for = max(slot.weight / float(MOST_DROPS), 1.0);
-    return uint(523.598776 * mm * mm * mm * stands_for + virga_unit(virga_hash3(slot.id, tick.tick, k)));
+    const float mm = classes[slot.size_class].diameter_m * 1e3;
+    const float stands_for = number == 0u ? 1.0 : max(slot.chance, 1.0);
+    return uint(523.598776 * mm * mm * mm * stands_for + virga_unit(virga_hash3(slot.id, tick.tick, number)));
+}
+
+virga_impact_gpu impact_of(Slot slot, Hit hit)
+{
+    virga_impact_gpu impact;
+    impact.position = float[3](hit.place.x, hit.place.y, 0.0);
+    impact.time_s = hit.share * pane.step_s;
+    impact.velocity = float[3](slot.velocity.x, slot.velocity.y, slot.velocity.z);
+    impact.diameter_m = classes[slot.size_class].diameter_m;
+    impact.normal = float[3](0.0, 0.0, 1.0);
+    impact.weight = 1.0;
+    impact.id = hit.number == 0u ? slot.id : virga_hash2(slot.id, hit.number);
+    impact.material = 0u;
+    impact.water_nl = water_of(slot, hit.number);
+    impact.tick = pane.first_tick + uint(hit.share * float(pane.ticks));
+    return impact;
 }
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= list.count)
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= list.count)
         return;
-    const Slot slot = slot_at(listed[gl_GlobalInvocationID.x]);
-    uint place = hit_places[gl_GlobalInvocationID.x];
-    for (uint k = 0u; k < slot.count && place < VIRGA_RAIN_MAX_HITS; k++) {
-        const Hit hit = find_hit(slot, k);
-        if (hit.share < 0.0)
-            continue;
-        virga_impact_gpu impact;
-        impact.position = float[3](hit.place.x, hit.place.y, 0.0);
-        impact.time_s = hit.share * pane.step_s;
-        impact.velocity = float[3](slot.velocity.x, slot.velocity.y, slot.velocity.z);
-        impact.diameter_m = classes[slot.size_class].diameter_m;
-        impact.normal = float[3](0.0, 0.0, 1.0);
-        impact.weight = 1.0;
-        impact.id = k == 0u ? slot.id : virga_hash2(slot.id, k);
-        impact.material = 0u;
-        impact.water_nl = water_of(slot, k);
-        impact.tick = pane.first_tick + uint(hit.share * float(pane.ticks));
-        hits[place++] = impact;
-    }
+    // Up to where those of the next begin: most slots have none, and are done at once.
+    const uint end = i + 1u < list.count ? hit_places[i + 1u] : hit_head.count + hit_head.dropped;
+    const Slot slot = slot_at(listed[i]);
+    Walk walk = walk_of(slot);
+    Hit hit;
+    for (uint place = hit_places[i]; place < min(end, VIRGA_RAIN_MAX_HITS) && next_hit(slot, walk, hit);)
+        if (under_sky(slot, hit))
+            hits[place++] = impact_of(slot, hit);
 }

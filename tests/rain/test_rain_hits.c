@@ -4,14 +4,17 @@
 
 #include <math.h>
 
+#define PARTS 8 /* of a pane's side */
+
 static rain_fixture f;
 static host_buffer read_back;
 
 typedef struct caught {
     double water_m3, variance_m6;
     uint32_t drops;
-    uint32_t named; /* with the id of a drop that is in the field, of the last frame's */
-    uint32_t last;  /* drops of the last frame */
+    uint32_t named;                /* with the id of a drop that is in the field, of the last frame's */
+    uint32_t last;                 /* drops of the last frame */
+    uint32_t there[PARTS * PARTS]; /* by part of the pane */
 } caught;
 
 static void open_rain(bool roof)
@@ -63,6 +66,13 @@ static bool in_field(uint32_t id)
     return slot < f.slots && rain_fixture_drops(&f)[slot].id == id;
 }
 
+static uint32_t part_of(const virga_impact_gpu *hit, const virga_rain_pane *pane)
+{
+    const uint32_t x = (uint32_t)(hit->position[0] / pane->width_m * PARTS);
+    const uint32_t y = (uint32_t)(hit->position[1] / pane->height_m * PARTS);
+    return (x < PARTS ? x : PARTS - 1) + (y < PARTS ? y : PARTS - 1) * PARTS;
+}
+
 /* Rain on a pane, in frames of 1/24 s; it moves, and the camera with it. */
 static caught run(virga_rain_pane pane, double seconds)
 {
@@ -94,6 +104,7 @@ static caught run(virga_rain_pane pane, double seconds)
             sum.drops++;
             sum.last++;
             sum.named += in_field(list[i].id);
+            sum.there[part_of(&list[i], &pane)]++;
         }
         for (int axis = 0; axis < 3; axis++) {
             pane.corner_m[axis] += (double)pane.velocity_m_s[axis] / 24;
@@ -131,6 +142,31 @@ static void lying_pane_gets_the_rate(void **unused)
     assert_true(fabs(got.water_m3 - expected) < 0.03 * expected + 3 * sqrt(got.variance_m6));
     print_message("%u of the last %u are drops with a streak\n", got.named, got.last);
     assert_true(got.named > got.last / 4);
+    close_rain();
+}
+
+/* Chi-square over the pane's parts: 63 if drops fell independently, with a deviation of 11.2. They lie in cells, one to
+ * each, so it is less; parts that are left out, as those along an edge would be, add hundreds. */
+static void drops_lie_evenly_on_a_pane(void **unused)
+{
+    (void)unused;
+    open_rain(false);
+    f.camera[1] = 1.7;
+    const virga_rain_pane pane = {.corner_m = {-0.6, 1.3, 0.7},
+                                  .along_u = {0.8f, 0, 0.6f},
+                                  .along_v = {0, 1, 0},
+                                  .width_m = 1.2f,
+                                  .height_m = 0.6f,
+                                  .velocity_m_s = {-6, 0, 8}};
+    run(pane, 0.5);
+    const caught got = run(pane, 2);
+    double chi_square = 0;
+    for (int i = 0; i < PARTS * PARTS; i++) {
+        const double expected = (double)got.drops / (PARTS * PARTS), off = got.there[i] - expected;
+        chi_square += off * off / expected;
+    }
+    print_message("chi-square of %u drops over %d parts: %.1f\n", got.drops, PARTS * PARTS, chi_square);
+    assert_true(got.drops > 10000 && chi_square < 63 + 5 * 11.2);
     close_rain();
 }
 
@@ -192,9 +228,8 @@ static void wrong_panes_are_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lying_pane_gets_the_rate),
-        cmocka_unit_test(a_driving_pane_meets_more),
-        cmocka_unit_test(nothing_meets_a_pane_under_a_roof),
+        cmocka_unit_test(lying_pane_gets_the_rate),  cmocka_unit_test(drops_lie_evenly_on_a_pane),
+        cmocka_unit_test(a_driving_pane_meets_more), cmocka_unit_test(nothing_meets_a_pane_under_a_roof),
         cmocka_unit_test(wrong_panes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

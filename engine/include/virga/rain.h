@@ -47,7 +47,8 @@ typedef struct virga_rain_def {
                                 * Memory: 8 bytes x size^2 x cascades x slants. Default 2 */
     uint32_t occluder_strides[4]; /* the vertex strides (bytes) that occluders will have: a pipeline each, as Vulkan 1.2
                             * fixes strides there. 0: unused. Default 12, 32, 0, 0 */
-    uint32_t max_panes;    /* [0; 8] panes that virga_rain_hits may be asked for in a frame, 544 KiB each. Default 0 */
+    uint32_t max_panes;    /* [0; 8] panes that virga_rain_hits may be asked for in a frame, 512 KiB each, and
+                            * 4 bytes a slot for all. Default 0 */
     bool points;           /* room for virga_rain_points: 48 bytes a slot. Default false */
     bool wind_texture;     /* room to integrate drops in a host's 3D wind. Default false */
 } virga_rain_def;
