@@ -95,11 +95,13 @@ static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
     return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
 }
 
-/* What storage buffers of this device can hold, its indices count and its dispatches reach. */
-static void fit_device(const virga_context *context, virga_splash_def *def)
+/* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked for. */
+static bool fit_device(const virga_context *context, virga_splash_def *def)
 {
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
-    const VkDeviceSize widest = splash_index_bytes(def) / def->max_droplets; /* wider than a droplet */
+    /* Both are wider than a droplet; what they have beside that for each is a block's, which is left out below. */
+    const VkDeviceSize indices = splash_index_bytes(def) / def->max_droplets;
+    const VkDeviceSize widest = indices > SPLASH_SPRITE_BYTES ? indices : SPLASH_SPRITE_BYTES;
     const VkDeviceSize indexed = context->properties.limits.maxDrawIndexedIndexValue / 8;
     const VkDeviceSize grouped =
         (VkDeviceSize)context->properties.limits.maxComputeWorkGroupCount[0] * VIRGA_SPLASH_GROUP;
@@ -114,6 +116,7 @@ static void fit_device(const virga_context *context, virga_splash_def *def)
                       def->max_droplets, (unsigned long long)most);
     while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
         def->max_returns /= 2;
+    return asked != def->max_droplets;
 }
 
 VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
@@ -280,7 +283,7 @@ static virga_result init(virga_splash *splash)
     virga_result result = VIRGA_OK;
     virga_buffer_row buffers[BUFFERS];
     virga_compute_row passes[PASSES];
-    fit_device(splash->context, &splash->def);
+    const bool smaller = fit_device(splash->context, &splash->def);
     list_buffers(splash, buffers);
     list_passes(splash, passes);
     TRY(virga_buffers_create(splash->context, buffers, BUFFERS));
@@ -293,6 +296,7 @@ static virga_result init(virga_splash *splash)
                            "splash.blank_color", &splash->blank_color));
     TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
     TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, &splash->needed, passes, PASSES));
+    result = !result && smaller ? VIRGA_DEGRADED : result;
 error:
     return result;
 }

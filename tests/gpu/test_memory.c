@@ -1,6 +1,7 @@
 /* test_memory.c - what is taken is counted, used, and given back: by Virga's own pages, by a host's callbacks, and when
  * the device is still at work on what a host destroys. */
 #include "gpu_fixture.h"
+#include "small_scene.h"
 
 /* A context with rain and a picture, attached. */
 typedef struct stage {
@@ -199,6 +200,27 @@ static void what_is_too_large_for_the_device_is_refused(void **state)
         assert_one_error(f, VIRGA_LOG_FEATURE_MISSING);
         virga_context_destroy(&context);
     }
+}
+
+static void lie_half_a_mib(VkPhysicalDeviceProperties *properties)
+{
+    properties->limits.maxStorageBufferRange = 1u << 19;
+}
+
+/* Splashes take what there is room for: every buffer that a droplet has a share of, the widest too. */
+static void splashes_fit_what_storage_buffers_hold(void **state)
+{
+    gpu_fixture *f = *state;
+    watch.lie_properties = lie_half_a_mib;
+    virga_context *context = gpu_context(f);
+    virga_splash_def def = small_splash_def();
+    virga_splash *splash = NULL;
+    def.max_droplets = 1u << 20;
+    gpu_forget_log(f);
+    assert_int_equal(virga_splash_create(context, &def, &splash), VIRGA_DEGRADED);
+    assert_int_equal(f->lines[VIRGA_LOG_CLAMPED], 1);
+    virga_splash_destroy(&splash);
+    virga_context_destroy(&context);
 }
 
 /* ---- device memory from a host */
@@ -496,6 +518,7 @@ int main(void)
         gpu_test(few_blocks_hold_default_rain),
         gpu_test(memory_is_used_again),
         gpu_test(what_is_too_large_for_the_device_is_refused),
+        gpu_test(splashes_fit_what_storage_buffers_hold),
         gpu_test(device_memory_of_a_host_is_used_and_given_back),
         gpu_test(device_memory_that_a_host_refuses_is_an_error),
         gpu_test(budget_holds_for_a_host_too),

@@ -48,7 +48,7 @@ bool splash_bench_open_splash(run *r, double splashes, double droplets, double r
     def.max_droplets = between(fmin(droplets, holds), 4096, MOST_DROPLETS);
     def.max_spawns = between(rate + 2, 1024, MOST_PLACES);
     def.max_returns = between(fmin(def.max_droplets, holds - 1), def.max_spawns, MOST_DROPLETS);
-    if (virga_splash_create(r->b->context, &def, &r->splash))
+    if (virga_splash_create(r->b->context, &def, &r->splash) < 0)
         return splash_bench_say(r->b, "no splashes of that many could be made");
     virga_splash_droplets(r->splash, NULL, &r->max_droplets, NULL);
     r->max_spawns = def.max_spawns;
