@@ -133,6 +133,25 @@ oiiotool --info "$work/bare.png" | grep -q '700 x *400' || fail "the window was 
 oiiotool --info -v "$work/still.exr" >"$work/header" && grep -q 'rain.R' "$work/header" &&
     grep -q 'glass.R' "$work/header" || { cat "$work/header"; fail "layers of the screenshot"; }
 
+# ---- pools that the device has no room for: the window stays, and the rain starts as before
+
+view pools <<'END' || { cat "$work/pools.err"; fail "pools"; }
+wait 1
+set rain.max_drops 4194304
+restart
+wait 1
+set glass.0.max_drops 2048
+restart
+wait 1
+print
+quit
+END
+if [ "$device" = cpu ]; then
+    has '; started as before' "$work/pools.err"
+    [ "$(grep -c 'started as before' "$work/pools.err")" = 1 ] || fail "the second start had the first one's pools"
+fi
+has '40 mm/h' "$work/pools.out"
+
 # ---- the tuned scene is a scene
 
 "$virga" check "$work/tuned.yaml" >"$work/check" 2>&1 || { cat "$work/check"; fail "virga check of the saved scene"; }

@@ -152,7 +152,7 @@ static void close_all(viewer *v)
 
 static int run_window(viewer *v, const options *parsed, const uint32_t window[2])
 {
-    bool good = open_all(v, parsed, window);
+    bool good = open_all(v, parsed, window) && view_remember_start(v);
     const bool opened = good, input_wrong = v->shot.input_wrong;
     v->wall_s = good ? glfwGetTime() : 0;
     while (good && !v->quit && !interrupt_asked())
@@ -182,6 +182,7 @@ int view_run(int argc, char **argv)
         code = run_window(v, &parsed, window);
     view_script_free(v->script);
     free(v->settings);
+    free(v->started);
     scene_file_free(v->scene);
     scene_file_free(v->loaded);
     free(v);

@@ -3,6 +3,7 @@
  *   cmd_view.c       the command: options, opening, the loop
  *   view_frame.c     one frame: time, picture, panel, screenshots
  *   view_actions.c   what keys, buttons and scripts do
+ *   view_start.c     starting the rain anew
  *   view_camera.c    the camera that flies
  *   view_script.c    lines that drive it
  *   view_panel.cpp   the panel; C++ as Dear ImGui is, with its parts in view_panel_*.cpp
@@ -64,6 +65,7 @@ typedef struct view_camera {
 } view_camera;
 
 typedef struct view_script view_script;
+typedef struct view_started view_started;
 
 typedef struct viewer {
     scene_file *scene, *loaded; /* as tuned, and as the file and the command line have it */
@@ -72,6 +74,8 @@ typedef struct viewer {
     size_t override_count;
     scene_setting *settings; /* of `scene` */
     size_t setting_count;
+    view_started *started; /* those that count from a start on, as the rain last started with them */
+    size_t started_count;
 
     shot shot;
     view_window window;
@@ -135,6 +139,15 @@ const char *view_key_help(uint32_t line);
 
 /* The list of settings anew, after lists of the scene have changed. */
 bool view_list_settings(viewer *v);
+
+/* ---- view_start.c */
+
+/* Keeps what the rain has started with. False: v->error says why not. */
+bool view_remember_start(viewer *v);
+
+/* Between frames. Where the rain can not start with what was changed, it starts as it last did, and the user is told
+ * why. False: not so either, see v->error. */
+bool view_start_again(viewer *v);
 
 /* ---- view_frame.c */
 

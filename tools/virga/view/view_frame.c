@@ -173,9 +173,8 @@ static bool between_frames(viewer *v, const float area[4])
 {
     if (v->restart) {
         v->restart = v->needs_restart = false;
-        if (!shot_live_restart(&v->shot, v->error, sizeof v->error))
+        if (!view_start_again(v))
             return false;
-        memset(&v->numbers, 0, sizeof v->numbers);
     }
     return fit_shot(v, area) && (!v->shot_file[0] || !v->frame || write_shot(v));
 }
