@@ -319,6 +319,27 @@ static void drops_that_become_one_lie_in_the_middle_of_their_water(void **unused
     glass_fixture_close(&f);
 }
 
+/* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that and
+ * the fourth were to be taken in by drops that were taken in themselves, and look again. */
+static void a_drop_whose_captor_is_gone_looks_again(void **unused)
+{
+    (void)unused;
+    const double radii[4] = {1.2e-3, 1.15e-3, 1.1e-3, 0.7e-3};
+    double x = 0.0505;
+    uint32_t count = 0;
+    open_even(NULL);
+    f.settings.touch = 1;
+    for (int i = 0; i < 4; i++) {
+        x += i ? 0.95 * (radii[i - 1] + radii[i]) : 0;
+        glass_fixture_land(&f, x, 0.0611, water_of(radii[i]));
+    }
+    glass_fixture_step(&f, 5, true);
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        count += glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP;
+    assert_int_equal(count, 2);
+    glass_fixture_close(&f);
+}
+
 /* Whichever of them come first, whoever takes in whom: in the end no two that have nothing left to do touch. */
 static void drops_at_rest_do_not_touch(void **unused)
 {
@@ -523,6 +544,7 @@ int main(void)
         cmocka_unit_test(a_second_drop_follows_the_path_of_the_first),
         cmocka_unit_test(drops_at_rest_become_one_where_their_bases_meet),
         cmocka_unit_test(drops_that_become_one_lie_in_the_middle_of_their_water),
+        cmocka_unit_test(a_drop_whose_captor_is_gone_looks_again),
         cmocka_unit_test(drops_at_rest_do_not_touch),
         cmocka_unit_test(a_drop_becomes_as_many_particles_as_its_water_gives),
         cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
