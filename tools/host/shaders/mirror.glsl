@@ -28,14 +28,16 @@ vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 // where u of it lies nearer to the middle. A facet that tilts turns the ray by twice as much away from the eye, and by
 // the cosine to the normal of that across; what is so far away turns that much less around the camera. Were a look
 // sharper, one that meets a lamp would be a spark. The mean of both ways, but not twice the smaller: a lamp's pillar
-// stays one.
+// stays one. A level looked up between its texels, made as they are, is as blurred as a square of one
+// and a half times a texel's side or more.
 float mirror_level(float alpha, float u, float cosine, float way, float from)
 {
     const float side = alpha * sqrt(3.14159265 / (float(MIRROR_TAPS) * (1.0 - u)));
     const float angle = 2.0 * side * min(sqrt(cosine), 2.0 * cosine) * way / (from + way);
     const mat4 clip = frame.clip_from_relative;
     const float focal = length(vec3(clip[0][1], clip[1][1], clip[2][1])) * frame.mirror.y; // clip space per radian
-    return log2(max(angle * focal * 0.5 * float(textureSize(mirror_picture, 0).y), 1.0));
+    const float side_px = angle * focal * 0.5 * float(textureSize(mirror_picture, 0).y);
+    return log2(max(0.7 * side_px, 1.0));
 }
 
 // Facets whose slopes are spread around the normal's as roughness says (Beckmann's distribution), weighted by how much
