@@ -267,8 +267,21 @@ static void merged_drops_have_no_crease(void **state)
 
 /* ---- balls */
 
+/* Each ball's share of the water of a drop with this radius, and how far it is from (0.05, 0.03); the heaviest. */
+static uint32_t water_of_balls(const shot *s, double radius, double share[4], double apart[4])
+{
+    uint32_t heaviest = 0;
+    for (uint32_t k = 0; k < s->ball_count; k++) {
+        share[k] = pow((double)s->balls[k].radius_m / radius, 3);
+        apart[k] = hypot((double)s->balls[k].middle[0] - 0.05, (double)s->balls[k].middle[1] - 0.03);
+        heaviest = share[k] > share[heaviest] ? k : heaviest;
+    }
+    return heaviest;
+}
+
 /* What has just landed is a main ball and three around it, which come nearer as (1 - t)^2 and are gone at t = 1, after
- * impact_s; all are caps, so water goes with the cube of the radius: its sum is the drop's (to 1e-5) all the time. */
+ * impact_s; all are caps, so water goes with the cube of the radius: its sum is the drop's, and theirs 0.27 (1 - t)^2
+ * of it (to 1e-5) all the time. No two of them have as much, or are as far. */
 static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
 {
     (void)state;
@@ -283,19 +296,20 @@ static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
         const ball whole = ball_of(&s, drop);
         shot_draw(&s, false);
         REQUIRE(s.ball_count == (i < 10 ? 4 : 1));
-        double cubes = 0, most = 0;
+        double share[4], apart[4];
+        const uint32_t heaviest = water_of_balls(&s, whole.radius, share, apart);
+        assert_float_equal(share[heaviest], 1 - 0.27 * left, 1e-5);
+        assert_float_equal(apart[heaviest], 0, 1e-7);
+        double others = 0;
         for (uint32_t k = 0; k < s.ball_count; k++) {
-            cubes += pow((double)s.balls[k].radius_m / whole.radius, 3);
-            most = fmax(most, (double)s.balls[k].radius_m);
+            if (k == heaviest)
+                continue;
+            others += share[k];
+            REQUIRE(apart[k] > 0.84 * left * whole.radius && apart[k] < 1.46 * left * whole.radius);
+            for (uint32_t other = 0; other < k; other++)
+                REQUIRE(fabs(share[k] - share[other]) > 1e-3 * left && fabs(apart[k] - apart[other]) > 1e-3 * apart[k]);
         }
-        assert_float_equal(cubes, 1, 1e-5);
-        for (uint32_t k = 0; k < s.ball_count; k++) {
-            const bool main_one = (double)s.balls[k].radius_m >= most;
-            const double apart = hypot((double)s.balls[k].middle[0] - 0.05, (double)s.balls[k].middle[1] - 0.03);
-            assert_float_equal(apart, main_one ? 0 : 1.15 * left * whole.radius, 1e-7);
-            assert_float_equal(pow((double)s.balls[k].radius_m / whole.radius, 3),
-                               main_one ? 1 - (i < 10 ? 0.27 * left : 0) : 0.09 * left, 1e-5);
-        }
+        assert_float_equal(others, i < 10 ? 0.27 * left : 0, 1e-5);
     }
     shot_close(&s);
 }
