@@ -564,6 +564,34 @@ static void water_reflects_by_fresnel(void **state)
     shot_close(&s);
 }
 
+/* A lamp beside the eye, mirrored straight back by a thin film on what is not glass: spread over a disc of 0.15 rad, as
+ * bumps would, Fresnel's 0.02 of I / (distance^2 2 pi 0.15^2). Over one of 0.02 rad it would be 56 times as bright. */
+static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
+    shot_plate(&s, black);
+    free(black);
+    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    s.settings.opaque = true;
+    shot_face(&s, 1, 30);
+    const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m;
+    const double away = fmax(v, u * HEIGHT / WIDTH) / tan(15 * M_PI / 180);
+    s.settings.lighting.light_count = 1;
+    s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = 40; /* 10 um */
+        s.passed[i] = s.glass->last_tick;
+    }
+    const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    const double straight = (WATER - 1) / (WATER + 1);
+    const double spread = 1 / (away * away * 2 * M_PI * 0.15 * 0.15);
+    assert_float_equal(middle[0] / (straight * straight * spread), 1, 0.02);
+    shot_close(&s);
+}
+
 /* Where the plate's colours are places, they tell what was looked up: right and down as shares of the picture. */
 static void put_places(shot *s)
 {
@@ -735,6 +763,7 @@ int main(void)
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),
         cmocka_unit_test(water_reflects_by_fresnel),
+        cmocka_unit_test(a_film_on_metal_mirrors_a_lamp_widely),
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
         cmocka_unit_test(the_scene_hides_what_is_behind_it),
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
