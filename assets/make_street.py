@@ -116,6 +116,8 @@ def make_ground(scene):
         sheet(g, "concrete_slabs", sorted((inner, outer)), [NEAR_Z, FAR_Z],
               lambda x, z: KERB + 0.02 * (abs(x) - 3.64))
     sheet(g, "cobble_stone", span(-32, 32, 4), span(FAR_Z, END_Z, 4), lambda x, z: 0.0)
+    # Under church and houses, too: between them one sees to the ground behind.
+    sheet(g, "cobble_stone", span(-32, 32, 4), [END_Z, END_Z - 24.0], lambda x, z: 0.0)
     for x0, x1 in ((-20.0, -9.0), (7.5, 20.0)):
         sheet(g, "grass", [x0, x1], [-52.0, END_Z + 0.6], lambda x, z: 0.06)
     sheet(g, "concrete_slabs", [-HALF_STREET, HALF_STREET], [NEAR_Z + 3, NEAR_Z], lambda x, z: 0.0)
@@ -182,10 +184,10 @@ def wall(group, material, box, openings):
                 group.poly(material, [(xa, ya, 0), (xb, ya, 0), (xb, yb, 0), (xa, yb, 0)])
     for a, b, c, d in holes:
         z = -0.22
-        group.poly(material, [(a, b, z), (a, b, 0), (a, d, 0), (a, d, z)])
-        group.poly(material, [(c, b, 0), (c, b, z), (c, d, z), (c, d, 0)])
-        group.poly(material, [(a, d, 0), (c, d, 0), (c, d, z), (a, d, z)])
-        group.poly(material, [(a, b, z), (c, b, z), (c, b, 0), (a, b, 0)])
+        group.poly(material, [(a, b, 0), (a, b, z), (a, d, z), (a, d, 0)])
+        group.poly(material, [(c, b, z), (c, b, 0), (c, d, 0), (c, d, z)])
+        group.poly(material, [(a, d, z), (c, d, z), (c, d, 0), (a, d, 0)])
+        group.poly(material, [(a, b, 0), (c, b, 0), (c, b, z), (a, b, z)])
 
 
 def pane(group, rng, lit, box, z=-0.15):

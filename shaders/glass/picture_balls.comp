@@ -16,7 +16,7 @@ layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gp
 layout(scalar, set = 0, binding = 10) readonly buffer List { virga_list_gpu list; uint listed[]; };
 layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
-#define SUB_WATER 0.09              // share of a drop's water in each of its three sub-balls as it lands
+#define SUB_WATER 0.27              // share of a drop's water in its three sub-balls as it lands
 #define TEAR_SPEED 0.03             // m/s at which half of a tear has formed
 
 shared uint widest;
@@ -45,17 +45,22 @@ vec2 sag_of(vec2 middle, float radius)
 }
 
 // Three sub-balls around one that has just landed, which flow in (section 4.7). All have the shape of caps, so that
-// radii are cube roots of the shares of water.
+// radii are cube roots of the shares of water. No splat is like another: shares, distances and the angles between them
+// are left to chance, so that two may look like one; were they even, each splat would be a clover leaf.
 void shape_landing(float t, uint random)
 {
-    const float left = (1.0 - t) * (1.0 - t), water = SUB_WATER * left, radius = radii[0];
-    const float turn = 6.2831853 * virga_unit(random);
+    const float left = (1.0 - t) * (1.0 - t), radius = radii[0], turn = 6.2831853 * virga_unit(random);
+    vec3 shares;
     for (uint i = 0u; i < 3u; i++) {
-        const float angle = turn + 2.0943951 * float(i) + 0.9 * (virga_unit(virga_hash2(random, i)) - 0.5);
-        middles[i + 1u] = middles[0] + vec2(cos(angle), sin(angle)) * (radius * 1.15 * left);
-        radii[i + 1u] = radius * pow(water, 1.0 / 3.0);
+        const vec4 chance = unpackUnorm4x8(virga_hash2(random, i));
+        const float angle = turn + 2.0943951 * float(i) + 1.6 * (chance.x - 0.5);
+        middles[i + 1u] = middles[0] + vec2(cos(angle), sin(angle)) * (radius * left * (0.85 + 0.6 * chance.y));
+        shares[i] = 0.3 + chance.z;
     }
-    radii[0] = radius * pow(1.0 - 3.0 * water, 1.0 / 3.0);
+    shares *= SUB_WATER * left / dot(shares, vec3(1.0));
+    for (uint i = 0u; i < 3u; i++)
+        radii[i + 1u] = radius * pow(shares[i], 1.0 / 3.0);
+    radii[0] = radius * pow(1.0 - SUB_WATER * left, 1.0 / 3.0);
     sub_peak = min(4.0 * (1.0 - t), 1.0);
 }
 

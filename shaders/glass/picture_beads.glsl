@@ -25,7 +25,7 @@ vec3 bead_of(ivec2 cell, uint number, uint i, float broken_nl)
 {
     const uint random = virga_hash3(look.pane.seed, 0x6265u, number);
     const vec2 at = vec2(virga_unit(virga_hash2(random, 2u * i)), virga_unit(virga_hash2(random, 2u * i + 1u)));
-    return vec3((vec2(cell) + 0.1 + 0.8 * at) * look.pane.cell_m, bead_radii(number, broken_nl)[i]);
+    return vec3((vec2(cell) + at) * look.pane.cell_m, bead_radii(number, broken_nl)[i]);
 }
 
 // How much of a bead is shape, the rest mist. One alone is seen from half a shape on, where its density reaches the

@@ -13,6 +13,7 @@
 layout(location = 0) out vec4 radiance;
 
 #define THROWN 0.3 // share of the light beside it that a ray shows which is thrown back at all
+#define FILM_TURN 0.15 // rad: how much a film on what is not glass turns from place to place
 #define BEHIND 0.25 // share of the environment that rays meet which are thrown back into the room that the pane closes
 
 // Lamps that lie in a direction: a small disc each, as wide as a pixel of a drop shows of the world.
@@ -53,11 +54,14 @@ vec3 caustic(vec3 normal, vec3 flat_normal)
     return max(bright, vec3(0.2));
 }
 
-vec3 shown(Path path, vec3 d)
+vec3 shown(Path path, vec3 d, float height)
 {
     const vec3 flat_normal = cross(along_u, along_v);
-    const float width = max(0.5 * path.pixels * view.pixel_angle, 0.02);
     const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
+    // On what is not glass a film follows the bumps beneath, which the map does not have: it mirrors a lamp as widely,
+    // or its trails would be white wires. Drops and beads are round, whatever they lie on.
+    const float level = opaque ? FILM_TURN * (1.0 - smoothstep(1.5e-5, 6e-5, height)) : 0.0;
+    const float width = max(0.5 * path.pixels * view.pixel_angle, max(level, 0.02));
     const bool outside = opaque || SIDE == VIRGA_GLASS_DRAW_BEFORE ||
                          (SIDE != VIRGA_GLASS_DRAW_BEHIND && dot(d, flat_normal) < 0.0);
     vec3 through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * mix(1.0, THROWN, path.lost);
@@ -91,6 +95,6 @@ void main()
 #else
     const Path path = path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE);
 #endif
-    const vec3 light = shown(path, d);
+    const vec3 light = shown(path, d, water.height);
     radiance = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
 }

@@ -267,8 +267,21 @@ static void merged_drops_have_no_crease(void **state)
 
 /* ---- balls */
 
+/* Each ball's share of the water of a drop with this radius, and how far it is from (0.05, 0.03); the heaviest. */
+static uint32_t water_of_balls(const shot *s, double radius, double share[4], double apart[4])
+{
+    uint32_t heaviest = 0;
+    for (uint32_t k = 0; k < s->ball_count; k++) {
+        share[k] = pow((double)s->balls[k].radius_m / radius, 3);
+        apart[k] = hypot((double)s->balls[k].middle[0] - 0.05, (double)s->balls[k].middle[1] - 0.03);
+        heaviest = share[k] > share[heaviest] ? k : heaviest;
+    }
+    return heaviest;
+}
+
 /* What has just landed is a main ball and three around it, which come nearer as (1 - t)^2 and are gone at t = 1, after
- * impact_s; all are caps, so water goes with the cube of the radius: its sum is the drop's (to 1e-5) all the time. */
+ * impact_s; all are caps, so water goes with the cube of the radius: its sum is the drop's, and theirs 0.27 (1 - t)^2
+ * of it (to 1e-5) all the time. No two of them have as much, or are as far. */
 static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
 {
     (void)state;
@@ -283,19 +296,20 @@ static void sub_balls_flow_into_their_drop_and_keep_its_water(void **state)
         const ball whole = ball_of(&s, drop);
         shot_draw(&s, false);
         REQUIRE(s.ball_count == (i < 10 ? 4 : 1));
-        double cubes = 0, most = 0;
+        double share[4], apart[4];
+        const uint32_t heaviest = water_of_balls(&s, whole.radius, share, apart);
+        assert_float_equal(share[heaviest], 1 - 0.27 * left, 1e-5);
+        assert_float_equal(apart[heaviest], 0, 1e-7);
+        double others = 0;
         for (uint32_t k = 0; k < s.ball_count; k++) {
-            cubes += pow((double)s.balls[k].radius_m / whole.radius, 3);
-            most = fmax(most, (double)s.balls[k].radius_m);
+            if (k == heaviest)
+                continue;
+            others += share[k];
+            REQUIRE(apart[k] > 0.84 * left * whole.radius && apart[k] < 1.46 * left * whole.radius);
+            for (uint32_t other = 0; other < k; other++)
+                REQUIRE(fabs(share[k] - share[other]) > 1e-3 * left && fabs(apart[k] - apart[other]) > 1e-3 * apart[k]);
         }
-        assert_float_equal(cubes, 1, 1e-5);
-        for (uint32_t k = 0; k < s.ball_count; k++) {
-            const bool main_one = (double)s.balls[k].radius_m >= most;
-            const double apart = hypot((double)s.balls[k].middle[0] - 0.05, (double)s.balls[k].middle[1] - 0.03);
-            assert_float_equal(apart, main_one ? 0 : 1.15 * left * whole.radius, 1e-7);
-            assert_float_equal(pow((double)s.balls[k].radius_m / whole.radius, 3),
-                               main_one ? 1 - (i < 10 ? 0.27 * left : 0) : 0.09 * left, 1e-5);
-        }
+        assert_float_equal(others, i < 10 ? 0.27 * left : 0, 1e-5);
     }
     shot_close(&s);
 }
@@ -550,6 +564,34 @@ static void water_reflects_by_fresnel(void **state)
     shot_close(&s);
 }
 
+/* A lamp beside the eye, mirrored straight back by a thin film on what is not glass: spread over a disc of 0.15 rad, as
+ * bumps would, Fresnel's 0.02 of I / (distance^2 2 pi 0.15^2). Over one of 0.02 rad it would be 56 times as bright. */
+static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
+    shot_plate(&s, black);
+    free(black);
+    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    s.settings.opaque = true;
+    shot_face(&s, 1, 30);
+    const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m;
+    const double away = fmax(v, u * HEIGHT / WIDTH) / tan(15 * M_PI / 180);
+    s.settings.lighting.light_count = 1;
+    s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = 40; /* 10 um */
+        s.passed[i] = s.glass->last_tick;
+    }
+    const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    const double straight = (WATER - 1) / (WATER + 1);
+    const double spread = 1 / (away * away * 2 * M_PI * 0.15 * 0.15);
+    assert_float_equal(middle[0] / (straight * straight * spread), 1, 0.02);
+    shot_close(&s);
+}
+
 /* Where the plate's colours are places, they tell what was looked up: right and down as shares of the picture. */
 static void put_places(shot *s)
 {
@@ -721,6 +763,7 @@ int main(void)
         cmocka_unit_test(a_drop_bends_light_by_snell),
         cmocka_unit_test(a_flat_film_does_not_bend),
         cmocka_unit_test(water_reflects_by_fresnel),
+        cmocka_unit_test(a_film_on_metal_mirrors_a_lamp_widely),
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
         cmocka_unit_test(the_scene_hides_what_is_behind_it),
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),

@@ -12,12 +12,14 @@ static bool create_images(host_device *device, host_mirror *mirror, char *error,
     host_image_def def = {
         .format = VK_FORMAT_R16G16B16A16_SFLOAT,
         .extent = {mirror->width, mirror->height, 1},
+        .levels = host_mirror_level_count(mirror->width, mirror->height),
         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
         .name = "mirror",
     };
     if (!host_image_create(device, &def, &mirror->color, error, error_size))
         return false;
     def.format = VK_FORMAT_D32_SFLOAT;
+    def.levels = 1;
     def.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     def.name = "mirror depth";
     return host_image_create(device, &def, &mirror->depth, error, error_size);
@@ -86,7 +88,7 @@ static bool create_pass(host_device *device, host_mirror *mirror, char *error, s
 
 static bool create_framebuffer(host_device *device, host_mirror *mirror, char *error, size_t error_size)
 {
-    const VkImageView views[] = {mirror->color.view, mirror->depth.view};
+    const VkImageView views[] = {mirror->levels.views[0], mirror->depth.view};
     const VkFramebufferCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
         .renderPass = mirror->pass,
@@ -107,6 +109,7 @@ bool host_mirror_create(host_device *device, uint32_t width, uint32_t height, ho
     mirror->width = width;
     mirror->height = height;
     if (create_images(device, mirror, error, error_size) && create_pass(device, mirror, error, error_size) &&
+        host_mirror_levels_create(device, &mirror->color, &mirror->levels, error, error_size) &&
         create_framebuffer(device, mirror, error, error_size))
         return true;
     host_mirror_destroy(device, mirror);
@@ -117,6 +120,7 @@ void host_mirror_destroy(host_device *device, host_mirror *mirror)
 {
     vkDestroyFramebuffer(device->device, mirror->framebuffer, NULL);
     vkDestroyRenderPass(device->device, mirror->pass, NULL);
+    host_mirror_levels_destroy(device, &mirror->levels);
     host_image_destroy(device, &mirror->depth);
     host_image_destroy(device, &mirror->color);
     memset(mirror, 0, sizeof *mirror);
@@ -137,4 +141,10 @@ void host_mirror_begin(const host_mirror *mirror, VkCommandBuffer cmd)
     };
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
     host_set_area(cmd, mirror->width, mirror->height);
+}
+
+void host_mirror_end(const host_mirror *mirror, VkCommandBuffer cmd)
+{
+    vkCmdEndRenderPass(cmd);
+    host_mirror_levels_record(&mirror->levels, cmd, &mirror->color);
 }

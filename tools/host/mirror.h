@@ -1,8 +1,9 @@
-/* mirror.h - the picture that level water mirrors: the scene turned upside down about a plane, at half the size. */
+/* mirror.h - the picture that level water mirrors: the scene turned upside down about a plane, at half the size, and
+ * smaller copies of it. */
 #ifndef VIRGA_HOST_MIRROR_H
 #define VIRGA_HOST_MIRROR_H
 
-#include "memory.h"
+#include "mirror_levels.h"
 
 /* The picture reaches this much farther than the plate's: waves look past its edges. */
 #define HOST_MIRROR_MARGIN 1.15f
@@ -11,8 +12,9 @@ typedef struct host_mirror {
     uint32_t width, height;
     host_image color; /* RGBA half float: radiance, 1 / distance from the camera by way of the water (1/m), which is
                        * what may be mixed by filters at the edge of something near */
+    host_mirror_levels levels;
     host_image depth;
-    VkRenderPass pass; /* clears and draws both; leaves the color to fragment shaders */
+    VkRenderPass pass; /* clears and draws both; leaves the color's first level to fragment shaders */
     VkFramebuffer framebuffer;
 } host_mirror;
 
@@ -20,7 +22,8 @@ bool host_mirror_create(host_device *device, uint32_t width, uint32_t height, ho
                         size_t error_size);
 void host_mirror_destroy(host_device *device, host_mirror *mirror); /* also one that is all zero */
 
-/* Begins the pass, viewport and scissor set; vkCmdEndRenderPass ends it. */
+/* Begins the pass, viewport and scissor set; the other ends it and makes the smaller copies. */
 void host_mirror_begin(const host_mirror *mirror, VkCommandBuffer cmd);
+void host_mirror_end(const host_mirror *mirror, VkCommandBuffer cmd);
 
 #endif

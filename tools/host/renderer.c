@@ -554,10 +554,11 @@ static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const str
     if (!r->mirror.width)
         return;
     host_label_begin(r->device, cmd, "mirror");
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 0, 1, &r->frame_set, 0, NULL);
     host_mirror_begin(&r->mirror, cmd);
     if (frame->mirror[2] > 0.0f)
         draw_scene(r, cmd, (pipelines)r->mirror_pipelines);
-    vkCmdEndRenderPass(cmd);
+    host_mirror_end(&r->mirror, cmd);
     host_label_end(r->device, cmd);
 }
 
@@ -568,9 +569,9 @@ void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
     update_skylight(r, cmd, camera);
     fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 0, 1, &r->frame_set, 0, NULL);
     record_mirror(r, cmd, &frame);
     host_label_begin(r->device, cmd, "plate");
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 0, 1, &r->frame_set, 0, NULL);
     host_target_begin_plate(target, cmd);
     draw_scene(r, cmd, (pipelines)r->pipelines);
     host_target_end_plate(target, cmd);

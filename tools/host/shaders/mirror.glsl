@@ -7,13 +7,13 @@ const int MIRROR_TAPS = 8;
 // The mirrored picture at a place of the mirrored world, relative to the camera. Where its edge is passed, the last it
 // shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
 // a: 1 / distance.
-vec4 mirror_at(vec3 place, out float trust)
+vec4 mirror_at(vec3 place, float level, out float trust)
 {
     const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
     const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y;
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
-    return textureLod(mirror_picture, at * 0.5 + 0.5, 0.0);
+    return textureLod(mirror_picture, at * 0.5 + 0.5, level);
 }
 
 // Where a ray that leaves water in direction r and goes so far ends, in the mirrored world. Water that lies `rise`
@@ -21,6 +21,23 @@ vec4 mirror_at(vec3 place, out float trust)
 vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 {
     return relative + vec3(r.x, -r.y, r.z) * way - vec3(0.0, 2.0 * rise, 0.0);
+}
+
+// The level of the picture for one look of MIRROR_TAPS. A share of 1 / MIRROR_TAPS of Beckmann's distribution of
+// slopes, exp(-s^2 / alpha^2) / (pi alpha^2), lies in a square with the side alpha sqrt(pi / (MIRROR_TAPS (1 - u))),
+// where u of it lies nearer to the middle. A facet that tilts turns the ray by twice as much away from the eye, and by
+// the cosine to the normal of that across; what is so far away turns that much less around the camera. Were a look
+// sharper, one that meets a lamp would be a spark. The mean of both ways, but not twice the smaller: a lamp's pillar
+// stays one. A level looked up between its texels, made as they are, is as blurred as a square of one
+// and a half times a texel's side or more.
+float mirror_level(float alpha, float u, float cosine, float way, float from)
+{
+    const float side = alpha * sqrt(3.14159265 / (float(MIRROR_TAPS) * (1.0 - u)));
+    const float angle = 2.0 * side * min(sqrt(cosine), 2.0 * cosine) * way / (from + way);
+    const mat4 clip = frame.clip_from_relative;
+    const float focal = length(vec3(clip[0][1], clip[1][1], clip[2][1])) * frame.mirror.y; // clip space per radian
+    const float side_px = angle * focal * 0.5 * float(textureSize(mirror_picture, 0).y);
+    return log2(max(0.7 * side_px, 1.0));
 }
 
 // Facets whose slopes are spread around the normal's as roughness says (Beckmann's distribution), weighted by how much
@@ -38,7 +55,7 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
     for (int i = 0; i < 2 && near > 0.0; i++) {
         const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
-        way = clamp(1.0 / mirror_at(place, trust).a - from, 0.05, way);
+        way = clamp(1.0 / mirror_at(place, 0.0, trust).a - from, 0.05, way);
     }
     // Turned from pixel to pixel (interleaved gradient noise, Jimenez 2014) and from sub-frame to sub-frame.
     const vec2 pixel = gl_FragCoord.xy + 37.0 * frame.screen.zw;
@@ -46,7 +63,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     vec4 sum = vec4(0.0);
     float whole = 0.0, mirrored = 0.0;
     for (int i = 0; i < MIRROR_TAPS; i++) {
-        const float spread = roughness * roughness * sqrt(-log(1.0 - (float(i) + 0.5) / float(MIRROR_TAPS)));
+        const float u = (float(i) + 0.5) / float(MIRROR_TAPS), alpha = roughness * roughness;
+        const float spread = alpha * sqrt(-log(1.0 - u));
         const float angle = turn + 2.3999632 * float(i);
         const vec2 s = slope + spread * vec2(cos(angle), sin(angle));
         const vec3 facet = normalize(vec3(-s.x, 1.0, -s.y));
@@ -56,7 +74,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
         mirrored += seen * f;
         if (near > 0.0 && seen > 0.0) {
             r = reflect(-v, facet);
-            const vec3 color = mirror_at(mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise), trust).rgb;
+            const float level = mirror_level(alpha, u, cosine, way, from);
+            const vec3 color = mirror_at(mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise), level, trust).rgb;
             sum += seen * f * near * trust * vec4(color, 1.0);
         }
     }

@@ -46,7 +46,12 @@ Water water_at(vec3 relative, vec3 n)
     water.depth_mm = level * wet.depth_mm;
     float drawn;
     water.normal = water_normal(relative, pixel / max(inv_cell, 1e-6), drawn);
-    water.roughness = clamp(sqrt(sqrt(2.0 * wet.slope2 * (1.0 - 0.7 * drawn))), 0.03, 0.5);
+    // Beckmann's alpha^2 is twice the variance of a slope: that of waves which are not drawn, and that within a pixel
+    // of those which are, where they turn from one to the next (a pixel as a normal distribution of half of its side:
+    // Kaplanyan et al. 2016, Filtering distributions of normals for shading antialiasing).
+    const vec2 slope = water.normal.xz / water.normal.y, right = dFdx(slope), down = dFdy(slope);
+    const float within = 0.25 * (dot(right, right) + dot(down, down));
+    water.roughness = clamp(sqrt(sqrt(2.0 * (wet.slope2 * (1.0 - 0.7 * drawn) + within))), 0.03, 0.5);
     return water;
 }
 

@@ -1,0 +1,209 @@
+/* mirror_levels.c - each level from the one before, by one triangle over it. */
+#include "mirror_levels.h"
+
+#include "pipeline.h"
+
+#include <string.h>
+
+#include "mirror_level_frag.spv.h"
+#include "mirror_level_vert.spv.h"
+
+#define LEAST_SIDE 2
+
+static uint32_t level_side(uint32_t side, uint32_t level)
+{
+    return side >> level ? side >> level : 1;
+}
+
+uint32_t host_mirror_level_count(uint32_t width, uint32_t height)
+{
+    const uint32_t least = width < height ? width : height;
+    uint32_t count = 1;
+    while (count < HOST_MIRROR_LEVELS && level_side(least, count) >= LEAST_SIDE)
+        count++;
+    return count;
+}
+
+/* ---- create ------------------------------------------------------------------------------------------------- */
+
+static bool create_pass(host_device *device, host_mirror_levels *levels, VkFormat format, char *error,
+                        size_t error_size)
+{
+    const VkAttachmentDescription attachment = {
+        .format = format,
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+        .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+    };
+    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkSubpassDescription subpass = {
+        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &color};
+    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkPipelineStageFlags reads = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkSubpassDependency dependencies[] = {
+        {
+            /* After the level before is drawn, and what read this one in the frame before has. */
+            .srcSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = draws | reads,
+            .dstStageMask = draws | reads,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT,
+        },
+        {
+            .dstSubpass = VK_SUBPASS_EXTERNAL,
+            .srcStageMask = draws,
+            .dstStageMask = reads,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+            .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
+        },
+    };
+    const VkRenderPassCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment,
+        .subpassCount = 1,
+        .pSubpasses = &subpass,
+        .dependencyCount = 2,
+        .pDependencies = dependencies,
+    };
+    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &levels->pass));
+    return true;
+}
+
+static bool create_views(host_device *device, host_mirror_levels *levels, const host_image *color, char *error,
+                         size_t error_size)
+{
+    for (uint32_t i = 0; i < levels->count; i++) {
+        const VkImageViewCreateInfo view = {
+            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+            .image = color->image,
+            .viewType = VK_IMAGE_VIEW_TYPE_2D,
+            .format = color->format,
+            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, i, 1, 0, 1},
+        };
+        HOST_TRY(vkCreateImageView(device->device, &view, NULL, &levels->views[i]));
+        const VkFramebufferCreateInfo framebuffer = {
+            .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+            .renderPass = levels->pass,
+            .attachmentCount = 1,
+            .pAttachments = &levels->views[i],
+            .width = level_side(color->extent.width, i),
+            .height = level_side(color->extent.height, i),
+            .layers = 1,
+        };
+        if (i > 0)
+            HOST_TRY(vkCreateFramebuffer(device->device, &framebuffer, NULL, &levels->framebuffers[i]));
+    }
+    return true;
+}
+
+static bool create_layout(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
+{
+    const VkSamplerCreateInfo sampler = {
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = VK_FILTER_LINEAR,
+        .minFilter = VK_FILTER_LINEAR,
+        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+    };
+    HOST_TRY(vkCreateSampler(device->device, &sampler, NULL, &levels->sampler));
+    const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                                                  VK_SHADER_STAGE_FRAGMENT_BIT, NULL};
+    const VkDescriptorSetLayoutCreateInfo set = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &binding};
+    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &set, NULL, &levels->set_layout));
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 1,
+                                               .pSetLayouts = &levels->set_layout};
+    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &levels->layout));
+    return true;
+}
+
+static bool create_sets(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
+{
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, HOST_MIRROR_LEVELS};
+    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = HOST_MIRROR_LEVELS,
+                                             .poolSizeCount = 1,
+                                             .pPoolSizes = &size};
+    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &levels->pool));
+    for (uint32_t i = 1; i < levels->count; i++) {
+        const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                      .descriptorPool = levels->pool,
+                                                      .descriptorSetCount = 1,
+                                                      .pSetLayouts = &levels->set_layout};
+        HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &levels->sets[i]));
+        const VkDescriptorImageInfo image = {levels->sampler, levels->views[i - 1],
+                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = levels->sets[i],
+                                            .descriptorCount = 1,
+                                            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                            .pImageInfo = &image};
+        vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
+    }
+    return true;
+}
+
+static bool create_pipeline(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
+{
+    const host_graphics_def def = {.vertex = HOST_CODE(mirror_level_vert),
+                                   .fragment = HOST_CODE(mirror_level_frag),
+                                   .layout = levels->layout,
+                                   .pass = levels->pass,
+                                   .colors = &host_blend_replace,
+                                   .color_count = 1};
+    return host_graphics_create(device, &def, &levels->pipeline, error, error_size);
+}
+
+bool host_mirror_levels_create(host_device *device, const host_image *color, host_mirror_levels *levels, char *error,
+                               size_t error_size)
+{
+    memset(levels, 0, sizeof *levels);
+    levels->count = color->levels;
+    if (create_pass(device, levels, color->format, error, error_size) &&
+        create_views(device, levels, color, error, error_size) && create_layout(device, levels, error, error_size) &&
+        create_sets(device, levels, error, error_size) && create_pipeline(device, levels, error, error_size))
+        return true;
+    host_mirror_levels_destroy(device, levels);
+    return false;
+}
+
+void host_mirror_levels_destroy(host_device *device, host_mirror_levels *levels)
+{
+    VkDevice vk = device->device;
+    vkDestroyPipeline(vk, levels->pipeline, NULL);
+    vkDestroyPipelineLayout(vk, levels->layout, NULL);
+    vkDestroyDescriptorPool(vk, levels->pool, NULL);
+    vkDestroyDescriptorSetLayout(vk, levels->set_layout, NULL);
+    vkDestroySampler(vk, levels->sampler, NULL);
+    for (uint32_t i = 0; i < HOST_MIRROR_LEVELS; i++) {
+        vkDestroyFramebuffer(vk, levels->framebuffers[i], NULL);
+        vkDestroyImageView(vk, levels->views[i], NULL);
+    }
+    vkDestroyRenderPass(vk, levels->pass, NULL);
+    memset(levels, 0, sizeof *levels);
+}
+
+/* ---- recording ---------------------------------------------------------------------------------------------- */
+
+void host_mirror_levels_record(const host_mirror_levels *levels, VkCommandBuffer cmd, const host_image *color)
+{
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->pipeline);
+    for (uint32_t i = 1; i < levels->count; i++) {
+        const uint32_t width = level_side(color->extent.width, i), height = level_side(color->extent.height, i);
+        const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                             .renderPass = levels->pass,
+                                             .framebuffer = levels->framebuffers[i],
+                                             .renderArea = {{0, 0}, {width, height}}};
+        vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+        host_set_area(cmd, width, height);
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->layout, 0, 1, &levels->sets[i], 0, NULL);
+        vkCmdDraw(cmd, 3, 1, 0, 0);
+        vkCmdEndRenderPass(cmd);
+    }
+}
