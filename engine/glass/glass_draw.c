@@ -9,6 +9,7 @@
 #include "shaders/glass_picture_paper_frag_both.spv.h"
 #include "shaders/glass_picture_paper_frag_motion.spv.h"
 #include "shaders/glass_picture_paper_frag_reactive.spv.h"
+#include "shaders/glass_picture_paper_vert.spv.h"
 #include "shaders/glass_picture_physical_frag.spv.h"
 #include "shaders/glass_picture_physical_frag_both.spv.h"
 #include "shaders/glass_picture_physical_frag_motion.spv.h"
@@ -498,11 +499,14 @@ static void target_clear(virga_glass *glass, glass_target *target)
 static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphics_def *def)
 {
     const bool mist = i >= GLASS_DRAW_MIST;
-    def->vertex = mist ? VIRGA_SPIRV(glass_picture_mist_vert) : VIRGA_SPIRV(glass_picture_pane_vert);
+    const bool paper = i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION;
+    def->vertex = mist    ? VIRGA_SPIRV(glass_picture_mist_vert)
+                  : paper ? VIRGA_SPIRV(glass_picture_paper_vert)
+                          : VIRGA_SPIRV(glass_picture_pane_vert);
     def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
     def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
-    if (mist || (i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION)) {
+    if (mist || paper) {
         const uint32_t which = i - (mist ? GLASS_DRAW_MIST : GLASS_DRAW_PAPER);
         def->constant |= which & GLASS_DRAW_OF_PLATE ? VIRGA_GLASS_DRAW_PLATE : VIRGA_GLASS_DRAW_ALONE;
         def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;
