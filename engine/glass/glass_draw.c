@@ -320,8 +320,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
 {
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
-    const virga_glass_settings *settings = &glass->settings;
-    const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend);
+    const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     record_clear(glass, cmd);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
     record_film(glass, cmd);
@@ -349,7 +348,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
 /* The passes of all panes, and the gathers of its density and blend. */
 static virga_result ready_to_prepare(const virga_glass *glass)
 {
-    const uint32_t mode = GLASS_GATHER_MODE(glass->settings.density, glass->settings.blend);
+    const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     const virga_pipeline *gathers[] = {glass->picture->gather_passes[mode],
                                        glass->picture->gather_passes[mode | GLASS_GATHER_FILM],
                                        glass->picture->gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};

@@ -227,8 +227,16 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
     memcpy(rows, wanted, sizeof wanted);
 }
 
-/* Those of a density and blend that are not there yet: without film, with sheets of it, and with beads too. All of them
- * would be thirty, of which a pane uses three. */
+uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings)
+{
+    const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER && !glass->picture->whole_map;
+    const bool few = !settings->compress || settings->compress_steps <= VIRGA_GLASS_FEW_STEPS;
+    return (uint32_t)settings->density | (uint32_t)settings->blend << 3 | (paper ? GLASS_GATHER_PAPER : 0) |
+           (few ? GLASS_GATHER_FEW : 0);
+}
+
+/* Those for these settings that are not there yet: without film, with sheets of it, and with beads too. All of them
+ * would be a hundred and twenty, of which a pane uses three. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
@@ -238,7 +246,7 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
                                                      : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < 3; i++) {
-        const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend) | films[i];
+        const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->layout,
                                        .constant = mode | (picture->whole_map ? GLASS_GATHER_MAP : 0),

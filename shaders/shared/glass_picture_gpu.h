@@ -19,6 +19,7 @@ typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead in cells: none reaches beyond the next */
 #define VIRGA_GLASS_BEAD_SEEN   0.75f /* least radius in texels of one that has a shape */
 #define VIRGA_GLASS_MIST_MOST   8192 /* texels a side of it, at most */
+#define VIRGA_GLASS_FEW_STEPS   5  /* of compression: gathers are also made for no more than these, the usual number */
 #define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls of a workgroup that fills lists */
 #define VIRGA_GLASS_COPY        256 /* texels a side of the plate's largest copy; the others lie to its right */
