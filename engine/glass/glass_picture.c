@@ -2,6 +2,7 @@
 #include "glass/glass_picture.h"
 
 #include "shaders/glass_picture_balls_comp.spv.h"
+#include "shaders/glass_picture_blocks_comp.spv.h"
 #include "shaders/glass_picture_copy_comp.spv.h"
 #include "shaders/glass_picture_fill_comp.spv.h"
 #include "shaders/glass_picture_film_comp.spv.h"
@@ -56,7 +57,7 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
-enum { BUFFERS = 8, PASSES = 6 };
+enum { BUFFERS = 8, PASSES = 7 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -73,7 +74,7 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->entries, (VkDeviceSize)picture->max_entries * 4, storage, VIRGA_HEAP_DEVICE, "glass.entries"},
         {&picture->mist, mist, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
-        {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + blocks) * 4,
+        {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + 2 * blocks) * 4,
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.work"},
         {&picture->corners, (tiles + blocks) * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "glass.corners"},
@@ -133,6 +134,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                               /* 23 map, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 24 scene motion */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},              /* 25 nodes as texels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 26 blocks with film */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -188,6 +190,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         own_image(picture->map, context->nearest),
         image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
         {.texels = glass->nodes->texels},
+        whole(glass->film_blocks),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
@@ -218,6 +221,7 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
 {
     const virga_compute_row wanted[PASSES] = {
         {&picture->ball_pass, VIRGA_SPIRV(glass_picture_balls_comp), "glass.balls"},
+        {&picture->block_pass, VIRGA_SPIRV(glass_picture_blocks_comp), "glass.blocks"},
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
