@@ -20,6 +20,6 @@ void main()
     if (i < all && film_blocks[i] != 0u) {
         const uint turn = atomicAdd(state.film_blocks, 1u);
         film_blocks[all + turn] = i;
-        atomicMax(state.measure_groups[0], turn + 1u);
+        atomicMax(state.measure_groups[0], turn / VIRGA_GLASS_MEASURED + 1u);
     }
 }

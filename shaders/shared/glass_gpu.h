@@ -25,6 +25,7 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #define VIRGA_GLASS_BINS       64 /* along a blade, of the film that it gathers */
 #define VIRGA_GLASS_ROUNDS     8  /* cells that a drop may go in a tick; even */
 #define VIRGA_GLASS_MOST_PARTS 64 /* particles that one drop becomes */
+#define VIRGA_GLASS_MEASURED   8  /* blocks of cells that a workgroup measures */
 #define VIRGA_GLASS_FILM_BLOCK 16 /* cells a side of the blocks that are told apart by whether they have film */
 
 /* The pane. */
@@ -155,7 +156,7 @@ struct virga_glass_state_gpu {
     uint shown;            /* places from the list's first on that may hold drops at the tick's end */
     uint shown_groups[3];  /* of a dispatch over them */
     uint film_blocks;      /* blocks listed as they may have film */
-    uint measure_groups[3]; /* of the pass that measures: one for each of these, and over all that holds drops */
+    uint measure_groups[3]; /* of the pass that measures: over these, and over all that holds drops */
 };
 
 /* Water that wants a place at the tick's end: first the tick's arrivals, then one for each awake
