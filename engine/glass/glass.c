@@ -15,6 +15,7 @@
 #include "shaders/glass_choose_comp.spv.h"
 #include "shaders/glass_dry_comp.spv.h"
 #include "shaders/glass_enter_comp.spv.h"
+#include "shaders/glass_film_list_comp.spv.h"
 #include "shaders/glass_gather_comp.spv.h"
 #include "shaders/glass_leave_comp.spv.h"
 #include "shaders/glass_leave_find_comp.spv.h"
@@ -135,7 +136,13 @@ uint32_t glass_cells_along(float length_m, float cell_m)
 
 /* ---- creating */
 
-enum { BUFFERS = 17, PASSES = 23 };
+enum { BUFFERS = 18, PASSES = 24 };
+
+uint32_t glass_film_blocks(const virga_glass *glass)
+{
+    const uint32_t side = VIRGA_GLASS_FILM_BLOCK;
+    return (glass->columns + side - 1) / side * ((glass->rows + side - 1) / side);
+}
 
 static VkDeviceSize grid_cells(const virga_glass *glass)
 {
@@ -163,13 +170,15 @@ static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
         {&glass->occupants, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.occupants"},
         {&glass->film, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.film"},
         {&glass->passed, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.passed"},
+        {&glass->film_blocks, (VkDeviceSize)glass_film_blocks(glass) * 8, storage, VIRGA_HEAP_DEVICE,
+         "glass.film_blocks"},
         {&glass->seeds, seeds * sizeof(virga_glass_seed_gpu), storage, VIRGA_HEAP_DEVICE, "glass.seeds"},
         {&glass->ranks, seeds * 4, storage, VIRGA_HEAP_DEVICE, "glass.ranks"},
         {&glass->grid, (grid_cells(glass) + places) * 4, storage, VIRGA_HEAP_DEVICE, "glass.grid"},
         {&glass->moved, places * 16, storage, VIRGA_HEAP_DEVICE, "glass.moved"},
         {&glass->surface, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.surface"},
-        {&glass->nodes, VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu), storage,
-         VIRGA_HEAP_DEVICE, "glass.nodes"},
+        {&glass->nodes, VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu),
+         storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.nodes"},
         {&glass->tick_ring, (VkDeviceSize)frames * def->max_ticks_per_step * glass_tick_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.ticks"},
         {&glass->readback_ring, frames * sizeof(glass_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,
@@ -203,6 +212,7 @@ static void list_passes(virga_glass *glass, virga_compute_row rows[PASSES])
         {&glass->place, VIRGA_SPIRV(glass_place_comp), "glass.place"},
         {&glass->settle, VIRGA_SPIRV(glass_settle_comp), "glass.settle"},
         {&glass->dry, VIRGA_SPIRV(glass_dry_comp), "glass.dry"},
+        {&glass->film_list, VIRGA_SPIRV(glass_film_list_comp), "glass.film_list"},
         {&glass->measure, VIRGA_SPIRV(glass_measure_comp), "glass.measure"},
     };
     memcpy(rows, wanted, sizeof wanted);
@@ -229,6 +239,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 14 impacts */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 15 moved */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 16 awake */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 17 blocks with film */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -258,7 +269,8 @@ VkDescriptorSet glass_write_set(virga_glass *glass)
                                          whole(glass->nodes),
                                          impacts,
                                          whole(glass->moved),
-                                         whole(glass->awake)};
+                                         whole(glass->awake),
+                                         whole(glass->film_blocks)};
     return virga_bindings_write(glass->context, glass->bindings, 0, bound);
 }
 

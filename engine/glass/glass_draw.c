@@ -9,6 +9,7 @@
 #include "shaders/glass_picture_paper_frag_both.spv.h"
 #include "shaders/glass_picture_paper_frag_motion.spv.h"
 #include "shaders/glass_picture_paper_frag_reactive.spv.h"
+#include "shaders/glass_picture_paper_vert.spv.h"
 #include "shaders/glass_picture_physical_frag.spv.h"
 #include "shaders/glass_picture_physical_frag_both.spv.h"
 #include "shaders/glass_picture_physical_frag_motion.spv.h"
@@ -215,7 +216,18 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
     picture->cleared = true;
 }
 
-/* Lists of what lies over each tile begin anew. */
+/* Texels of the mist's map in use, whole blocks. */
+static uint32_t mist_pitch(const struct glass_picture *picture)
+{
+    return (picture->mist_size.width + BLOCK - 1) / BLOCK * BLOCK;
+}
+
+static uint32_t mist_rows(const struct glass_picture *picture)
+{
+    return (picture->mist_size.height + BLOCK - 1) / BLOCK * BLOCK;
+}
+
+/* Lists of what lies over each tile begin anew, and so does the mist's map, of which only what has film is made. */
 static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
@@ -230,6 +242,7 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
+    context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
     if (!picture->cleared)
         record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
@@ -248,13 +261,15 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     const struct glass_picture *picture = glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.film");
     const uint32_t mode = (picture->mist_cells > 1 ? GLASS_MIST_SEVERAL : 0) | (glass->masked ? GLASS_MIST_MASKED : 0);
-    virga_dispatch_2d(context, cmd, picture->mist_passes[mode], (picture->mist_size.width + BLOCK - 1) / BLOCK,
-                      (picture->mist_size.height + BLOCK - 1) / BLOCK);
+    const uint32_t blocks = mist_pitch(picture) / BLOCK * (mist_rows(picture) / BLOCK);
+    virga_dispatch(context, cmd, picture->block_pass, (blocks + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+    virga_indirect_barrier(context, cmd);
+    over_work(glass, cmd, picture->mist_passes[mode], offsetof(virga_glass_work_gpu, mist_groups));
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->film_pass, offsetof(virga_glass_work_gpu, block_groups));
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-    const VkBufferImageCopy copy = {.bufferRowLength = (picture->mist_size.width + BLOCK - 1) / BLOCK * BLOCK,
+    const VkBufferImageCopy copy = {.bufferRowLength = mist_pitch(picture),
                                     .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {picture->mist_size.width, picture->mist_size.height, 1}};
     context->vk.CmdCopyBufferToImage(cmd, picture->mist->buffer, picture->mist_map->image, VK_IMAGE_LAYOUT_GENERAL, 1,
@@ -319,8 +334,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
 {
     virga_context *context = glass->context;
     const struct glass_picture *picture = glass->picture;
-    const virga_glass_settings *settings = &glass->settings;
-    const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend);
+    const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     record_clear(glass, cmd);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
     record_film(glass, cmd);
@@ -348,7 +362,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
 /* The passes of all panes, and the gathers of its density and blend. */
 static virga_result ready_to_prepare(const virga_glass *glass)
 {
-    const uint32_t mode = GLASS_GATHER_MODE(glass->settings.density, glass->settings.blend);
+    const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     const virga_pipeline *gathers[] = {glass->picture->gather_passes[mode],
                                        glass->picture->gather_passes[mode | GLASS_GATHER_FILM],
                                        glass->picture->gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
@@ -498,11 +512,14 @@ static void target_clear(virga_glass *glass, glass_target *target)
 static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphics_def *def)
 {
     const bool mist = i >= GLASS_DRAW_MIST;
-    def->vertex = mist ? VIRGA_SPIRV(glass_picture_mist_vert) : VIRGA_SPIRV(glass_picture_pane_vert);
+    const bool paper = i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION;
+    def->vertex = mist    ? VIRGA_SPIRV(glass_picture_mist_vert)
+                  : paper ? VIRGA_SPIRV(glass_picture_paper_vert)
+                          : VIRGA_SPIRV(glass_picture_pane_vert);
     def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
     def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
-    if (mist || (i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION)) {
+    if (mist || paper) {
         const uint32_t which = i - (mist ? GLASS_DRAW_MIST : GLASS_DRAW_PAPER);
         def->constant |= which & GLASS_DRAW_OF_PLATE ? VIRGA_GLASS_DRAW_PLATE : VIRGA_GLASS_DRAW_ALONE;
         def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;

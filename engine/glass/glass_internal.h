@@ -46,7 +46,7 @@ struct virga_glass {
 
     /* State of the pane. */
     virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
-        *awake;
+        *awake, *film_blocks;
     /* What the pane is like: cells (affinity, bump, mask) and the grid of its shape. */
     virga_buffer *surface, *nodes;
     virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */
@@ -55,7 +55,7 @@ struct virga_glass {
     virga_pipeline_group needed; /* for all but gathers and draws, of which there are many and few in use */
     virga_pipeline *census_find, *census_scan, *census_list, *move, *awake_scan, *awake_list, *choose, *enter,
         *capture_find, *capture, *wipe, *touch, *gather, *relax_sort, *relax, *leave_find, *leave, *place_claim,
-        *place_scan, *place, *settle, *dry, *measure;
+        *place_scan, *place, *settle, *dry, *film_list, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
     float farthest_m;                                        /* of the nodes from the pane's origin */
     bool masked;                                             /* there may be cells without glass */
@@ -97,6 +97,8 @@ virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose
 
 /* Whole cells over a length; the last may stick out by a part. */
 uint32_t glass_cells_along(float length_m, float cell_m);
+/* Blocks of VIRGA_GLASS_FILM_BLOCK x VIRGA_GLASS_FILM_BLOCK cells. */
+uint32_t glass_film_blocks(const virga_glass *glass);
 VkDescriptorSet glass_write_set(virga_glass *glass);
 
 /* ---- glass_step.c */

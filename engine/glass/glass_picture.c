@@ -2,6 +2,7 @@
 #include "glass/glass_picture.h"
 
 #include "shaders/glass_picture_balls_comp.spv.h"
+#include "shaders/glass_picture_blocks_comp.spv.h"
 #include "shaders/glass_picture_copy_comp.spv.h"
 #include "shaders/glass_picture_fill_comp.spv.h"
 #include "shaders/glass_picture_film_comp.spv.h"
@@ -56,7 +57,7 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
-enum { BUFFERS = 8, PASSES = 6 };
+enum { BUFFERS = 8, PASSES = 7 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -73,7 +74,7 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->entries, (VkDeviceSize)picture->max_entries * 4, storage, VIRGA_HEAP_DEVICE, "glass.entries"},
         {&picture->mist, mist, storage, VIRGA_HEAP_DEVICE, "glass.mist"},
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
-        {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + blocks) * 4,
+        {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + 2 * blocks) * 4,
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.work"},
         {&picture->corners, (tiles + blocks) * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "glass.corners"},
@@ -107,20 +108,20 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
 
 /* As in shaders/glass/picture*: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 view and look */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 1 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 2 film */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 passed */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 4 surface */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 nodes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 balls */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 tiles */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 entries */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 mist, written */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 10 list of places */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 11 map */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                     /* 12 relief, read */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 13 copies of the plate, written */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 view and look */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 1 drops */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 2 film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 3 passed */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 4 surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 5 nodes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 6 balls */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 entries */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 mist, written */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 10 list of places */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                   /* 11 map */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},         /* 12 relief, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                   /* 13 copies of the plate, written */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT | VK_SHADER_STAGE_VERTEX_BIT}, /* 14 the same, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 15 scene depth */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},                    /* 16 scene colour */
@@ -132,6 +133,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 22 state of the pane */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                               /* 23 map, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 24 scene motion */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},              /* 25 nodes as texels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 26 blocks with film */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -186,6 +189,8 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(glass->state),
         own_image(picture->map, context->nearest),
         image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
+        {.texels = glass->nodes->texels},
+        whole(glass->film_blocks),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
@@ -216,6 +221,7 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
 {
     const virga_compute_row wanted[PASSES] = {
         {&picture->ball_pass, VIRGA_SPIRV(glass_picture_balls_comp), "glass.balls"},
+        {&picture->block_pass, VIRGA_SPIRV(glass_picture_blocks_comp), "glass.blocks"},
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
@@ -225,8 +231,16 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
     memcpy(rows, wanted, sizeof wanted);
 }
 
-/* Those of a density and blend that are not there yet: without film, with sheets of it, and with beads too. All of them
- * would be thirty, of which a pane uses three. */
+uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings)
+{
+    const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER && !glass->picture->whole_map;
+    const bool few = !settings->compress || settings->compress_steps <= VIRGA_GLASS_FEW_STEPS;
+    return (uint32_t)settings->density | (uint32_t)settings->blend << 3 | (paper ? GLASS_GATHER_PAPER : 0) |
+           (few ? GLASS_GATHER_FEW : 0);
+}
+
+/* Those for these settings that are not there yet: without film, with sheets of it, and with beads too. All of them
+ * would be a hundred and twenty, of which a pane uses three. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
@@ -236,7 +250,7 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
                                                      : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < 3; i++) {
-        const uint32_t mode = GLASS_GATHER_MODE(settings->density, settings->blend) | films[i];
+        const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->layout,
                                        .constant = mode | (picture->whole_map ? GLASS_GATHER_MAP : 0),

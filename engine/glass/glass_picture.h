@@ -26,13 +26,14 @@ enum {
     GLASS_DRAW_OF_SOLID = 4  /* (mist) and for what is not glass */
 };
 
-#define GLASS_GATHER_MODE(density, blend) ((uint32_t)(density) | (uint32_t)(blend) << 3)
-#define GLASS_GATHER_FILM                 16u /* tiles with film */
-#define GLASS_GATHER_MAP                  32u /* the host wants the map */
-#define GLASS_GATHER_BEADS                64u /* in a view that is near enough to show beads of film as drops */
-#define GLASS_MIST_SEVERAL                1u  /* cells to a texel */
-#define GLASS_MIST_MASKED                 2u  /* there may be cells without glass */
-#define GLASS_GATHERS                     128 /* of which three for each density and blend are made */
+#define GLASS_GATHER_FILM  16u  /* tiles with film */
+#define GLASS_GATHER_MAP   32u  /* the host wants the map */
+#define GLASS_GATHER_BEADS 64u  /* in a view that is near enough to show beads of film as drops */
+#define GLASS_GATHER_PAPER 128u /* densities alone, for the paper's style */
+#define GLASS_GATHER_FEW   256u /* not more than VIRGA_GLASS_FEW_STEPS of compression */
+#define GLASS_MIST_SEVERAL 1u   /* cells to a texel */
+#define GLASS_MIST_MASKED  2u   /* there may be cells without glass */
+#define GLASS_GATHERS      512  /* of which three for each density, blend, style and length of compression are made */
 
 typedef struct glass_target {
     uint64_t serial; /* of the virga_target; 0: free */
@@ -57,7 +58,7 @@ struct glass_picture {
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *film_pass, *list_pass, *fill_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *ball_pass, *block_pass, *film_pass, *list_pass, *fill_pass, *copy_pass, *shrink_pass;
     virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];             /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
@@ -78,6 +79,9 @@ struct glass_picture {
     bool beads;                                         /* may have a shape in this view */
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
 };
+
+/* Of the gathers, those for these settings: without GLASS_GATHER_FILM and _BEADS. */
+uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings);
 
 /* Writes the set of a frame's view. */
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);

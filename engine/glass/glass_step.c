@@ -12,8 +12,6 @@
 #define RELAX_ROUNDS 8u  /* even: positions end where they began */
 #define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
 
-#define MEASURED_CELLS 16u /* by a lane */
-
 #define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
 #define HOLD_BACK      1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
@@ -458,11 +456,11 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, drops), 12, 0);
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, measured), 24, 0);
+    context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, film_blocks), 8, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-    const uint64_t lanes = (uint64_t)glass->columns * glass->rows / MEASURED_CELLS + 1;
-    virga_dispatch_and_barrier(glass->context, cmd, glass->measure,
-                               groups_of(lanes > glass->def.max_drops ? lanes : glass->def.max_drops));
+    virga_dispatch_and_barrier(context, cmd, glass->film_list, groups_of(glass_film_blocks(glass)));
+    over(glass, cmd, glass->measure, offsetof(virga_glass_state_gpu, measure_groups));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -472,7 +470,7 @@ static void first_contents(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
     virga_buffer *const zero[] = {glass->state,  glass->drops, glass->occupants, glass->film,
-                                  glass->passed, glass->seeds, glass->grid};
+                                  glass->passed, glass->seeds, glass->grid,      glass->film_blocks};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, glass->claims->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_NOWHERE);

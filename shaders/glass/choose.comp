@@ -16,7 +16,10 @@ void leave_trail(uint place, uint entry, uint cell, inout virga_glass_drop_gpu d
     const uint left =
         min(round_by_chance(tick.film_m * square_m2 * width * 1e12, virga_hash3(drop.random, tick.tick, cell)),
             drop.water_nl / 8u);
-    film[cell] += left;
+    if (left != 0u) {
+        film[cell] += left;
+        mark_film(cell);
+    }
     drop.water_nl -= left;
     drop.tail_m += tick.pane.cell_m;
     const uint seed = landing_count() + entry;

@@ -16,6 +16,10 @@ layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]
 layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; };
 layout(scalar, set = 0, binding = 13) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
 
+#define PANE tick.pane
+#define FILM_BLOCKS_BINDING 17
+#include "film_blocks.glsl"
+
 #define NOWHERE VIRGA_GLASS_NOWHERE
 #define OUTSIDE 0xfffffffeu // a target: over the edge
 #define KG_OF_NL 0.9982e-9
@@ -43,6 +47,13 @@ bool has_glass(vec2 place) { return place == to_pane(place) && on_pane(cell_at(p
 uint cell_number(ivec2 cell) { return uint(cell.x) + uint(cell.y) * tick.pane.columns; }
 ivec2 cell_place(uint cell) { return ivec2(cell % tick.pane.columns, cell / tick.pane.columns); }
 vec2 cell_middle(uint cell) { return to_pane((vec2(cell_place(cell)) + 0.5) * tick.pane.cell_m); }
+
+// Film has come to a cell. Several may say so of a block.
+void mark_film(uint cell)
+{
+    const uvec2 block = uvec2(cell_place(cell)) / VIRGA_GLASS_FILM_BLOCK;
+    film_blocks[block.x + block.y * film_block_counts().x] = 1u;
+}
 
 // ---- what a cell's word holds: affinity, slopes of the bump map, glass or not
 

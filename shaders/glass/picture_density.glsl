@@ -10,6 +10,8 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define FILM ((MODE & 16u) != 0u)      // tiles with film
 #define WITH_BEADS ((MODE & 64u) != 0u) // some film is in beads that have a shape
 #define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
+#define PAPER ((MODE & 128u) != 0u)    // only the density is wanted, not the height: all that the paper's style shows
+#define FEW_STEPS ((MODE & 256u) != 0u) // of compression, not more than VIRGA_GLASS_FEW_STEPS
 #else
 #define DENSITY look.density
 #endif
@@ -75,9 +77,10 @@ float density_inverse(float v)
     return reach2 * y2;
 }
 
+#ifdef DENSITY_SPECIAL
 // Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: see Texel in
 // picture_gather.glsl.
-#define MOST_STEPS 16u
+#define MOST_STEPS (FEW_STEPS ? VIRGA_GLASS_FEW_STEPS : 16u)
 float compressed(float v)
 {
     float from = look.compress_from;
@@ -87,3 +90,4 @@ float compressed(float v)
     }
     return v;
 }
+#endif

@@ -72,17 +72,26 @@ Ball ball_of(uint entry)
                 b.radius_m * look.cap_height / unit_m, b.peak, b.mist);
 }
 
-void add_to(inout Texel texel, Ball ball)
+// What a ball adds to a texel's sums: V, or by Chen and Zhang k; k V; k V z; k K.
+vec4 parts_of(Ball ball, vec2 x, float x2, float density)
 {
-    const vec2 off = texel.place - ball.middle, x = off * ball.inv_radius;
-    const float x2 = dot(x, x), once = 1.0 / (1.0 + x2);
-    const float density = ball.peak * density_at(x2, reach);
+    if (PAPER && !WEIGHTED)
+        return vec4(density, 0.0, 0.0, 0.0);
+    const float once = 1.0 / (1.0 + x2);
     const float height = ball.height * max(1.0 + dot(ball.sag, x), 0.2);
     // Chen and Zhang, equations 7 and 8. Radii are over the largest as heights are.
     const float k = WEIGHTED ? ball.height * max(reach - sqrt(x2), 0.0) / reach : height;
     const float inner = ball.peak * k * density_window(x2, reach) * once * once;
     const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, inner);
-    texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(each * ONE + 0.5) : ivec4(0);
+    return PAPER ? vec4(each.xy, 0.0, 0.0) : each;
+}
+
+void add_to(inout Texel texel, Ball ball)
+{
+    const vec2 off = texel.place - ball.middle, x = off * ball.inv_radius;
+    const float x2 = dot(x, x);
+    const vec4 parts = parts_of(ball, x, x2, ball.peak * density_at(x2, reach));
+    texel.sums += x2 < reach * reach && ball.peak > 0.0 ? ivec4(parts * ONE + 0.5) : ivec4(0);
     const vec2 near = max(1.0 - abs(off) / texel_m(), 0.0);
     texel.mist += int(ball.mist * near.x * near.y * ONE + 0.5);
 }
@@ -128,12 +137,15 @@ void add_balls(virga_glass_tile_gpu tile)
 
 // ---- what sums come to
 
-// x: density as blended; y: height of the water over the glass (m), below 0 beside it.
+// x: density as blended; y: height of the water over the glass (m), below 0 beside it, or (paper) 0.
 vec2 blended(ivec4 sum)
 {
     const vec4 s = vec4(sum);
     const bool weighted = WEIGHTED;
-    const float density = weighted ? s.y / max(s.x, 1.0) : s.x / ONE, mean = s.z / max(s.y, 1.0);
+    const float density = weighted ? s.y / max(s.x, 1.0) : s.x / ONE;
+    if (PAPER)
+        return vec2(density, 0.0);
+    const float mean = s.z / max(s.y, 1.0);
     const float inside = max(weighted ? s.w / max(s.x, 1.0) : s.w / ONE / max(mean, 1e-6), 1e-4);
     const float inner = 2.0 - inversesqrt(inside), rim = 1.0 - density_inverse(density);
     const float profile = mix(rim, inner, smoothstep(0.55, 0.9, density));

@@ -1,6 +1,6 @@
 // picture_mist.comp - the mist's map: the share of each cell that beads of film cover which are too small for a shape.
-// Where a cell is smaller than a pixel, of several cells together. Finds the blocks that there is any in, and those
-// with film that has a shape.
+// Where a cell is smaller than a pixel, of several cells together. A workgroup for each block that may have film. Finds
+// those that there is any in, and those with film that has a shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -61,7 +61,9 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         misty = shaped = 0u;
     barrier();
-    const uvec2 first = gl_GlobalInvocationID.xy * uvec2(PACKED, 1u);
+    const uint number = wet[3u * look.max_tiles + look.max_blocks + gl_WorkGroupID.x];
+    const uvec2 block = uvec2(number & 0xffffu, number >> 16);
+    const uvec2 first = block * VIRGA_GLASS_MIST_BLOCK + gl_LocalInvocationID.xy * uvec2(PACKED, 1u);
     bool has_shape = false;
     const float share0 = texel_mist(first, has_shape), share1 = texel_mist(first + uvec2(1u, 0u), has_shape);
     const float share2 = texel_mist(first + uvec2(2u, 0u), has_shape);
@@ -75,13 +77,8 @@ void main()
     barrier();
     if (gl_LocalInvocationIndex != 0u)
         return;
-    if (gl_WorkGroupID.xy == uvec2(0u)) {
-        work.mist.instance_count = 1u;
-        work.mist.first_index = 6u * look.max_tiles;
-        work.block_groups[1] = work.block_groups[2] = 1u;
-    }
     if (misty != 0u)
-        draw_block(gl_WorkGroupID.xy);
+        draw_block(block);
     if (shaped != 0u)
-        wet[2u * look.max_tiles + atomicAdd(work.block_groups[0], 1u)] = gl_WorkGroupID.x | gl_WorkGroupID.y << 16;
+        wet[2u * look.max_tiles + atomicAdd(work.block_groups[0], 1u)] = number;
 }

@@ -5,11 +5,12 @@
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_corner.glsl"
+#include "picture_corner_light.glsl"
 
 void main()
 {
     const uint columns = look.mist_pitch / VIRGA_GLASS_MIST_BLOCK + 1u, number = uint(gl_VertexIndex);
     const float block_m = float(VIRGA_GLASS_MIST_BLOCK * look.mist_cells) * look.pane.cell_m;
     const vec2 at = vec2(number % columns, number / columns) * block_m;
-    place_corner(min(at / vec2(look.pane.width_m, look.pane.height_m), vec2(1.0)));
+    light_corner(place_corner(min(at / vec2(look.pane.width_m, look.pane.height_m), vec2(1.0))));
 }

@@ -5,9 +5,6 @@
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_corner.glsl"
+#include "picture_corner_light.glsl"
 
-void main()
-{
-    const uint columns = look.tile_columns + 1u, number = uint(gl_VertexIndex);
-    place_corner(vec2(number % columns, number / columns) / vec2(look.tile_columns, look.tile_rows));
-}
+void main() { light_corner(place_tile_corner(uint(gl_VertexIndex))); }

@@ -4,11 +4,12 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#define PAPER
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_surface.glsl"
 #include "picture_plate.glsl"
-#include "picture_path.glsl"
+#include "picture_paper.glsl"
 #include "picture_temporal.glsl"
 
 layout(location = 0) out vec4 radiance;
@@ -16,7 +17,7 @@ layout(location = 0) out vec4 radiance;
 void main()
 {
     const Water water = water_here();
-    const vec2 pixel = paper_pixel(water);
+    const vec2 pixel = paper_pixel(gl_FragCoord.xy, water.slope, pane_ways);
 #ifdef TEMPORAL
     const mat2 change = mat2(dFdx(pixel), dFdy(pixel)); // while all pixels of a quad are there
 #endif

@@ -134,24 +134,3 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / view.pixel_angle;
     return path;
 }
-
-// ---- the paper's way (section 5.4)
-
-// Height (m) that a density of 1 stands for, so that its slopes do not depend on the resolution.
-#define PAPER_RELIEF_M 0.005
-
-// The normal's x and y displace the plate, as they lie on the picture.
-vec2 paper_pixel(Water water)
-{
-    const vec3 normal = normalize(vec3(-water.slope * PAPER_RELIEF_M, 1.0));
-    const vec3 across = normalize(along_u) * normal.x + normalize(along_v) * normal.y;
-    const vec2 picture = vec2(dot(across, normalize(to_vec(view.right))), dot(across, normalize(to_vec(view.up))));
-    return gl_FragCoord.xy - picture * look.paper_shift * view.viewport[3];
-}
-
-// Beyond the picture's borders it is looked up mirrored in them.
-vec2 paper_uv(vec2 pixel)
-{
-    const vec2 uv = (pixel - vec2(view.viewport[0], view.viewport[1])) / vec2(view.viewport[2], view.viewport[3]);
-    return 1.0 - abs(1.0 - mod(uv, 2.0));
-}

@@ -8,6 +8,7 @@
 #include "picture_surface.glsl"
 #include "picture_plate.glsl"
 #include "picture_path.glsl"
+#include "picture_paper.glsl"
 
 layout(location = 0) out vec4 offset_cover;
 
@@ -20,7 +21,7 @@ void main()
     const vec3 d = normalize(position);
     vec2 pixel = gl_FragCoord.xy;
     if (look.style == 0u)
-        pixel = paper_pixel(water);
+        pixel = paper_pixel(pixel, water.slope, ways_on_picture(along_u, along_v));
     else if (look.opaque == 0u || dot(d, cross(along_u, along_v)) < 0.0) {
         const Path path = path_through(d, water, pixel_m, look.opaque != 0u);
         pixel = path.ahead && !path.total ? path.pixel : pixel;

@@ -18,9 +18,13 @@ layout(set = 0, binding = 12) uniform sampler2D relief_map;
 
 layout(location = 0) in vec2 place;
 layout(location = 1) in vec3 position;
+#ifdef PAPER
+layout(location = 2) in vec4 pane_ways;
+#else
 layout(location = 2) in vec3 along_u;
 layout(location = 3) in vec3 along_v;
 layout(location = 4) in vec3 mist_light;
+#endif
 
 struct Water {
     float cover;  // of the pixel by drops and film that have a shape

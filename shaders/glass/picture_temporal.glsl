@@ -1,5 +1,5 @@
 // picture_temporal.glsl - the motion of what drops show, for the forms with motion vectors or a reactive mask. After
-// picture_plate.glsl and picture_path.glsl.
+// picture_plate.glsl and, but for the paper's style, picture_path.glsl.
 //
 // A drop shows the place q of the picture at the pixel p. Between p and its neighbours q changes by J, some tens of
 // pixels a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture,
@@ -56,6 +56,7 @@ vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
     return far > most ? moved * (most / max(far, 1e-6)) : moved;
 }
 
+#ifndef PAPER
 // What the pane's water showed at this place of it in the previous frame, by Snell: with the eye where it was. The
 // scene is taken to be as far away as now.
 vec2 shown_before(Path path, vec3 d)
@@ -74,6 +75,7 @@ bool moves_inside(Path path, Water water)
     const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
     return !opaque && path.ahead && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
 }
+#endif
 
 // `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into
 // them, whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps

@@ -37,6 +37,7 @@ void to_film(vec2 at, uint water)
 {
     const ivec2 cell = clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1);
     atomicAdd(film[cell_number(cell)], water);
+    mark_film(cell_number(cell));
     passed[cell_number(cell)] = tick.tick;
     count(VIRGA_GLASS_CROWDED, 1u);
 }

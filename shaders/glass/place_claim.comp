@@ -75,6 +75,7 @@ void land(inout virga_glass_seed_gpu seed)
         seed.water_nl = 0u;
     } else if (float(seed.water_nl) < tick.mist_nl) { // fine drops from the start: no fresh film
         atomicAdd(film[seed.cell], seed.water_nl);
+        mark_film(seed.cell);
         seed.water_nl = 0u;
     }
 }
@@ -90,6 +91,7 @@ void main()
         seeds[i] = seed;
     } else if (seeds[i].water_nl != 0u && seeds[i].cell != NOWHERE && on_blade(cell_middle(seeds[i].cell))) {
         atomicAdd(film[seeds[i].cell], seeds[i].water_nl); // left behind where a blade has come to since
+        mark_film(seeds[i].cell);
         seeds[i].water_nl = 0u;
     }
     if (seeds[i].water_nl != 0u && seeds[i].cell != NOWHERE)

@@ -32,7 +32,10 @@ void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
     if (parts > 1u) {
         // The seed may hold a tail that this drop left in the same tick: that water goes along.
         const uint tail = seeds[seed_of(entry)].water_nl;
-        film[drop.cell] += tail;
+        if (tail != 0u) {
+            film[drop.cell] += tail;
+            mark_film(drop.cell);
+        }
         seeds[seed_of(entry)] =
             virga_glass_seed_gpu(drop.position, float[2](0.0, 0.0), each, parts - 1u, extra > 0u ? extra - 1u : 0u,
                                  NOWHERE, drop.id, VIRGA_GLASS_PARTICLE);

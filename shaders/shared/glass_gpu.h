@@ -25,6 +25,8 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #define VIRGA_GLASS_BINS       64 /* along a blade, of the film that it gathers */
 #define VIRGA_GLASS_ROUNDS     8  /* cells that a drop may go in a tick; even */
 #define VIRGA_GLASS_MOST_PARTS 64 /* particles that one drop becomes */
+#define VIRGA_GLASS_MEASURED   8  /* blocks of cells that a workgroup measures */
+#define VIRGA_GLASS_FILM_BLOCK 16 /* cells a side of the blocks that are told apart by whether they have film */
 
 /* The pane. */
 struct virga_glass_pane_gpu {
@@ -153,6 +155,8 @@ struct virga_glass_state_gpu {
     uint bins_nl[512];     /* VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS: film gathered along each blade */
     uint shown;            /* places from the list's first on that may hold drops at the tick's end */
     uint shown_groups[3];  /* of a dispatch over them */
+    uint film_blocks;      /* blocks listed as they may have film */
+    uint measure_groups[3]; /* of the pass that measures: over these, and over all that holds drops */
 };
 
 /* Water that wants a place at the tick's end: first the tick's arrivals, then one for each awake
@@ -188,6 +192,7 @@ VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 296);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, shown_groups, 2348);
+VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, measure_groups, 2364);
 #undef uint
 #endif
 

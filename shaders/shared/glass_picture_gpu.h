@@ -19,6 +19,7 @@ typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead in cells: none reaches beyond the next */
 #define VIRGA_GLASS_BEAD_SEEN   0.75f /* least radius in texels of one that has a shape */
 #define VIRGA_GLASS_MIST_MOST   8192 /* texels a side of it, at most */
+#define VIRGA_GLASS_FEW_STEPS   5  /* of compression: gathers are also made for no more than these, the usual number */
 #define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls of a workgroup that fills lists */
 #define VIRGA_GLASS_COPY        256 /* texels a side of the plate's largest copy; the others lie to its right */
@@ -106,14 +107,15 @@ struct virga_glass_corners_gpu {
 };
 
 /* How much there is to do: what indirect dispatches and draws read. Followed by numbers: of tiles without film; from
- * look.max_tiles on of tiles with film; from 2 look.max_tiles on of the mist's blocks with film; and look.max_blocks
- * behind these of tiles with something to show. Lists are in any order: what is done for one of their entries does not
+ * look.max_tiles on of tiles with film; from 2 look.max_tiles on of the mist's blocks with film that has a shape;
+ * look.max_blocks behind these of tiles with something to show; and look.max_tiles behind these of the mist's blocks
+ * that may have any film. Lists are in any order: what is done for one of their entries does not
  * depend on another. All zero as a view's passes begin. */
 struct virga_glass_work_gpu {
     uint tile_groups[3];    /* of the gathering pass, over tiles without film */
     uint film_groups[3];    /* and over those with */
     uint ball_groups[3];    /* of the pass that fills the lists */
-    uint block_groups[3];   /* of the pass over blocks with film */
+    uint block_groups[3];   /* of the pass over blocks with film that has a shape */
     uint relief_groups[3];  /* of the pass over tiles that have something to show, or had */
     virga_glass_corners_gpu drops; /* tiles to be drawn */
     virga_glass_corners_gpu mist;  /* blocks to be drawn */
@@ -126,6 +128,7 @@ struct virga_glass_work_gpu {
     uint entries;           /* of the lists of all tiles, were there room for any number */
     uint used;              /* that they were given */
     uint highest;           /* a float's bits: the largest radius of a ball */
+    uint mist_groups[3];    /* of the pass over the mist's blocks that may have any film */
 };
 
 /* What lies over a tile of the map. */
@@ -139,7 +142,7 @@ struct virga_glass_tile_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 136);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 148);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

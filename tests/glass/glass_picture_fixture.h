@@ -205,6 +205,7 @@ static inline void shot_put(shot *s, VkCommandBuffer cmd)
     REQUIRE(g->def.max_drops <= 4096);
     for (uint32_t i = 0; i < g->def.max_drops; i++)
         places[i] = i;
+    vkCmdFillBuffer(cmd, g->film_blocks->buffer, 0, VK_WHOLE_SIZE, 1);
     vkCmdUpdateBuffer(cmd, g->list->buffer, sizeof(virga_list_gpu), g->def.max_drops * 4ull, places);
     vkCmdUpdateBuffer(cmd, g->state->buffer, offsetof(virga_glass_state_gpu, shown), sizeof shown, shown);
     shot_memory(cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -227,6 +228,8 @@ static inline void shot_copy_map(shot *s, VkCommandBuffer cmd)
     virga_glass_map_get(s->glass, &map);
     s->columns = map.columns;
     s->rows = map.rows;
+    if (!map.image)
+        return;
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {map.columns, map.rows, 1}};
     vkCmdCopyImageToBuffer(cmd, map.image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1, &copy);

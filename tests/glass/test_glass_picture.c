@@ -734,6 +734,42 @@ static float *whole_frame(const char *threads, bool share, size_t *count)
     return NULL;
 }
 
+/* Drops in the paper's style, by one way of adding up and compressing. */
+static float *paper_frame(bool height_map, virga_glass_blend blend, uint32_t compress_steps)
+{
+    shot s;
+    ball balls[PLACES];
+    virga_glass_def def = shot_def();
+    def.height_map = height_map;
+    shot_open(&s, &def, WIDTH, HEIGHT, false);
+    shot_face(&s, -1, 30);
+    put_places(&s);
+    put_balls(&s, balls, 20);
+    s.settings.style = VIRGA_GLASS_STYLE_PAPER;
+    s.settings.blend = blend;
+    s.settings.compress_steps = compress_steps;
+    float *copy = malloc(16ull * WIDTH * HEIGHT);
+    REQUIRE(copy);
+    memcpy(copy, shot_draw(&s, false), 16ull * WIDTH * HEIGHT);
+    shot_close(&s);
+    return copy;
+}
+
+/* Where nobody asks for heights the paper's style has gathers that leave them out. */
+static void the_paper_shows_the_same_with_heights_and_without(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 4; i++) {
+        const virga_glass_blend blend = i & 1 ? VIRGA_GLASS_BLEND_WEIGHTED : VIRGA_GLASS_BLEND_SUM;
+        float *with = paper_frame(true, blend, i & 2 ? 9 : 5), *without = paper_frame(false, blend, i & 2 ? 9 : 5);
+        REQUIRE(sum_of_alpha(with, 0, WIDTH) > 1000);
+        if (memcmp(with, without, 16ull * WIDTH * HEIGHT))
+            fail_msg("other bits with blend %d and %d steps", (int)blend, i & 2 ? 9 : 5);
+        free(with);
+        free(without);
+    }
+}
+
 static void the_same_bits_come_out_every_time(void **state)
 {
     (void)state;
@@ -767,6 +803,7 @@ int main(void)
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
         cmocka_unit_test(the_scene_hides_what_is_behind_it),
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
+        cmocka_unit_test(the_paper_shows_the_same_with_heights_and_without),
         cmocka_unit_test(the_same_bits_come_out_every_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -306,12 +306,45 @@ static void same_bits_whatever_the_frames_and_threads(void **unused)
     setenv("LP_NUM_THREADS", "2", 1);
 }
 
+static uint32_t marked_blocks(void)
+{
+    uint32_t marked = 0;
+    for (uint32_t i = 0; i < glass_film_blocks(f.glass); i++)
+        marked += f.film_blocks[i];
+    return marked;
+}
+
+/* Fine drops on two cells of one block and on one of another are film; a hundred nanolitres dry within two seconds. */
+static void blocks_are_marked_while_they_have_film(void **unused)
+{
+    (void)unused;
+    glass_fixture_open(&f, NULL);
+    f.settings.evaporation_mm_h = 0;
+    glass_fixture_land(&f, 0.0101, 0.0101, 100);
+    glass_fixture_land(&f, 0.0151, 0.0101, 50);
+    glass_fixture_land(&f, 0.1501, 0.1101, 20);
+    glass_fixture_step(&f, 1, true);
+    REQUIRE(water_on_pane() == 170 && marked_blocks() == 2);
+    assert_budget();
+    f.settings.evaporation_mm_h = 100;
+    glass_fixture_step(&f, 64, true);
+    glass_fixture_step(&f, 64, true);
+    REQUIRE(water_on_pane() == 0 && marked_blocks() == 0);
+    f.settings.evaporation_mm_h = 0;
+    glass_fixture_land(&f, 0.0101, 0.0101, 30);
+    glass_fixture_step(&f, 1, true);
+    REQUIRE(marked_blocks() == 1);
+    assert_budget();
+    glass_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(budget_and_cells_hold_over_10000_ticks),
         cmocka_unit_test(nothing_leaves_an_odd_pane_under_opposed_blades),
         cmocka_unit_test(same_bits_whatever_the_frames_and_threads),
+        cmocka_unit_test(blocks_are_marked_while_they_have_film),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

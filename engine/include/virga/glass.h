@@ -267,9 +267,9 @@ VIRGA_API virga_result virga_glass_shape_set(virga_glass *glass, const virga_gla
 VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
 
 /* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
- * VIRGA_ERROR_INVALID and nothing changes. A density or blend that this pane has not had yet needs three more
- * pipelines, built as virga_context_def.pipelines says; the pane is not drawn until they are there. Errors of those as
- * virga_glass_create, and nothing changes. */
+ * VIRGA_ERROR_INVALID and nothing changes. A density, blend or style, or more than five steps of compression, that this
+ * pane has not had yet needs three more pipelines, built as virga_context_def.pipelines says; the pane is not drawn
+ * until they are there. Errors of those as virga_glass_create, and nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);
 VIRGA_API void virga_glass_get(const virga_glass *glass, virga_glass_settings *settings);
 
