@@ -1,6 +1,7 @@
 /* host_two_contexts.c - a host with two worlds at once on one device, e.g. an editor's two views: two contexts, each
  * with a scene, images and command buffers of its own, made and recorded on two threads; only the queue is shared,
- * behind a lock. Panes show the frame before, as in games that copy no picture twice. */
+ * behind a lock. Panes show the scene of the frame before, without water: with it a film would show the drop that has
+ * run by, and that picture again in the next frame. */
 #include <pthread.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -37,7 +38,7 @@ typedef struct world_thread {
     virga_context *context;
     virga_scene *scene;
     virga_target *target;
-    world_image color, depth, before; /* before: the picture of the previous frame */
+    world_image color, depth, before; /* before: the previous frame's scene */
     VkRenderPass opaque_pass, water_pass;
     VkFramebuffer opaque_framebuffer, water_framebuffer;
     world_street street;
@@ -205,10 +206,17 @@ static void keep_picture(world_thread *w, VkCommandBuffer cmd)
     const VkImageCopy all = {.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                              .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                              .extent = {WORLD_WIDTH, WORLD_HEIGHT, 1}};
+    const virga_image_state drawn = {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                     VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                     VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+                            copied = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                      VK_ACCESS_TRANSFER_READ_BIT};
+    world_image_barrier(cmd, &w->color, drawn, copied);
     world_image_barrier(cmd, &w->before, forgotten, written);
     vkCmdCopyImage(cmd, w->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, w->before.image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &all);
     world_image_barrier(cmd, &w->before, written, sampled);
+    world_image_barrier(cmd, &w->color, copied, drawn);
 }
 
 static void begin_pass(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t clear_count)
@@ -243,10 +251,10 @@ static void record(world_thread *w, VkCommandBuffer cmd, uint32_t number)
     begin_pass(cmd, w->opaque_pass, w->opaque_framebuffer, 2);
     street_draw(&w->street, cmd, &moment, virga_scene_ground(w->scene), number % FRAMES_IN_FLIGHT);
     vkCmdEndRenderPass(cmd);
+    keep_picture(w, cmd);
     begin_pass(cmd, w->water_pass, w->water_framebuffer, 0);
     REQUIRE(virga_scene_draw(w->scene, cmd, w->target) == VIRGA_OK);
     vkCmdEndRenderPass(cmd);
-    keep_picture(w, cmd);
     if (number < WORLD_FRAMES)
         return;
     world_image_read(cmd, &w->color, &w->read);
@@ -331,8 +339,9 @@ static void a_context_alone_gives_the_same_bits_and_pixels(void **state)
     bits_free(&alone.bits);
 }
 
-/* Bit for bit the state; the picture within 0.01 in all but 0.5 % of the pixels: drops on the pane show the frame
- * before here, and this one there. */
+/* Bit for bit the state; the picture within 0.01 in all but 1 % of the pixels, 0.002 on average: drops on the pane, a
+ * twentieth of the picture, show the scene of the frame before here, and this frame's with its rain there. Drops that
+ * show their own picture (rms 0.0036) would be seen. */
 static void state_and_picture_are_those_of_the_offline_renderer(void **state)
 {
     (void)state;
@@ -352,7 +361,7 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
            bits.droplets, bits.pane_drops, 100 * beyond, rms);
     assert_true(bits.impacts > 100 && bits.droplets > 20 && bits.pane_drops > 10);
     assert_true(bits_equal(&bits, &at_once[1].bits));
-    assert_true(beyond < 0.005);
+    assert_true(beyond < 0.01 && rms < 0.002);
     bits_free(&bits);
 }
 

@@ -325,8 +325,10 @@ typedef struct virga_view {
                                    * image VK_NULL_HANDLE: hard edges by the depth test, no haze */
     virga_image color;            /* (optional) the opaque scene's colour, linear radiance, single-sampled and in the
                                    * target's pixels, sampled where water refracts what is behind it; layout and
-                                   * access while drawing are `before`, and stay. image VK_NULL_HANDLE: refraction
-                                   * shows the environment instead */
+                                   * access while drawing are `before`, and stay. That of the frame before will
+                                   * do where it has no drops of panes in it: films would show them, and what they
+                                   * show, again and again. image VK_NULL_HANDLE: refraction shows the environment
+                                   * instead */
     virga_temporal temporal;      /* (motion, reactive) the previous frame, and what is told of it */
 } virga_view;
 
