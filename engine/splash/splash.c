@@ -95,7 +95,8 @@ static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
     return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
 }
 
-/* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked for. */
+/* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked
+ * for. */
 static bool fit_device(const virga_context *context, virga_splash_def *def)
 {
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;

@@ -1,7 +1,7 @@
 // picture_corner.glsl - a corner of what is drawn of the pane: where it is, and the pane's directions there.
 //
-// Nodes are read as texels: those are fetched for eight corners at once by software Vulkan, and a storage buffer word by
-// word and corner by corner.
+// Nodes are read as texels: those are fetched for eight corners at once by software Vulkan, and a storage buffer word
+// by word and corner by corner.
 layout(set = 0, binding = 25) uniform usamplerBuffer nodes; // a virga_glass_node_gpu is three texels
 
 layout(location = 0) out vec2 place;    // (u, v) on the pane (m)
@@ -14,7 +14,8 @@ struct Corner {
 Corner node_at(uvec2 node)
 {
     const int texel = 3 * int(node.x + node.y * VIRGA_GLASS_NODES);
-    const vec4 first = uintBitsToFloat(texelFetch(nodes, texel)), second = uintBitsToFloat(texelFetch(nodes, texel + 1)),
+    const vec4 first = uintBitsToFloat(texelFetch(nodes, texel)),
+               second = uintBitsToFloat(texelFetch(nodes, texel + 1)),
                third = uintBitsToFloat(texelFetch(nodes, texel + 2));
     return Corner(first.xyz, vec3(first.w, second.xy), vec3(second.zw, third.x));
 }

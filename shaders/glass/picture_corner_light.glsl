@@ -1,4 +1,5 @@
-// picture_corner_light.glsl - what a corner tells the pixels that show water by Snell, or its mist: directions and light.
+// picture_corner_light.glsl - what a corner tells the pixels that show water by Snell, or its mist: directions and
+// light.
 // After gpu/light.glsl and picture_corner.glsl.
 #include "picture_copies.glsl"
 #include "picture_mode.glsl"

@@ -319,8 +319,8 @@ static void drops_that_become_one_lie_in_the_middle_of_their_water(void **unused
     glass_fixture_close(&f);
 }
 
-/* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that and
- * the fourth were to be taken in by drops that were taken in themselves, and look again. */
+/* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that
+ * and the fourth were to be taken in by drops that were taken in themselves, and look again. */
 static void a_drop_whose_captor_is_gone_looks_again(void **unused)
 {
     (void)unused;
