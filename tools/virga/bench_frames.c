@@ -12,7 +12,7 @@
 #include <time.h>
 
 #define FRAMES  2000
-#define PASSES  5
+#define PASSES  3
 #define CONTROL 1000000 /* texels of 16 bytes that the control reads and writes */
 #define WARM_UP 240     /* frames: rings, splashes and drops have come to a level */
 
