@@ -235,7 +235,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 10 ranks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 11 grid */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 12 surface */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 13 nodes */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},   /* 13 nodes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 14 impacts */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 15 moved */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 16 awake */
@@ -266,7 +266,7 @@ VkDescriptorSet glass_write_set(virga_glass *glass)
                                          whole(glass->ranks),
                                          whole(glass->grid),
                                          whole(glass->surface),
-                                         whole(glass->nodes),
+                                         {.texels = glass->nodes->texels},
                                          impacts,
                                          whole(glass->moved),
                                          whole(glass->awake),

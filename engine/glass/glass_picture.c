@@ -108,20 +108,20 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
 
 /* As in shaders/glass/picture*: what each file declares. */
 static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES}, /* 0 view and look */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 1 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 2 film */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 3 passed */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 4 surface */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 5 nodes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 6 balls */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 7 tiles */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 8 entries */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 9 mist, written */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                  /* 10 list of places */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                   /* 11 map */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},         /* 12 relief, read */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                   /* 13 copies of the plate, written */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},                   /* 0 view and look */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 1 drops */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 2 film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 3 passed */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 4 surface */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 nodes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 6 balls */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 7 tiles */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 8 entries */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 9 mist, written */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                    /* 10 list of places */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                     /* 11 map */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                           /* 12 relief, read */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE}, /* 13 copies of the plate, written */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT | VK_SHADER_STAGE_VERTEX_BIT}, /* 14 the same, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 15 scene depth */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},                    /* 16 scene colour */
@@ -133,8 +133,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 22 state of the pane */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                               /* 23 map, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 24 scene motion */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},              /* 25 nodes as texels */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 26 blocks with film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 25 blocks with film */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -169,7 +168,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(glass->film),
         whole(glass->passed),
         whole(glass->surface),
-        whole(glass->nodes),
+        {.texels = glass->nodes->texels},
         whole(picture->balls),
         whole(picture->tiles),
         whole(picture->entries),
@@ -189,7 +188,6 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(glass->state),
         own_image(picture->map, context->nearest),
         image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
-        {.texels = glass->nodes->texels},
         whole(glass->film_blocks),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);

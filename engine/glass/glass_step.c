@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define PI         3.14159265358979323846
+#define PI 3.14159265358979323846
 
 #define ROUNDS       VIRGA_GLASS_ROUNDS
 #define RELAX_ROUNDS 8u  /* even: positions end where they began */

@@ -77,9 +77,28 @@ error:
     return result;
 }
 
+/* A pass may see what devices are asked for, and a device at hand may allow more: so that it is seen here. */
+static virga_result check_storage(const virga_context *context, const virga_binding_kind *kinds, uint32_t count)
+{
+    const VkShaderStageFlags stages[] = {VK_SHADER_STAGE_COMPUTE_BIT, VK_SHADER_STAGE_VERTEX_BIT,
+                                         VK_SHADER_STAGE_FRAGMENT_BIT};
+    for (int stage = 0; stage < 3; stage++) {
+        uint32_t seen = 0;
+        for (uint32_t i = 0; i < count; i++)
+            seen += (kinds[i].stages & stages[stage]) && (kinds[i].type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
+                                                          kinds[i].type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC);
+        if (seen > VIRGA_STORAGE_BUFFERS)
+            return virga_wrong_argument(&context->log, "bindings: %u storage buffers in a stage, and %d are promised",
+                                        seen, VIRGA_STORAGE_BUFFERS);
+    }
+    return VIRGA_OK;
+}
+
 virga_result virga_bindings_create(virga_context *context, const virga_binding_kind *kinds, uint32_t count,
                                    uint32_t sets_per_frame, uint32_t push_bytes, virga_bindings **bindings)
 {
+    if (check_storage(context, kinds, count))
+        return VIRGA_ERROR_INVALID;
     virga_bindings *made = virga_alloc(&context->heap, sizeof *made);
     if (!made)
         return virga_out_of_host_memory(context, "bindings");

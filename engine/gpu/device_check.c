@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define STORAGE_BUFFERS 16 /* that one pass can see: as many as the binding models have. Vulkan promises four */
-
 #define FEATURE_12(member, why)                                                                                    \
     {                                                                                                              \
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, offsetof(VkPhysicalDeviceVulkan12Features, member), \
@@ -84,7 +82,7 @@ static virga_result check_limits(const VkPhysicalDeviceLimits *limits, char *rea
 {
     if (limits->maxComputeWorkGroupInvocations < 256 || limits->maxComputeWorkGroupSize[0] < 256)
         return refuse(reason, size, "%s%s", "has compute workgroups of fewer than 256 invocations", "");
-    if (limits->maxPerStageDescriptorStorageBuffers < STORAGE_BUFFERS)
+    if (limits->maxPerStageDescriptorStorageBuffers < VIRGA_STORAGE_BUFFERS)
         return refuse(reason, size, "%s%s", "lets a shader see fewer than 16 storage buffers", "");
     return VIRGA_OK;
 }

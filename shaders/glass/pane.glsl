@@ -14,7 +14,8 @@ layout(scalar, set = 0, binding = 7) buffer Film { uint film[]; }; // nl
 layout(scalar, set = 0, binding = 8) buffer Passed { uint passed[]; };
 layout(scalar, set = 0, binding = 9) buffer Seeds { virga_glass_seed_gpu seeds[]; };
 layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; };
-layout(scalar, set = 0, binding = 13) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
+#define NODES_BINDING 13
+#include "nodes.glsl"
 
 #define PANE tick.pane
 #define FILM_BLOCKS_BINDING 17
@@ -76,30 +77,9 @@ float cell_wet(uint cell)
 
 // ---- the pane's frame
 
-struct Frame {
-    vec3 position, along_u, along_v, normal;
-};
-
-Frame node_frame(uint column, uint row)
-{
-    const virga_glass_node_gpu node = nodes[column + row * VIRGA_GLASS_NODES];
-    return Frame(to_vec(node.position), to_vec(node.along_u), to_vec(node.along_v), to_vec(node.normal));
-}
-
-Frame mix_frames(Frame a, Frame b, float t)
-{
-    return Frame(mix(a.position, b.position, t), mix(a.along_u, b.along_u, t), mix(a.along_v, b.along_v, t),
-                 mix(a.normal, b.normal, t));
-}
-
 Frame frame_at(vec2 place)
 {
-    const vec2 grid = clamp(place / vec2(tick.pane.width_m, tick.pane.height_m), vec2(0.0), vec2(1.0)) *
-                      float(VIRGA_GLASS_NODES - 1);
-    const uvec2 low = min(uvec2(grid), uvec2(VIRGA_GLASS_NODES - 2));
-    const vec2 t = grid - vec2(low);
-    return mix_frames(mix_frames(node_frame(low.x, low.y), node_frame(low.x + 1u, low.y), t.x),
-                      mix_frames(node_frame(low.x, low.y + 1u), node_frame(low.x + 1u, low.y + 1u), t.x), t.y);
+    return frame_between(clamp(place / vec2(tick.pane.width_m, tick.pane.height_m), vec2(0.0), vec2(1.0)));
 }
 
 // ---- drops

@@ -9,10 +9,11 @@
 #include "picture.glsl"
 #include "picture_density.glsl"
 #include "picture_tiles.glsl"
+#define NODES_BINDING 5
+#include "nodes.glsl"
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Drops { virga_glass_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 5) readonly buffer Nodes { virga_glass_node_gpu nodes[]; };
 layout(scalar, set = 0, binding = 10) readonly buffer List { virga_list_gpu list; uint listed[]; };
 layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_gpu state; };
 
@@ -31,8 +32,8 @@ vec2 gravity_at(vec2 middle)
 {
     const vec2 grid = middle / vec2(look.pane.width_m, look.pane.height_m) * float(VIRGA_GLASS_NODES - 1);
     const uvec2 node = uvec2(clamp(grid + 0.5, vec2(0.0), vec2(VIRGA_GLASS_NODES - 1)));
-    const virga_glass_node_gpu at = nodes[node.x + node.y * VIRGA_GLASS_NODES];
-    return vec2(dot(to_vec(look.gravity), to_vec(at.along_u)), dot(to_vec(look.gravity), to_vec(at.along_v)));
+    const Frame at = node_frame(node);
+    return vec2(dot(to_vec(look.gravity), at.along_u), dot(to_vec(look.gravity), at.along_v));
 }
 
 // A cap on an inclined surface, where it is flat enough: surface tension x laplacian of the height + density x

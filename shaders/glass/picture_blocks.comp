@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
 #define PANE look.pane
-#define FILM_BLOCKS_BINDING 26
+#define FILM_BLOCKS_BINDING 25
 #include "film_blocks.glsl"
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
