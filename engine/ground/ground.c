@@ -95,7 +95,7 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
     if (!given || check_def(NULL, given, &def))
         return 0;
     const VkDeviceSize cells = (VkDeviceSize)def.cells * def.cells;
-    const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + 2 * sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
+    const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
                                 8 /* spots */ + 4 /* stirs */ + 16 /* maps */ + 8 /* survey */;
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
@@ -117,8 +117,7 @@ static virga_result create_buffers(virga_ground *ground)
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const virga_buffer_row wanted[] = {
         {&ground->floors, cells * sizeof(virga_floor_gpu), storage, VIRGA_HEAP_DEVICE, "ground.floors"},
-        {&ground->cells[0], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells0"},
-        {&ground->cells[1], cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells1"},
+        {&ground->cells, cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells"},
         {&ground->arrivals, cells * sizeof(virga_arrivals_gpu), storage, VIRGA_HEAP_DEVICE, "ground.arrivals"},
         {&ground->stirs, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.stirs"},
         {&ground->spots, cells * 8, storage, VIRGA_HEAP_DEVICE, "ground.spots"},
@@ -171,7 +170,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 2 impacts */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 floors */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 4 cells */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 cells after flow */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 stirs */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 arrivals */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 spots */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 kept cells */
@@ -183,10 +182,9 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 14 spot map */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 15 rings */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 waves */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 17 stirs */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 17 material map */
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE},                              /* 18 rules of splashes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 spawns */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 20 material map */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -196,7 +194,7 @@ static virga_bound whole(const virga_buffer *buffer)
     return (virga_bound){.buffer = buffer->buffer};
 }
 
-static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
+static void write_set(virga_ground *ground, uint32_t source)
 {
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
     const VkSampler nearest = ground->context->nearest;
@@ -210,8 +208,8 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
         {.buffer = returns ? info->returns : info->impacts,
          .offset = returns ? info->returns_offset : info->impacts_offset},
         whole(ground->floors),
-        whole(ground->cells[parity]),
-        whole(ground->cells[parity ^ 1]),
+        whole(ground->cells),
+        whole(ground->stirs),
         whole(ground->arrivals),
         whole(ground->spots),
         whole(ground->kept_cells),
@@ -223,23 +221,19 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
         {.view = ground->spot_map->view, .image_layout = general},
         whole(ground->rings),
         {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
-        whole(ground->stirs),
-        info->splash_rules ? rules : whole(ground->no_rules),
-        whole(ground->spawns),
         {.sampler = nearest,
          .view = mapped ? info->materials.image.view : ground->blank_materials->layer_views[0],
-         .image_layout = mapped ? info->materials.image.before.layout : read_only}};
-    ground->sets[parity][source] =
-        virga_bindings_write(ground->context, ground->bindings, parity * GROUND_SOURCES + source, bound);
+         .image_layout = mapped ? info->materials.image.before.layout : read_only},
+        info->splash_rules ? rules : whole(ground->no_rules),
+        whole(ground->spawns)};
+    ground->sets[source] = virga_bindings_write(ground->context, ground->bindings, source, bound);
 }
 
 void ground_write_sets(virga_ground *ground)
 {
-    for (uint32_t parity = 0; parity < 2; parity++) {
-        write_set(ground, parity, GROUND_DROPS);
-        if (ground->info.returns)
-            write_set(ground, parity, GROUND_RETURNS);
-    }
+    write_set(ground, GROUND_DROPS);
+    if (ground->info.returns)
+        write_set(ground, GROUND_RETURNS);
 }
 
 static virga_result create_pipelines(virga_ground *ground)
@@ -272,7 +266,7 @@ static virga_result init(virga_ground *ground)
         return virga_out_of_host_memory(ground->context, "the tiles of the ground");
     TRY(create_buffers(ground));
     TRY(create_images(ground));
-    TRY(virga_bindings_create(ground->context, kinds, BINDINGS, 2 * GROUND_SOURCES, 0, &ground->bindings));
+    TRY(virga_bindings_create(ground->context, kinds, BINDINGS, GROUND_SOURCES, sizeof(uint32_t), &ground->bindings));
     TRY(ground_ripples_create(ground->context, ground->def.ripple_texels, (double)ground->def.ripple_texel_m,
                               ground->bindings->layout, &ground->needed, &ground->ripples));
     TRY(create_pipelines(ground));
@@ -346,10 +340,10 @@ void virga_ground_destroy(virga_ground **ground)
                                     &dying->ring,  &dying->spawn_find, &dying->spawn_scan};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->floors,    &dying->cells[0],      &dying->cells[1],   &dying->arrivals,
-                                &dying->spots,     &dying->kept_cells,    &dying->kept_spots, &dying->counts,
-                                &dying->landings,  &dying->rings,         &dying->stirs,      &dying->tick_ring,
-                                &dying->list_ring, &dying->readback_ring, &dying->spawns,     &dying->no_rules};
+    virga_buffer **buffers[] = {&dying->floors,        &dying->cells,      &dying->arrivals,  &dying->spots,
+                                &dying->kept_cells,    &dying->kept_spots, &dying->counts,    &dying->landings,
+                                &dying->rings,         &dying->stirs,      &dying->tick_ring, &dying->list_ring,
+                                &dying->readback_ring, &dying->spawns,     &dying->no_rules};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);
@@ -435,10 +429,9 @@ void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cell
     memset(cells, 0, sizeof *cells);
     if (!ground)
         return;
-    const virga_buffer *current = ground->cells[ground->parity];
     *cells = (virga_ground_cells){.floors = ground->floors->buffer,
-                                  .cells = current->buffer,
-                                  .size = current->size,
+                                  .cells = ground->cells->buffer,
+                                  .size = ground->cells->size,
                                   .tiles = ground->window.tiles,
                                   .low_tile = {ground->window.low[0], ground->window.low[1]},
                                   .nl_per_um = ground_nl_per_um(ground)};

@@ -100,10 +100,9 @@ struct virga_ground {
     ground_move move;
     double base_m;
     bool started, survey_all;
-    uint32_t parity; /* which of the two cell buffers is current */
-    uint64_t ticks;  /* run since creation */
+    uint64_t ticks; /* run since creation */
 
-    virga_buffer *floors, *cells[2], *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
+    virga_buffer *floors, *cells, *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
         *spawns, *no_rules;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map, *blank_materials;
@@ -118,8 +117,8 @@ struct virga_ground {
 
     uint64_t ring_frame;
     uint32_t ring_ticks, tick_offset, list_offset;
-    VkDescriptorSet sets[2][GROUND_SOURCES]; /* of this frame, by parity and where water comes from */
-    virga_ground_step_info info;             /* of this frame's step; its meshes are the host's */
+    VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, by where water comes from */
+    virga_ground_step_info info;          /* of this frame's step; its meshes are the host's */
     uint32_t tick_in_step;
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
     virga_ground_stats stats;

@@ -8,6 +8,7 @@
 #define SURVEY_TOP_M  256.0 /* above the camera */
 #define SURVEY_DEEP_M 512.0
 #define NEVER_SEEN    0x80000000u /* as in shaders/ground/adopt.comp */
+#define FLOW_PASSES   4           /* a round: through all four sides of each cell, see flow.comp */
 #define TILE_GROUPS   (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 
 static uint32_t ring_bytes(size_t size)
@@ -157,7 +158,7 @@ static void bind_source(virga_ground *ground, VkCommandBuffer cmd, uint32_t sour
 {
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
     ground->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
-                                              &ground->sets[ground->parity][source], 2, offsets);
+                                              &ground->sets[source], 2, offsets);
 }
 
 static void bind(virga_ground *ground, VkCommandBuffer cmd)
@@ -215,7 +216,7 @@ static void transfer_barrier(virga_ground *ground, VkCommandBuffer cmd)
 static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
 {
     const ground_move *move = &ground->move;
-    const virga_buffer *cells = ground->cells[ground->parity];
+    const virga_buffer *cells = ground->cells;
     if (move->forgotten_count) {
         dispatch_cells(ground, cmd, ground->forget, move->forgotten_count * TILE_GROUPS);
         transfer_barrier(ground, cmd);
@@ -325,6 +326,27 @@ static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(ground->context, cmd, scope);
 }
 
+/* Passes of a round that are done when so many ticks are. */
+static uint64_t flow_passes(const virga_ground *ground, uint64_t ticks)
+{
+    return ticks * FLOW_PASSES / ground->def.flow_ticks;
+}
+
+/* The passes of a round that this tick is for: as evenly spread as can be, so that no tick has all of it. */
+static void flow(virga_ground *ground, VkCommandBuffer cmd)
+{
+    const uint64_t end = flow_passes(ground, ground->ticks + 1);
+    const uint32_t pairs_of_cells = ground->def.cells * ground->def.cells / 2;
+    for (uint64_t pass = flow_passes(ground, ground->ticks); pass < end; pass++) {
+        const uint32_t pairs = (uint32_t)(pass % FLOW_PASSES);
+        const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.flow");
+        ground->context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pairs, &pairs);
+        dispatch_cells(ground, cmd, ground->flow, pairs_of_cells / VIRGA_GROUND_GROUP);
+        virga_compute_barrier(ground->context, cmd);
+        virga_pass_end(ground->context, cmd, scope);
+    }
+}
+
 static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
 {
     push_tick(ground, tick);
@@ -338,15 +360,8 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     over_water(ground, cmd, ground->soak);
     bind(ground, cmd);
     virga_pass_end(ground->context, cmd, scope);
+    flow(ground, cmd);
     ground->ticks++;
-    if (ground->ticks % ground->def.flow_ticks)
-        return;
-    scope = virga_pass_begin(ground->context, cmd, "ground.flow");
-    dispatch_cells(ground, cmd, ground->flow, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
-    virga_compute_barrier(ground->context, cmd);
-    virga_pass_end(ground->context, cmd, scope);
-    ground->parity ^= 1;
-    bind(ground, cmd);
 }
 
 static void measure(virga_ground *ground, VkCommandBuffer cmd)
@@ -357,8 +372,8 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
     context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
     transfer_barrier(ground, cmd);
-    const uint32_t window = ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP;
-    dispatch_cells(ground, cmd, ground->measure, window + ground_window_kept_end(&ground->window) * TILE_GROUPS);
+    const uint32_t tiles = ground->window.tiles * ground->window.tiles + ground_window_kept_end(&ground->window);
+    virga_dispatch(context, cmd, ground->measure, tiles);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -378,7 +393,7 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,
-                                      &ground->sets[ground->parity][GROUND_DROPS], 2, offsets);
+                                      &ground->sets[GROUND_DROPS], 2, offsets);
     ground_ripples_draw(context, cmd, ground->ripples);
     virga_pass_end(context, cmd, scope);
 }
@@ -409,8 +424,8 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, ground->blank_materials->image, VK_IMAGE_ASPECT_COLOR_BIT, before, read);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     ground_ripples_upload(context, cmd, ground->ripples);
-    virga_buffer *const zero[] = {ground->rings, ground->stirs,  ground->cells[0],   ground->cells[1], ground->arrivals,
-                                  ground->spots, ground->counts, ground->kept_cells, ground->landings,
+    virga_buffer *const zero[] = {ground->rings,  ground->stirs,   ground->cells,      ground->arrivals,
+                                  ground->spots,  ground->counts,  ground->kept_cells, ground->landings,
                                   ground->spawns, ground->no_rules};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
@@ -444,8 +459,7 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
         virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2))
         return VIRGA_ERROR_INVALID;
-    const virga_result result =
-        virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
+    const virga_result result = virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
     return result ? result : virga_group_ready(&ground->needed);
 }
 

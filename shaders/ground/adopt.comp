@@ -17,7 +17,7 @@ layout(scalar, set = 0, binding = 1) readonly buffer Lists
 };
 layout(set = 0, binding = 11) uniform sampler2DArray survey_depth;
 layout(set = 0, binding = 12) uniform usampler2DArray survey_surface;
-layout(set = 0, binding = 20) uniform usampler2D material_map;
+layout(set = 0, binding = 17) uniform usampler2D material_map;
 
 float knot(ivec2 at) { return virga_unit(virga_hash3(0x6b756d70u, uint(at.x), uint(at.y))) * 2.0 - 1.0; }
 

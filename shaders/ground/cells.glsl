@@ -34,7 +34,7 @@ ivec2 cell_at_place(uint place)
 {
     const uint tile = place >> (2 * TILE_SHIFT);
     const ivec2 low = ivec2(tick.low_tile[0], tick.low_tile[1]);
-    const ivec2 slot = ivec2(tile & (tick.tiles - 1u), tile / tick.tiles);
+    const ivec2 slot = ivec2(tile & (tick.tiles - 1u), tile >> findLSB(tick.tiles));
     const ivec2 local = ivec2(place & uint(VIRGA_GROUND_TILE - 1), (place >> TILE_SHIFT) & uint(VIRGA_GROUND_TILE - 1));
     return ((low + ((slot - low) & int(tick.tiles - 1u))) << TILE_SHIFT) + local;
 }

@@ -1,5 +1,5 @@
 // rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets.
-layout(scalar, set = 0, binding = 17) buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
+layout(scalar, set = 0, binding = 5) buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
 layout(scalar, set = 0, binding = 15) buffer Rings
 {
     virga_rings_gpu rings_head;

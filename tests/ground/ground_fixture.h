@@ -160,7 +160,7 @@ static inline void ground_fixture_read(ground_fixture *f, VkCommandBuffer cmd)
 {
     const VkDeviceSize cells = f->ground->floors->size, landings = f->ground->landings->size;
     char *there = f->download.mapped;
-    ground_fixture_copy(cmd, f->ground->cells[f->ground->parity]->buffer, 0, f->download.buffer, 0, cells);
+    ground_fixture_copy(cmd, f->ground->cells->buffer, 0, f->download.buffer, 0, cells);
     ground_fixture_copy(cmd, f->ground->floors->buffer, 0, f->download.buffer, cells, cells);
     ground_fixture_copy(cmd, f->ground->landings->buffer, 0, f->download.buffer, 2 * cells, landings);
     ground_fixture_copy(cmd, f->ground->spawns->buffer, 0, f->download.buffer, 2 * cells + landings,
@@ -228,7 +228,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 static inline void ground_fixture_put(ground_fixture *f)
 {
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
-    ground_fixture_copy(cmd, f->upload.buffer, 0, f->ground->cells[f->ground->parity]->buffer, 0, f->upload.size);
+    ground_fixture_copy(cmd, f->upload.buffer, 0, f->ground->cells->buffer, 0, f->upload.size);
     ground_fixture_submit(f);
 }
 

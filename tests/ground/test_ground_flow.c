@@ -92,30 +92,91 @@ static void test_water_runs_down_a_slope_into_the_drain(void **state)
     ground_fixture_close(&f);
 }
 
-static void test_a_sheet_flows_at_mannings_speed(void **state)
+/* A long slope of 1 %: a sheet of 2 mm moves with v = h^(2/3) sqrt(S) / n = 0.122 m/s at n = 0.013. */
+static void sheet_flows_at_mannings_speed(uint32_t flow_ticks)
 {
-    (void)state;
-    /* A long slope of 1 %: a sheet of 2 mm moves with v = h^(2/3) sqrt(S) / n = 0.122 m/s at n = 0.013. */
     static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.03f, 3}, {-3, 0.03f, 3}}};
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
     def.max_impacts = MOST_DROPS;
-    def.flow_ticks = 1;
+    def.flow_ticks = flow_ticks;
     begin(slope, NULL, 1, &def);
     ground_fixture_step(&f, 0);
     virga_cell_gpu *cells = f.upload.mapped;
     for (uint32_t i = 0; i < 128 * 128; i++)
         cells[i] = (virga_cell_gpu){5000000, 0};
     ground_fixture_put(&f);
-    ground_fixture_step(&f, 16);
+    for (uint32_t i = 0; i < flow_ticks; i++)
+        ground_fixture_step(&f, 16); /* 16 rounds in all */
     /* In the middle as much comes as goes; what passes x = 0 is seen where it gathers: sum right of it. */
     uint64_t right = 0;
     for (int x = 0; x < 60; x++)
         right += ground_fixture_free(&f, x, 0);
     const double passed_m2 = ((double)right - 60 * 5e6) * 1e-12 / 0.05;
-    const double expected = pow(2e-3, 5.0 / 3) * sqrt(0.01) / 0.013 * 16 / 60;
+    const double expected = pow(2e-3, 5.0 / 3) * sqrt(0.01) / 0.013 * 16 * flow_ticks / 60;
     if (fabs(passed_m2 / expected - 1) > 0.03)
         fail_msg("%g m^2 passed, expected %g", passed_m2, expected);
+    ground_fixture_close(&f);
+}
+
+static void test_a_sheet_flows_at_mannings_speed(void **state)
+{
+    (void)state;
+    sheet_flows_at_mannings_speed(1);
+}
+
+static void test_a_sheet_flows_as_fast_in_rounds_of_four_ticks(void **state)
+{
+    (void)state;
+    sheet_flows_at_mannings_speed(4);
+}
+
+/* Water (nl) that one pass moves from a cell to one beside it, in double precision; see shaders/ground/flow.comp. */
+static double flow_between(virga_floor_gpu from_floor, double from, virga_floor_gpu to_floor, double to, double round_s)
+{
+    const double m_per_nl = 1e-12 / (0.05 * 0.05);
+    const double difference = (from_floor.height_um - to_floor.height_um) * 2500.0 + from - to;
+    if (difference < 0)
+        return -flow_between(to_floor, to, from_floor, from, round_s);
+    const double h = from * m_per_nl, d = difference * m_per_nl;
+    const double m0 = pow(h, 5.0 / 3) * sqrt(d / 0.05) / 0.013 * round_s / 0.05;
+    const double m = h > 0 && d > 0 ? m0 / (1 + m0 * (5 / (6 * h) + 1 / (2 * d))) : 0;
+    return fmin(m / m_per_nl, fmin(from, difference) / 2);
+}
+
+/* Random water on a slope: each pass moves in each of its pairs what the reference says, and every cell with two
+ * neighbours in a direction has been in a pair with both after four. */
+static void test_each_pass_moves_what_the_reference_does(void **state)
+{
+    (void)state;
+    static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.02f, 3}, {-3, 0.04f, 3}}};
+    static virga_cell_gpu before[128 * 128];
+    begin(slope, NULL, 1, NULL);
+    ground_fixture_step(&f, 0);
+    virga_cell_gpu *cells = f.upload.mapped;
+    for (uint32_t i = 0; i < 128 * 128; i++)
+        cells[i] = (virga_cell_gpu){virga_hash1(i) % 3 ? virga_hash2(i, 1) % 12000000 : 0, 0};
+    ground_fixture_put(&f);
+    memcpy(before, cells, sizeof before);
+    for (int pass = 0; pass < 4; pass++) {
+        const bool along_z = pass & 1;
+        const int odd = pass >> 1;
+        ground_fixture_step(&f, 1);
+        for (int z = -50; z < 50; z++)
+            for (int x = -50; x < 50; x++) {
+                if (((along_z ? z : x) & 1) != odd)
+                    continue;
+                const uint32_t low = ground_fixture_place(&f, x, z);
+                const uint32_t high = ground_fixture_place(&f, x + !along_z, z + along_z);
+                const double moved =
+                    flow_between(f.floors[low], before[low].free_nl, f.floors[high], before[high].free_nl, 4.0 / 60);
+                const double found = (double)before[low].free_nl - f.cells[low].free_nl;
+                if (fabs(found - moved) > 1 + 1e-5 * fabs(moved))
+                    fail_msg("pass %d, cell %d %d: %g nl moved, expected %g", pass, x, z, found, moved);
+                assert_int_equal(f.cells[high].free_nl - before[high].free_nl, (uint32_t)(int)found);
+            }
+        memcpy(before, f.cells, sizeof before);
+    }
     ground_fixture_close(&f);
 }
 
@@ -212,6 +273,8 @@ int main(void)
         cmocka_unit_test(test_water_at_rest_ends_level),
         cmocka_unit_test(test_water_runs_down_a_slope_into_the_drain),
         cmocka_unit_test(test_a_sheet_flows_at_mannings_speed),
+        cmocka_unit_test(test_a_sheet_flows_as_fast_in_rounds_of_four_ticks),
+        cmocka_unit_test(test_each_pass_moves_what_the_reference_does),
         cmocka_unit_test(test_water_sinks_and_dries_at_the_rates_asked_for),
         cmocka_unit_test(test_the_budget_closes_while_the_window_moves),
         cmocka_unit_test(test_cells_come_back_as_they_left),

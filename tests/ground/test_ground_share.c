@@ -21,11 +21,21 @@ static void put_water(const water *list, uint32_t count)
     ground_fixture_put(&f);
 }
 
+/* No pass of flow in the ticks that are looked at. */
+static void begin_still(void)
+{
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.flow_ticks = 60;
+    def.max_impacts = MOST_DROPS;
+    ground_fixture_ground(&f, &def);
+}
+
 static void begin(uint32_t material)
 {
     ground_fixture_open(&f);
     ground_fixture_floor(&f, material);
-    ground_fixture_ground(&f, NULL);
+    begin_still();
     f.settings.materials[material].bumps_mm = 0;
     virga_ground_set(f.ground, &f.settings);
     ground_fixture_step(&f, 0); /* takes up the window */
@@ -37,7 +47,7 @@ static void begin_line(void)
     static const float strip[1][4][3] = {{{-2, 0, 0.001f}, {2, 0, 0.001f}, {2, 0, 0.049f}, {-2, 0, 0.049f}}};
     ground_fixture_open(&f);
     ground_fixture_quads(&f, strip, NULL, 1);
-    ground_fixture_ground(&f, NULL);
+    begin_still();
     ground_fixture_step(&f, 0);
 }
 

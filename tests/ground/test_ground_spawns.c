@@ -14,6 +14,7 @@ static ground_fixture f;
 static virga_ground_def small_def(void)
 {
     virga_ground_def def = virga_default_ground_def();
+    def.flow_ticks = 60; /* none in the ticks that are looked at */
     def.cells = 128;
     def.kept_tiles = 0;
     def.max_impacts = MOST_DROPS;

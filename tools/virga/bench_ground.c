@@ -15,7 +15,6 @@ static bool open_scene(bench *b, uint32_t cells, virga_scene **scene)
     virga_scene_def def = virga_default_scene_def();
     def.with_ground = true;
     def.ground.cells = cells;
-    def.ground.flow_ticks = 1; /* so that each frame has a pass of it */
     if (virga_scene_create(b->context, &def, scene) < 0)
         return options_complain("bench", "no ground of %u x %u cells could be made", cells, cells);
     virga_rain_settings rain = virga_default_rain_settings();

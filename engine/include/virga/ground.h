@@ -40,7 +40,7 @@ typedef struct virga_ground virga_ground; /* opaque */
 typedef struct virga_ground_def {
     uint32_t size, cookie;
     uint32_t seed;          /* of what is left to chance: fractions of spots, of infiltration. Default 1 */
-    uint32_t cells;         /* [128; 4096] along the window's side, a power of two. About 44 bytes of device memory a
+    uint32_t cells;         /* [128; 4096] along the window's side, a power of two. About 60 bytes of device memory a
                           * cell. Default 1024: 51 m at 5 cm */
     float cell_m;           /* [0.01; 0.1] side of a cell. Default 0.05 */
     uint32_t kept_tiles;    /* [0; 60000] tiles kept when they leave the window, 64 KiB each; raised to twice the
@@ -49,7 +49,9 @@ typedef struct virga_ground_def {
     float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default
                              * 0.005 */
     double tick_s;          /* [1/1000; 1/20] the same as rain's. Default 1/60 */
-    uint32_t flow_ticks;    /* [1; 60] water flows, sinks and dries once in so many ticks. Default 4 */
+    uint32_t flow_ticks;    /* [1; 60] in so many ticks water flows through all sides of each cell, sinks and dries, a
+                             * quarter of that at a time. Default 4: one pass a tick. More is cheaper, but the faster
+                             * sheets (5 mm on a slope of 1 %) then lag behind Manning's speed */
     uint32_t max_impacts;   /* [256; 4194240] the same as rain's. Default 65536 */
     uint32_t max_spawns;    /* [0; 1048576] drops of one step that may splash, 76 bytes each. Default 65536 */
     uint32_t max_returns;   /* [0; 4194240] entries of the returns that a step may be given. Default 131072 */
