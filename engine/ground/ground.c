@@ -96,7 +96,7 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
         return 0;
     const VkDeviceSize cells = (VkDeviceSize)def.cells * def.cells;
     const VkDeviceSize a_cell = sizeof(virga_floor_gpu) + sizeof(virga_cell_gpu) + sizeof(virga_arrivals_gpu) +
-                                8 /* spots */ + 4 /* stirs */ + 16 /* maps */ + 8 /* survey */;
+                                8 /* spots */ + 8 /* stirs, swings */ + 16 /* maps */ + 8 /* survey */;
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
            (VkDeviceSize)def.max_spawns * sizeof(virga_spawn_gpu) + sizeof(virga_splash_rules_gpu) +
@@ -120,6 +120,7 @@ static virga_result create_buffers(virga_ground *ground)
         {&ground->cells, cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells"},
         {&ground->arrivals, cells * sizeof(virga_arrivals_gpu), storage, VIRGA_HEAP_DEVICE, "ground.arrivals"},
         {&ground->stirs, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.stirs"},
+        {&ground->swings, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.swings"},
         {&ground->spots, cells * 8, storage, VIRGA_HEAP_DEVICE, "ground.spots"},
         {&ground->kept_cells, kept * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.kept_cells"},
         {&ground->kept_spots, kept * 8, storage, VIRGA_HEAP_DEVICE, "ground.kept_spots"},
@@ -185,6 +186,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 17 material map */
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE},                              /* 18 rules of splashes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 spawns */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 20 swings */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -225,7 +227,8 @@ static void write_set(virga_ground *ground, uint32_t source)
          .view = mapped ? info->materials.image.view : ground->blank_materials->layer_views[0],
          .image_layout = mapped ? info->materials.image.before.layout : read_only},
         info->splash_rules ? rules : whole(ground->no_rules),
-        whole(ground->spawns)};
+        whole(ground->spawns),
+        whole(ground->swings)};
     ground->sets[source] = virga_bindings_write(ground->context, ground->bindings, source, bound);
 }
 
@@ -340,10 +343,10 @@ void virga_ground_destroy(virga_ground **ground)
                                     &dying->ring,  &dying->spawn_find, &dying->spawn_scan};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
-    virga_buffer **buffers[] = {&dying->floors,        &dying->cells,      &dying->arrivals,  &dying->spots,
-                                &dying->kept_cells,    &dying->kept_spots, &dying->counts,    &dying->landings,
-                                &dying->rings,         &dying->stirs,      &dying->tick_ring, &dying->list_ring,
-                                &dying->readback_ring, &dying->spawns,     &dying->no_rules};
+    virga_buffer **buffers[] = {&dying->floors,     &dying->cells,         &dying->arrivals, &dying->spots,
+                                &dying->kept_cells, &dying->kept_spots,    &dying->counts,   &dying->landings,
+                                &dying->rings,      &dying->stirs,         &dying->swings,   &dying->tick_ring,
+                                &dying->list_ring,  &dying->readback_ring, &dying->spawns,   &dying->no_rules};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
         VIRGA_RETIRE(context, *buffers[i]);
     VIRGA_RETIRE(context, dying->wet_map);

@@ -103,7 +103,7 @@ struct virga_ground {
     uint64_t ticks; /* run since creation */
 
     virga_buffer *floors, *cells, *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
-        *spawns, *no_rules;
+        *swings, *spawns, *no_rules;
     virga_buffer *tick_ring, *list_ring, *readback_ring;
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *survey;

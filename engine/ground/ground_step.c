@@ -424,9 +424,9 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, ground->blank_materials->image, VK_IMAGE_ASPECT_COLOR_BIT, before, read);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     ground_ripples_upload(context, cmd, ground->ripples);
-    virga_buffer *const zero[] = {ground->rings,  ground->stirs,   ground->cells,      ground->arrivals,
-                                  ground->spots,  ground->counts,  ground->kept_cells, ground->landings,
-                                  ground->spawns, ground->no_rules};
+    virga_buffer *const zero[] = {ground->rings,    ground->stirs,  ground->swings,  ground->cells,
+                                  ground->arrivals, ground->spots,  ground->counts,  ground->kept_cells,
+                                  ground->landings, ground->spawns, ground->no_rules};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     transfer_barrier(ground, cmd);

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "groups.glsl"
+#include "swing.glsl"
 #include "shared/surface.glsl"
 
 #define NEVER_SEEN 0x80000000u // of an entry in the list: the tile comes without water
@@ -79,6 +80,7 @@ void main()
         start.held_nl = wet ? soil.capacity_nl : uint(float(soil.capacity_nl) * tick.start_wetness);
     }
     floors[place] = made;
+    swings[place] = 0u;
     if ((entry & NEVER_SEEN) == 0u)
         return;
     cells[place] = start;

@@ -11,7 +11,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 #include "groups.glsl"
-#include "rings.glsl"
+#include "swing.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z, not x; bit 1: the lower cell is odd
@@ -71,8 +71,8 @@ uint dry(inout virga_cell_gpu cell, virga_soil_gpu soil, uint hash)
     return from_free + from_pores;
 }
 
-// What leaves a cell of ground but to its neighbours, and what calms its water.
-void lose_water(inout virga_cell_gpu cell, uint material, uint place, uint hash)
+// What leaves a cell of ground but to its neighbours.
+void lose_water(inout virga_cell_gpu cell, uint material, uint hash)
 {
     const virga_soil_gpu soil = tick.soils[material];
     const uint sunk = min(round_fairly(soil.sink_nl_s * loss_s(), hash), cell.free_nl);
@@ -86,7 +86,6 @@ void lose_water(inout virga_cell_gpu cell, uint material, uint place, uint hash)
         atomicAdd(group_dried, dried);
     if (drained > 0u)
         count_water(VIRGA_GROUND_RUN_OFF, drained);
-    stirs[place] = uint(float(stirs[place]) * exp(-loss_s() / calm_time(float(cell.free_nl) * tick.m_per_nl)));
 }
 
 // The place of the lower cell of this invocation's pair. Tiles have an even number of cells along a side, so what is
@@ -118,13 +117,17 @@ void main()
     const Surface high = Surface(floors[other].height_um, floors[other].material, cells[other].free_nl);
     const bool both = found != NO_CELL && low.material != NO_GROUND && high.material != NO_GROUND;
     const int inflow = both ? flow_between(low, high) : 0;
-    if (inflow != 0)
+    const int half_um = inflow / (2 * tick.nl_per_um);
+    swings[place] = with_swing(swings[place], along_z, half_um);
+    if (both) {
         cells[other].free_nl = uint(int(high.free_nl) - inflow);
+        swings[other] = with_swing(swings[other], along_z, -half_um);
+    }
     if (low.material != NO_GROUND) {
         cell.free_nl = uint(int(cell.free_nl) + inflow);
         const uint hash = virga_hash2(tick.seed + 0x9e3779b9u * (4u * tick.tick + pairs),
                                       uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
-        lose_water(cell, low.material, place, hash);
+        lose_water(cell, low.material, hash);
         cells[place] = cell;
     }
     barrier();

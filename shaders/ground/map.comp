@@ -5,6 +5,7 @@
 #include "cells.glsl"
 #include "groups.glsl"
 #include "rings.glsl"
+#include "swing.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 7) readonly buffer Spots { uvec2 spots[]; };
@@ -16,6 +17,13 @@ uvec2 spots_left(uint place, uvec2 bits, float held_share)
 {
     const float shown = clamp(held_share * 64.0, 0.0, 1.0);
     return shown > 0.0 ? bits : uvec2(0u);
+}
+
+// What the step's drops stirred calms down, in all cells at once: a pass that has cells by turns leaves their pattern.
+uint calmed(uint place, float water_m)
+{
+    const float step_s = tick.tick > 0u ? float(tick.tick_in_step + 1u) * tick.tick_s : 0.0; // 0: no tick was run
+    return uint(float(stirs[place]) * exp(-step_s / calm_time(water_m)));
 }
 
 void main()
@@ -31,9 +39,12 @@ void main()
         const virga_cell_gpu state = cells[place];
         const uint capacity = tick.soils[own.material].capacity_nl;
         const float held = float(state.held_nl) / max(float(capacity), 1.0);
-        const float depth_mm = float(state.free_nl) * tick.m_per_nl * 1e3;
+        const float free_mm = float(state.free_nl) * tick.m_per_nl * 1e3;
+        const float depth_mm = state.free_nl > 0u ? max(free_mm - float(swing_um(swings[place])) * 1e-3, 0.0) : 0.0;
+        const uint stir = calmed(place, depth_mm * 1e-3);
+        stirs[place] = stir;
         const float film = clamp(depth_mm / 0.05, 0.0, 1.0);
-        wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stirs[place]) * 1e-6, 0.1),
+        wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stir) * 1e-6, 0.1),
                    float(own.height_um) * 1e-6 - tick.base_m);
         bits = spots_left(place, spots[place], capacity > 0u ? held : film);
     }
