@@ -182,7 +182,8 @@ VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s` (normally virga_rain_time; any time within a tick or two of it is
- * exact). Outside rendering, after the step; once for each view to be drawn, directly before its draw.
+ * exact). Outside rendering, after the step, or in a frame without one; once for each view to be drawn, directly before
+ * its draw.
  * At most VIRGA_RAIN_MAX_VIEWS a frame. Costs one pass over all slots and one over what is seen. */
 VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s);
 
@@ -190,9 +191,9 @@ VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd,
  * for a rain. Call it where compiling is fine, not while recording a frame that must be on time. */
 VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *target);
 
-/* Draws haze and streaks of the newest prepare, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of
- * `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards. VIRGA_NOT_READY
- * (and nothing drawn) for a target that was not attached, or before the first prepare. */
+/* Draws haze and streaks of the newest prepare of this frame, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside
+ * rendering of `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards.
+ * VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or without a prepare in this frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
 /* ---- what others read ----------------------------------------------------------------------------------------- */
