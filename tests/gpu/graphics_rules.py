@@ -3,7 +3,9 @@
 
 Every vertex and fragment shader that ships is compiled in all of its forms, and its SPIR-V is read:
   - no derivative (nor a sample that takes one) comes after a discard: the pixels beside may be gone, and what is
-    derived is undefined (GLSL 4.60, section 8.14.1).
+    derived is undefined (GLSL 4.60, section 8.14.1);
+  - every storage buffer and image is readonly: stores in these stages are features (vertexPipelineStoresAndAtomics,
+    fragmentStoresAndAtomics) that Virga does not ask for (VUID-RuntimeSpirv-NonWritable-06340 and -06341).
 
 usage: graphics_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
 """
@@ -72,6 +74,36 @@ def derives_late(code):
     return []
 
 
+def member_decorations(code, name):
+    """{struct: members with the decoration}"""
+    found = {}
+    for _, op, words in code:
+        if op == "OpMemberDecorate" and words[2] == name:
+            found.setdefault(words[0], set()).add(words[1])
+    return found
+
+
+def writes(code):
+    types = {result: (op, words) for result, op, words in code if result and op.startswith("OpType")}
+    decorated = {name: {words[0] for _, op, words in code if op == "OpDecorate" and words[1] == name}
+                 for name in ("NonWritable", "BufferBlock")}
+    readonly_members = member_decorations(code, "NonWritable")
+    names = {words[0]: words[1].strip('"') for _, op, words in code if op == "OpName"}
+    found = []
+    for result, op, words in code:
+        if op != "OpVariable" or result in decorated["NonWritable"]:
+            continue
+        kind, of = types[types[words[0]][1][1]]
+        while kind in ("OpTypeArray", "OpTypeRuntimeArray"):
+            kind, of = types[of[0]]
+        pointee = types[words[0]][1][1]
+        stored_image = kind == "OpTypeImage" and of[5] == "2"
+        block = words[1] == "StorageBuffer" or pointee in decorated["BufferBlock"]
+        if stored_image or block and len(readonly_members.get(pointee, ())) < len(of):
+            found.append("may write to %s" % (names[result] or names[pointee]))
+    return found
+
+
 def main():
     source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
     if not shutil.which("spirv-dis"):
@@ -85,7 +117,7 @@ def main():
                 run([glslang] + GLSLANG + form + ["-I" + os.path.join(source, "shaders"), "-o", output,
                                                   os.path.join(source, "shaders", shader)])
                 code = instructions(run(["spirv-dis", "--raw-id", output]))
-                wrong += [" ".join([shader] + form) + ": " + text for text in derives_late(code)]
+                wrong += [" ".join([shader] + form) + ": " + text for text in derives_late(code) + writes(code)]
                 modules += 1
     for text in wrong:
         print("graphics_rules.py: " + text, file=sys.stderr)
