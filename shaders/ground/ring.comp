@@ -42,7 +42,7 @@ void main()
     if (lane == 0u)
         eligible = 0u;
     barrier();
-    for (uint first = 0u; first < head.count; first += VIRGA_GROUND_GROUP)
+    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP)
         if (on_water(first + lane))
             atomicAdd(eligible, 1u);
     barrier();
@@ -50,7 +50,7 @@ void main()
     const float quota = 0.95 * float(VIRGA_RINGS) * tick.tick_s / VIRGA_RING_TIME_S;
     const float share = quota / max(float(eligible), 1.0);
     uint total = rings_head.total;
-    for (uint first = 0u; first < head.count; first += VIRGA_GROUND_GROUP) {
+    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP) {
         const uint index = first + lane;
         bool taken = on_water(index);
         if (taken)

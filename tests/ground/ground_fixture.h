@@ -24,8 +24,9 @@ typedef struct ground_fixture {
     uint32_t mesh_count;
     virga_ground_material_map materials; /* over those of meshes */
     char logged[512];                    /* the last error */
-    virga_impact_gpu drops[MOST_DROPS]; /* of the next step */
+    virga_impact_gpu drops[MOST_DROPS];  /* of the next step */
     uint32_t drop_count;
+    uint32_t told; /* drops that the list's head tells of; 0: those that are there */
     double camera[3];
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
@@ -199,7 +200,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
     virga_impacts_gpu *head = f->impacts.mapped;
     memset(head, 0, sizeof *head);
-    head->count = f->drop_count;
+    head->count = f->told ? f->told : f->drop_count;
     head->group_count[0] = (f->drop_count + 63) / 64;
     head->group_count[1] = head->group_count[2] = 1;
     for (uint32_t i = 0; i < f->drop_count; i++)
