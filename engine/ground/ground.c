@@ -441,7 +441,8 @@ void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cell
                                   .size = current->size,
                                   .tiles = ground->window.tiles,
                                   .low_tile = {ground->window.low[0], ground->window.low[1]},
-                                  .nl_per_um = ground_nl_per_um(ground)};
+                                  .nl_per_um = ground_nl_per_um(ground),
+                                  .base_m = (float)ground->base_m};
 }
 
 void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)

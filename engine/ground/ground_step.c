@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
-#define SURVEY_TOP_M  256.0 /* above the camera */
+#define SURVEY_TOP_M  256.0 /* above the base */
 #define SURVEY_DEEP_M 512.0
 #define NEVER_SEEN    0x80000000u /* as in shaders/ground/adopt.comp */
 #define TILE_GROUPS   (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
@@ -121,7 +121,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->seed = ground->def.seed;
     out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);
     out->evaporation_nl_s = (float)((double)ground->settings.evaporation_mm_h / 3600 * area * 1e9);
-    out->survey_top_m = (float)(ground->base_m + SURVEY_TOP_M);
+    out->survey_top_m = (float)SURVEY_TOP_M;
     out->survey_height_m = (float)SURVEY_DEEP_M;
     out->base_m = (float)ground->base_m;
     const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
@@ -471,7 +471,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (!ground->started) {
-        ground->base_m = floor(info->camera_m[1]);
+        ground->base_m = (double)(float)floor(info->camera_m[1]); /* as shaders and hosts are told */
         first_contents(ground, cmd);
         ground->started = true;
     }

@@ -26,7 +26,8 @@ typedef struct ground_fixture {
     char logged[512];                    /* the last error */
     virga_impact_gpu drops[MOST_DROPS];  /* of the next step */
     uint32_t drop_count;
-    uint32_t told; /* drops that the list's head tells of; 0: those that are there */
+    float origin[3]; /* of their positions, in the world */
+    uint32_t told;   /* drops that the list's head tells of; 0: those that are there */
     double camera[3];
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
@@ -205,6 +206,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
     head->group_count[1] = head->group_count[2] = 1;
     for (uint32_t i = 0; i < f->drop_count; i++)
         f->drops[i].tick += f->tick;
+    memcpy(head->origin, f->origin, sizeof head->origin);
     memcpy(head + 1, f->drops, f->drop_count * sizeof f->drops[0]);
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},

@@ -120,7 +120,8 @@ typedef struct virga_ground_material_map {
 
 /* One step. */
 typedef struct virga_ground_step_info {
-    double camera_m[3];           /* middle of the window, which follows in whole tiles */
+    double camera_m[3];           /* middle of the window, which follows in whole tiles. Ground is found within 256 m
+                                   * of its height at the first step, up and down */
     double focus_m[3];            /* middle of the map of ripples: on the ground some metres ahead of the camera, where
                                    * they can be seen */
     const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
@@ -160,7 +161,8 @@ typedef struct virga_ground_maps {
     double ripple_low_m[2]; /* its low corner in x and z */
     uint32_t cells;
     float cell_m;
-    float base_m;
+    float base_m;       /* height in the world: the camera's at the first step, in whole metres (as far as a float has
+                         * them) */
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
 } virga_ground_maps;
 
@@ -177,6 +179,7 @@ typedef struct virga_ground_cells {
     uint32_t tiles;       /* of 64 x 64 cells along the window's side, a power of two */
     int32_t low_tile[2];  /* in x and z: the window begins with it */
     uint32_t nl_per_um;   /* nanolitres that make a micrometre of depth on a cell */
+    float base_m;         /* height in the world that those of floors count from, as in virga_ground_maps */
 } virga_ground_cells;
 
 /* Tells where the cells of the newest step are; all zero for NULL. virga_ground_step leaves them to compute shaders,
