@@ -78,7 +78,7 @@ static virga_result check_def(const virga_log *log, const virga_rain_def *given,
     *def = *given;
     def->max_drops = virga_clamp_setting_u32(log, "rain_def.max_drops", def->max_drops, 1024, 4194304, NULL);
     def->range_m = virga_clamp_setting_float(log, "rain_def.range_m", def->range_m, 4, 512, NULL);
-    def->max_impacts = virga_clamp_setting_u32(log, "rain_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
+    def->max_impacts = virga_clamp_setting_u32(log, "rain_def.max_impacts", def->max_impacts, 256, 4194240, NULL);
     def->max_streaks = def->max_streaks ? def->max_streaks : def->max_drops;
     def->max_streaks = virga_clamp_setting_u32(log, "rain_def.max_streaks", def->max_streaks, 256, 4194304, NULL);
     def->max_ticks_per_step =

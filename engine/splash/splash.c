@@ -82,7 +82,7 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
     def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
-        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194304, NULL);
+        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194240, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "splash_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
     def->tick_s = virga_clamp_setting(log, "splash_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);

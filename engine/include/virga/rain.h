@@ -35,7 +35,7 @@ typedef struct virga_rain_def {
                             * rate never. 32 bytes of device memory each, 40 more with wind_texture. Default 131072 */
     float range_m;         /* [4; 512] drops are drawn and land up to here from the camera, haze takes over beyond.
                             * Default 32 */
-    uint32_t max_impacts;  /* [256; 4194304] impacts that one step can hold, 64 bytes each; more are counted and
+    uint32_t max_impacts;  /* [256; 4194240] impacts that one step can hold, 64 bytes each; more are counted and
                             * logged. Default 65536 */
     uint32_t max_streaks;  /* [256; 4194304] streaks that one prepare can hold, 96 bytes each. 0 means max_drops, the
                             * default. Not more than a quarter of the device's maxTexelBufferElements */

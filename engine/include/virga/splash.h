@@ -45,7 +45,7 @@ typedef struct virga_splash_def {
                             * sprites that a view needs and 72 for their indices. Where there is no room the water
                             * falls back at once. At most what a storage buffer of the device holds. Default 131072 */
     uint32_t max_spawns;   /* [256; 1048576] of one step, the same as the ground's. Default 65536 */
-    uint32_t max_returns;  /* [max_spawns; 4194304] droplets that fall in one step, 64 bytes each; more wait in the air
+    uint32_t max_returns;  /* [max_spawns; 4194240] droplets that fall in one step, 64 bytes each; more wait in the air
                             * for the next. The ground's must be as large. Default 131072 */
     uint32_t max_ticks_per_step; /* [1; 64] the same as rain's. Default 16 */
     double tick_s;         /* [1/1000; 1/20] the same as rain's. Default 1/60 */
