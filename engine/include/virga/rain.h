@@ -167,7 +167,8 @@ typedef struct virga_rain_step_info {
 
 /* Runs the ticks that dt_s completes, and writes impacts; VIRGA_DEGRADED and one log line where that is more than
  * max_ticks_per_step. A dt_s out of range is refused, and no time passes. Outside rendering. Leaves the impact buffer
- * ready to be read by compute and vertex shaders in the same command buffer. The first step also fills the state. */
+ * ready to be read by compute and vertex shaders, as indirect arguments (group_count) and by transfers, in the same
+ * command buffer. The first step also fills the state. */
 VIRGA_API virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_step_info *info);
 
 /* Simulated time (s) that draw times count from: whole ticks plus what dt_s left over. */
