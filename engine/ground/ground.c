@@ -196,6 +196,15 @@ static virga_bound whole(const virga_buffer *buffer)
     return (virga_bound){.buffer = buffer->buffer};
 }
 
+/* A host's impacts or returns. */
+static virga_bound host_list(const virga_ground *ground, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                             uint32_t entries)
+{
+    const VkDeviceSize most = sizeof(virga_impacts_gpu) + (VkDeviceSize)entries * sizeof(virga_impact_gpu);
+    return (virga_bound){
+        .buffer = buffer, .offset = offset, .range = virga_host_list_range(ground->context, size, most)};
+}
+
 static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
 {
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
@@ -207,8 +216,8 @@ static void write_set(virga_ground *ground, uint32_t parity, uint32_t source)
     const virga_bound bound[BINDINGS] = {
         {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
         {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
-        {.buffer = returns ? info->returns : info->impacts,
-         .offset = returns ? info->returns_offset : info->impacts_offset},
+        returns ? host_list(ground, info->returns, info->returns_offset, info->returns_size, ground->def.max_returns)
+                : host_list(ground, info->impacts, info->impacts_offset, info->impacts_size, ground->def.max_impacts),
         whole(ground->floors),
         whole(ground->cells[parity]),
         whole(ground->cells[parity ^ 1]),

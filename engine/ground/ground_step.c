@@ -422,6 +422,22 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
 }
 
+static virga_result check_buffers(const virga_ground *ground, const virga_ground_step_info *info)
+{
+    const virga_context *context = ground->context;
+    const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
+    if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
+                              sizeof(virga_impacts_gpu)) ||
+        (info->returns && virga_host_list_check(context, "step_info.returns", info->returns_offset, info->returns_size,
+                                                sizeof(virga_impacts_gpu))))
+        return VIRGA_ERROR_INVALID;
+    if (info->splash_rules && info->splash_rules_offset % rules_alignment)
+        return virga_wrong_argument(
+            &context->log, "step_info.splash_rules_offset: expected a multiple of %llu on this device, got %llu",
+            (unsigned long long)rules_alignment, (unsigned long long)info->splash_rules_offset);
+    return VIRGA_OK;
+}
+
 static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
 {
     if (!ground)
@@ -442,7 +458,8 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
         virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
-        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2))
+        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
+        check_buffers(ground, info))
         return VIRGA_ERROR_INVALID;
     const virga_result result =
         virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);

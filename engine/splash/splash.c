@@ -255,7 +255,7 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
         {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
         {.buffer = splash->view_ring->buffer, .range = splash_view_bytes()},
         {.buffer = splash->rules_ring->buffer, .range = sizeof(virga_splash_rules_gpu)},
-        {.buffer = splash->spawns, .offset = splash->spawns_offset},
+        {.buffer = splash->spawns, .offset = splash->spawns_offset, .range = splash->spawns_range},
         whole(splash->state),
         whole(splash->splashes),
         whole(splash->droplet_buffers[current]),

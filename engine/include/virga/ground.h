@@ -128,15 +128,17 @@ typedef struct virga_ground_step_info {
     uint32_t mesh_count;
     virga_ground_material_map materials; /* (optional) looked at where the window moves, see virga_ground_survey */
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
-    VkDeviceSize impacts_offset;
+    VkDeviceSize impacts_offset; /* a multiple of the device's minStorageBufferOffsetAlignment and of 4 */
+    VkDeviceSize impacts_size;   /* bytes from there: the head and the entries that there is room for. 0: all of the
+                                  * buffer, which then must not be larger than the device's maxStorageBufferRange */
     uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks. Ticks that do not come after those
                                  * of the steps before are refused (VIRGA_LOG_FRAME_ORDER) */
     VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none
                             * do */
-    VkDeviceSize splash_rules_offset;
+    VkDeviceSize splash_rules_offset; /* a multiple of the device's minUniformBufferOffsetAlignment */
     VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the
                        * first tick of the step; give each return to one step with ticks only */
-    VkDeviceSize returns_offset;
+    VkDeviceSize returns_offset, returns_size; /* as of the impacts */
 } virga_ground_step_info;
 
 /* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read

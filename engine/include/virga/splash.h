@@ -150,7 +150,9 @@ typedef struct virga_splash_step_info {
     double camera_m[3];         /* positions are kept relative to an anchor near it */
     VkBuffer spawns;            /* virga_spawns_gpu and what follows; ready to be read by compute and as indirect
                                  * arguments, as virga_ground_step leaves them */
-    VkDeviceSize spawns_offset;
+    VkDeviceSize spawns_offset; /* a multiple of the device's minStorageBufferOffsetAlignment and of 4 */
+    VkDeviceSize spawns_size;   /* bytes from there: the head and the entries that there is room for. 0: all of the
+                                 * buffer, which then must not be larger than the device's maxStorageBufferRange */
     uint32_t first_tick, ticks; /* see virga_rain_ticks. Ticks that do not come after those of the steps before are
                                  * refused (VIRGA_LOG_FRAME_ORDER) */
     float wind_m_s[3];          /* [-1000; 1000] where the splashes are. Clamped, logged, VIRGA_DEGRADED */
