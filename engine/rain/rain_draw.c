@@ -106,6 +106,15 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
     fill_look(rain, out);
 }
 
+/* Worked out here and copied at once: what is mapped may be slow to read. */
+static void push_view(virga_rain *rain, const virga_view *view, double time_s)
+{
+    rain_view_block block;
+    fill_view(rain, view, time_s, &block);
+    memcpy((char *)rain->view_ring->memory.block.mapped + rain->view_offset, &block, sizeof block);
+    virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+}
+
 /* ---- prepare */
 
 static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
@@ -159,9 +168,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     const uint32_t place = rain->ring_views++;
     rain->view_frame = rain->context->frame_index;
     rain->view_offset = (rain->context->ring_slot * VIRGA_RAIN_MAX_VIEWS + place) * rain_view_bytes();
-    char *mapped = rain->view_ring->memory.block.mapped;
-    fill_view(rain, view, time_s, (rain_view_block *)(mapped + rain->view_offset));
-    virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+    push_view(rain, view, time_s);
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
     rain->prepared_set = rain_write_set(rain, place, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, rain->prepared_set);
