@@ -116,6 +116,27 @@ virga_result virga_bindings_create(virga_context *context, const virga_binding_k
     return result;
 }
 
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+                                   VkDeviceSize size, VkDeviceSize least)
+{
+    const VkDeviceSize asked = context->properties.limits.minStorageBufferOffsetAlignment;
+    const VkDeviceSize alignment = asked > 4 ? asked : 4; /* indirect arguments lie in it */
+    if (offset % alignment)
+        return virga_wrong_argument(&context->log, "%s_offset: expected a multiple of %llu on this device, got %llu",
+                                    name, (unsigned long long)alignment, (unsigned long long)offset);
+    if (size && size < least)
+        return virga_wrong_argument(&context->log, "%s_size: expected at least %llu bytes, got %llu", name,
+                                    (unsigned long long)least, (unsigned long long)size);
+    return VIRGA_OK;
+}
+
+VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize most)
+{
+    const VkDeviceSize limit = context->properties.limits.maxStorageBufferRange;
+    most = most < limit ? most : limit;
+    return !size ? VK_WHOLE_SIZE : size < most ? size : most;
+}
+
 VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bindings, uint32_t index,
                                      const virga_bound *bound)
 {

@@ -148,6 +148,15 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 /* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
+/* A list that a host gives in a storage buffer: where it may begin, and that its size (0: not told) holds `least` bytes.
+ * `name` is that of the member that holds the buffer; _offset and _size are those beside it. */
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+                                   VkDeviceSize size, VkDeviceSize least);
+
+/* The part of it that is bound: `most` bytes, as far as it reaches and the device allows; VK_WHOLE_SIZE where its size
+ * is not told. */
+VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize most);
+
 /* Whether the ticks of a step follow those before it: VIRGA_ERROR_INVALID with a line where they do not. `last` is NULL
  * before the first. */
 virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);

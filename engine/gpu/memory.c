@@ -32,16 +32,17 @@ static bool type_fits(const virga_context *context, uint32_t index, uint32_t bit
     return (bits & (1u << index)) && (context->memory_properties.memoryTypes[index].propertyFlags & wanted) == wanted;
 }
 
-/* The first type with all that is wanted and preferred, else with all that is wanted; UINT32_MAX if none. */
+/* The first type with all that is wanted and preferred; else that the host reads through its cache where that is
+ * preferred (whoever reads invalidates what is not coherent); else with all that is wanted. UINT32_MAX if none. */
 static uint32_t choose_type(const virga_context *context, uint32_t bits, VkMemoryPropertyFlags wanted,
                             VkMemoryPropertyFlags preferred)
 {
-    for (uint32_t i = 0; i < context->memory_properties.memoryTypeCount; i++)
-        if (type_fits(context, i, bits, wanted | preferred))
-            return i;
-    for (uint32_t i = 0; i < context->memory_properties.memoryTypeCount; i++)
-        if (type_fits(context, i, bits, wanted))
-            return i;
+    const VkMemoryPropertyFlags choices[3] = {wanted | preferred,
+                                              wanted | (preferred & VK_MEMORY_PROPERTY_HOST_CACHED_BIT), wanted};
+    for (int choice = 0; choice < 3; choice++)
+        for (uint32_t i = 0; i < context->memory_properties.memoryTypeCount; i++)
+            if (type_fits(context, i, bits, choices[choice]))
+                return i;
     return UINT32_MAX;
 }
 

@@ -101,7 +101,7 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
            (VkDeviceSize)def.max_spawns * sizeof(virga_spawn_gpu) + sizeof(virga_splash_rules_gpu) +
            (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 + VIRGA_RINGS * sizeof(virga_ring_gpu) +
-           4ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
+           2ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
 }
@@ -196,6 +196,15 @@ static virga_bound whole(const virga_buffer *buffer)
     return (virga_bound){.buffer = buffer->buffer};
 }
 
+/* A host's impacts or returns. */
+static virga_bound host_list(const virga_ground *ground, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                             uint32_t entries)
+{
+    const VkDeviceSize most = sizeof(virga_impacts_gpu) + (VkDeviceSize)entries * sizeof(virga_impact_gpu);
+    return (virga_bound){
+        .buffer = buffer, .offset = offset, .range = virga_host_list_range(ground->context, size, most)};
+}
+
 static void write_set(virga_ground *ground, uint32_t source)
 {
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
@@ -207,8 +216,8 @@ static void write_set(virga_ground *ground, uint32_t source)
     const virga_bound bound[BINDINGS] = {
         {.buffer = ground->tick_ring->buffer, .range = sizeof(virga_ground_tick_gpu)},
         {.buffer = ground->list_ring->buffer, .range = sizeof(ground_lists)},
-        {.buffer = returns ? info->returns : info->impacts,
-         .offset = returns ? info->returns_offset : info->impacts_offset},
+        returns ? host_list(ground, info->returns, info->returns_offset, info->returns_size, ground->def.max_returns)
+                : host_list(ground, info->impacts, info->impacts_offset, info->impacts_size, ground->def.max_impacts),
         whole(ground->floors),
         whole(ground->cells),
         whole(ground->stirs),
@@ -437,7 +446,8 @@ void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cell
                                   .size = ground->cells->size,
                                   .tiles = ground->window.tiles,
                                   .low_tile = {ground->window.low[0], ground->window.low[1]},
-                                  .nl_per_um = ground_nl_per_um(ground)};
+                                  .nl_per_um = ground_nl_per_um(ground),
+                                  .base_m = (float)ground->base_m};
 }
 
 void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)

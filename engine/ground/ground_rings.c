@@ -81,15 +81,23 @@ error:
 static virga_result create_waves(virga_context *context, double texel_m, ground_ripples *ripples)
 {
     virga_result result = VIRGA_OK;
-    TRY(virga_image_create(context, VK_FORMAT_R32_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
+    float *slopes = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *slopes);
+    if (!slopes)
+        return virga_out_of_host_memory(context, "the table of rings");
+    /* Half floats: every device filters them, and many do not filter whole ones. */
+    TRY(virga_image_create(context, VK_FORMAT_R16_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
                            VIRGA_RING_DEPTHS, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.waves", &ripples->waves));
-    TRY(virga_buffer_create(context, WAVE_VALUES * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
-                            "ground.waves_upload", &ripples->upload));
-    ring_table_fill(ripples->upload->memory.block.mapped, 0.5 * texel_m);
+    TRY(virga_buffer_create(context, WAVE_VALUES * sizeof(uint16_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                            VIRGA_HEAP_UPLOAD, "ground.waves_upload", &ripples->upload));
+    ring_table_fill(slopes, 0.5 * texel_m);
+    uint16_t *halves = ripples->upload->memory.block.mapped;
+    for (size_t i = 0; i < WAVE_VALUES; i++)
+        halves[i] = ring_half(slopes[i]);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
     TRY(virga_uploaded(context));
 error:
+    virga_free(&context->heap, slopes);
     return result;
 }
 

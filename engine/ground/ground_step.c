@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
-#define SURVEY_TOP_M  256.0 /* above the camera */
+#define SURVEY_TOP_M  256.0 /* above the base */
 #define SURVEY_DEEP_M 512.0
 #define NEVER_SEEN    0x80000000u /* as in shaders/ground/adopt.comp */
 #define FLOW_PASSES   4           /* a round: through all four sides of each cell, see flow.comp */
@@ -122,7 +122,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->seed = ground->def.seed;
     out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);
     out->evaporation_nl_s = (float)((double)ground->settings.evaporation_mm_h / 3600 * area * 1e9);
-    out->survey_top_m = (float)(ground->base_m + SURVEY_TOP_M);
+    out->survey_top_m = (float)SURVEY_TOP_M;
     out->survey_height_m = (float)SURVEY_DEEP_M;
     out->base_m = (float)ground->base_m;
     const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
@@ -437,6 +437,22 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
 }
 
+static virga_result check_buffers(const virga_ground *ground, const virga_ground_step_info *info)
+{
+    const virga_context *context = ground->context;
+    const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
+    if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
+                              sizeof(virga_impacts_gpu)) ||
+        (info->returns && virga_host_list_check(context, "step_info.returns", info->returns_offset, info->returns_size,
+                                                sizeof(virga_impacts_gpu))))
+        return VIRGA_ERROR_INVALID;
+    if (info->splash_rules && info->splash_rules_offset % rules_alignment)
+        return virga_wrong_argument(
+            &context->log, "step_info.splash_rules_offset: expected a multiple of %llu on this device, got %llu",
+            (unsigned long long)rules_alignment, (unsigned long long)info->splash_rules_offset);
+    return VIRGA_OK;
+}
+
 static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
 {
     if (!ground)
@@ -457,7 +473,8 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
         virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
-        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2))
+        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
+        check_buffers(ground, info))
         return VIRGA_ERROR_INVALID;
     const virga_result result = virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
     return result ? result : virga_group_ready(&ground->needed);
@@ -485,7 +502,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (!ground->started) {
-        ground->base_m = floor(info->camera_m[1]);
+        ground->base_m = (double)(float)floor(info->camera_m[1]); /* as shaders and hosts are told */
         first_contents(ground, cmd);
         ground->started = true;
     }

@@ -93,6 +93,20 @@ void ring_table_fill(float *slope, double blur_m)
     }
 }
 
+uint16_t ring_half(float slope)
+{
+    const int sign = signbit(slope) ? 0x8000 : 0;
+    const float size = fabsf(slope);
+    if (!(size < 65520)) /* halfway from the largest half float to the next power of two */
+        return (uint16_t)(sign | 0x7c00);
+    int exponent = -13; /* below 2^-14 all half floats are whole numbers of 2^-24 */
+    if (size >= 0x1p-14f)
+        frexpf(size, &exponent); /* size is in [2^(exponent - 1); 2^exponent), which has 1024 half floats */
+    const int whole = (int)nearbyintf(ldexpf(size, 11 - exponent));
+    /* What rounds up to the next power of two carries into the exponent, as it should. */
+    return (uint16_t)(sign | (whole + (exponent + 13) * 1024));
+}
+
 double ring_table_slope(const float *slope, double h, double r, double t)
 {
     double x = r / ring_reach(t) * (VIRGA_RING_RADII - 1), y = t / VIRGA_RING_TIME_S * (VIRGA_RING_TIMES - 1);

@@ -78,7 +78,7 @@ static virga_result check_def(const virga_log *log, const virga_rain_def *given,
     *def = *given;
     def->max_drops = virga_clamp_setting_u32(log, "rain_def.max_drops", def->max_drops, 1024, 4194304, NULL);
     def->range_m = virga_clamp_setting_float(log, "rain_def.range_m", def->range_m, 4, 512, NULL);
-    def->max_impacts = virga_clamp_setting_u32(log, "rain_def.max_impacts", def->max_impacts, 256, 4194304, NULL);
+    def->max_impacts = virga_clamp_setting_u32(log, "rain_def.max_impacts", def->max_impacts, 256, 4194240, NULL);
     def->max_streaks = def->max_streaks ? def->max_streaks : def->max_drops;
     def->max_streaks = virga_clamp_setting_u32(log, "rain_def.max_streaks", def->max_streaks, 256, 4194304, NULL);
     def->max_ticks_per_step =
@@ -136,7 +136,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
            (VkDeviceSize)def.max_streaks * (RAIN_STREAK_BYTES + 48) + maps + def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
-               (def.max_ticks_per_step * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
+               ((def.max_ticks_per_step + 1) * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
 
 /* ---- creating */
@@ -172,7 +172,7 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
         {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},
         {&rain->slot_upload, slot_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.slot_upload"},
         {&rain->index_upload, index_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.index_upload"},
-        {&rain->tick_ring, frames * rain->def.max_ticks_per_step * rain_tick_bytes(),
+        {&rain->tick_ring, frames * (rain->def.max_ticks_per_step + 1) * rain_tick_bytes(),
          uniform | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, upload, "rain.ticks"},
         {&rain->view_ring, frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(), uniform, upload, "rain.views"},
         {&rain->readback_ring, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,

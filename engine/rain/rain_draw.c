@@ -106,6 +106,15 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
     fill_look(rain, out);
 }
 
+/* Worked out here and copied at once: what is mapped may be slow to read. */
+static void push_view(virga_rain *rain, const virga_view *view, double time_s)
+{
+    rain_view_block block;
+    fill_view(rain, view, time_s, &block);
+    memcpy((char *)rain->view_ring->memory.block.mapped + rain->view_offset, &block, sizeof block);
+    virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+}
+
 /* ---- prepare */
 
 static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
@@ -155,11 +164,11 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     if (rain->ring_views >= VIRGA_RAIN_MAX_VIEWS)
         return virga_wrong_argument(&rain->context->log, "virga_rain_prepare: more than %d views in a frame",
                                     VIRGA_RAIN_MAX_VIEWS);
+    rain_keep_tick(rain);
     const uint32_t place = rain->ring_views++;
+    rain->view_frame = rain->context->frame_index;
     rain->view_offset = (rain->context->ring_slot * VIRGA_RAIN_MAX_VIEWS + place) * rain_view_bytes();
-    char *mapped = rain->view_ring->memory.block.mapped;
-    fill_view(rain, view, time_s, (rain_view_block *)(mapped + rain->view_offset));
-    virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+    push_view(rain, view, time_s);
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
     rain->prepared_set = rain_write_set(rain, place, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, rain->prepared_set);
@@ -258,7 +267,8 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (rain->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     const rain_target *found = find_target(rain, target->serial);
-    if (!found || !rain->prepared)
+    /* What was prepared for an earlier frame lies where a later one writes. */
+    if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
         return VIRGA_NOT_READY;
     const virga_pipeline *used[] = {found->haze, found->thin[rain->prepared_depth], found->wide[rain->prepared_depth]};
     const virga_result result = virga_pipelines_ready(used, 3);

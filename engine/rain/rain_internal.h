@@ -153,6 +153,7 @@ struct virga_rain {
     uint64_t ring_frame; /* frame that the ring cursors below belong to */
     uint32_t ring_ticks, ring_views;
     uint32_t tick_offset, view_offset; /* of the newest tick and view, bytes */
+    uint64_t tick_frame, view_frame;   /* in whose parts of the rings they are */
     uint32_t view_slot;
     bool prepared;
     bool prepared_haze, prepared_depth;
@@ -202,6 +203,10 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
 void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
 /* ---- rain_step.c */
+
+/* The newest tick again, in this frame's part of the ring: what an earlier frame's part holds the host may be writing
+ * anew by the time that the device reads it. */
+void rain_keep_tick(virga_rain *rain);
 
 /* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);

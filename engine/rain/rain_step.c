@@ -180,14 +180,27 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, rain_tick_b
     fill_classes(rain, block);
 }
 
-/* Writes the block of a tick into the frame's ring and points the dynamic offset at it. */
-static void push_tick(virga_rain *rain, uint32_t tick_in_step)
+/* Writes the block of a tick at a place of the frame's ring and points the dynamic offset at it. */
+static void write_tick(virga_rain *rain, uint32_t place, uint32_t tick_in_step)
 {
-    const uint32_t place = rain->context->ring_slot * rain->def.max_ticks_per_step + rain->ring_ticks++;
-    rain->tick_offset = place * rain_tick_bytes();
+    const uint32_t per_frame = rain->def.max_ticks_per_step + 1;
+    rain->tick_offset = (rain->context->ring_slot * per_frame + place) * rain_tick_bytes();
+    rain->tick_frame = rain->context->frame_index;
     fill_tick(rain, tick_in_step,
               (rain_tick_block *)((char *)rain->tick_ring->memory.block.mapped + rain->tick_offset));
     virga_buffer_flush(rain->context, rain->tick_ring, rain->tick_offset, rain_tick_bytes());
+}
+
+static void push_tick(virga_rain *rain, uint32_t tick_in_step)
+{
+    write_tick(rain, rain->ring_ticks++, tick_in_step);
+}
+
+/* Behind those of steps, so that a step after it in the frame has all of its own. */
+void rain_keep_tick(virga_rain *rain)
+{
+    if (rain->tick_frame != rain->context->frame_index)
+        write_tick(rain, rain->def.max_ticks_per_step, 0);
 }
 
 static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
@@ -281,8 +294,9 @@ static void record_impact_readback(virga_rain *rain, VkCommandBuffer cmd)
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT);
+                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT |
+                      VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     context->vk.CmdCopyBuffer(cmd, rain->impact_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -341,7 +355,7 @@ virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain
         return virga_wrong_argument(&context->log, "virga_rain_points: NULL argument");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (!rain->point_buffer || !rain->stepped || rain->ring_frame != context->frame_index)
+    if (!rain->point_buffer || !rain->stepped || rain->step_set_frame != context->frame_index)
         return VIRGA_NOT_READY;
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

@@ -243,7 +243,8 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
                                    .mesh_count = frame->occluder_count,
                                    .materials = frame->materials,
                                    .impacts = impacts.buffer,
-                                   .impacts_offset = impacts.offset};
+                                   .impacts_offset = impacts.offset,
+                                   .impacts_size = impacts.size};
     for (int axis = 0; axis < 3; axis++) {
         info.camera_m[axis] = frame->camera_m[axis];
         info.focus_m[axis] = frame->focus_m[axis];
@@ -257,6 +258,7 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
         info.splash_rules_offset = rules.offset;
         info.returns = returns.buffer;
         info.returns_offset = returns.offset;
+        info.returns_size = returns.size;
     }
     return virga_ground_step(scene->ground, cmd, &info);
 }
@@ -266,7 +268,7 @@ static virga_result step_splash(virga_scene *scene, VkCommandBuffer cmd, const v
     virga_splash_step_info info = {.spawns_offset = 0};
     for (int axis = 0; axis < 3; axis++)
         info.camera_m[axis] = frame->camera_m[axis];
-    virga_ground_spawns(scene->ground, &info.spawns, NULL);
+    virga_ground_spawns(scene->ground, &info.spawns, &info.spawns_size);
     virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
     virga_rain_wind(scene->rain, info.wind_m_s);
     return virga_splash_step(scene->splash, cmd, &info);

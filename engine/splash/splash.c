@@ -82,7 +82,7 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
     def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
-        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194304, NULL);
+        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194240, NULL);
     def->max_ticks_per_step =
         virga_clamp_setting_u32(log, "splash_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
     def->tick_s = virga_clamp_setting(log, "splash_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
@@ -255,7 +255,7 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
         {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
         {.buffer = splash->view_ring->buffer, .range = splash_view_bytes()},
         {.buffer = splash->rules_ring->buffer, .range = sizeof(virga_splash_rules_gpu)},
-        {.buffer = splash->spawns, .offset = splash->spawns_offset},
+        {.buffer = splash->spawns, .offset = splash->spawns_offset, .range = splash->spawns_range},
         whole(splash->state),
         whole(splash->splashes),
         whole(splash->droplet_buffers[current]),

@@ -84,6 +84,15 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .handed = handedness(out->view.clip_from_rel)};
 }
 
+/* Worked out here and copied at once: what is mapped may be slow to read. */
+static void push_view(virga_splash *splash, const virga_view *view, double time_s)
+{
+    splash_view_block block;
+    fill_view(splash, view, time_s, &block);
+    memcpy((char *)splash->view_ring->memory.block.mapped + splash->view_offset, &block, sizeof block);
+    virga_buffer_flush(splash->context, splash->view_ring, splash->view_offset, splash_view_bytes());
+}
+
 /* What is to be seen of sprites and of sheets, found side by side. */
 static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
 {
@@ -151,9 +160,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     splash_push_rules(splash);
     const uint32_t place = splash->ring_views++;
     splash->view_offset = (context->ring_slot * SPLASH_MAX_VIEWS + place) * splash_view_bytes();
-    char *mapped = splash->view_ring->memory.block.mapped;
-    fill_view(splash, view, time_s, (splash_view_block *)(mapped + splash->view_offset));
-    virga_buffer_flush(context, splash->view_ring, splash->view_offset, splash_view_bytes());
+    push_view(splash, view, time_s);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
     splash->prepared_set = splash_write_set(splash, place, splash_current(splash), view);
     record_prepare(splash, cmd);

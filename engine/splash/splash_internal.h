@@ -75,7 +75,7 @@ struct virga_splash {
     uint32_t ring_ticks, ring_views, tick_offset, rules_offset, view_offset;
     VkDescriptorSet step_sets[2]; /* by which buffer of droplets is current */
     VkBuffer spawns;
-    VkDeviceSize spawns_offset;
+    VkDeviceSize spawns_offset, spawns_range;
     bool prepared, prepared_depth;
     virga_splash_style prepared_style;
     VkDescriptorSet prepared_set;

@@ -249,7 +249,9 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
                                     splash->def.max_ticks_per_step, info->ticks);
     if (virga_ticks_check(log, info->first_tick, info->ticks, splash->ticks ? &splash->last_tick : NULL) ||
         virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
-        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
+        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
+        virga_host_list_check(splash->context, "step_info.spawns", info->spawns_offset, info->spawns_size,
+                              sizeof(virga_spawns_gpu)))
         return VIRGA_ERROR_INVALID;
     return virga_group_ready(&splash->needed);
 }
@@ -272,6 +274,8 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash->prepared = false;
     splash->spawns = info->spawns;
     splash->spawns_offset = info->spawns_offset;
+    splash->spawns_range = virga_host_list_range(
+        context, info->spawns_size, sizeof(virga_spawns_gpu) + splash->def.max_spawns * sizeof(virga_spawn_gpu));
     for (uint32_t i = 0; i < 2; i++)
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
     splash->spawns = VK_NULL_HANDLE; /* the host's, and not to be looked at again */

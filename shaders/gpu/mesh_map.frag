@@ -22,11 +22,13 @@ uint pack_normal(vec3 n)
 
 void main()
 {
+    // Before any texel is discarded: behind that, derivatives are undefined.
+    const vec3 to_right = dFdx(place), down = dFdy(place);
     // Leaves: a share of the texels lets drops through. By texel, so that it is steady while the map stays in place.
     const uvec2 texel = uvec2(gl_FragCoord.xy);
     if (push.cover < 1.0 && virga_unit(virga_hash3(push.texels, texel.x, texel.y)) >= push.cover)
         discard;
-    const vec3 up = normalize(cross(dFdy(place), dFdx(place)));
+    const vec3 up = normalize(cross(down, to_right));
     const float towards_sky = up.y - up.x * push.slant[0] - up.z * push.slant[1];
     surface = pack_normal(towards_sky < 0.0 ? -up : up) | push.material;
 }

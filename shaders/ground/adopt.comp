@@ -68,7 +68,7 @@ void main()
     virga_floor_gpu made = virga_floor_gpu(0, NO_GROUND);
     virga_cell_gpu start = virga_cell_gpu(0u, 0u);
     if (depth < 1.0) {
-        const float height_m = tick.survey_top_m - depth * tick.survey_height_m;
+        const float height_m = tick.survey_top_m - depth * tick.survey_height_m; // above the base
         const virga_soil_gpu soil = tick.soils[material];
         const float bump_um = bumps_um(cell, soil);
         made = virga_floor_gpu(int(round(height_m * 1e6 + bump_um)), material);

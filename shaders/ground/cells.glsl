@@ -3,13 +3,11 @@
 // The world is a grid of cells in x and z, counted from its origin; 64 x 64 of them are a tile. The window holds
 // tiles x tiles of them. A tile lies in the buffers where its coordinates fall modulo the window's width, so it stays
 // in its place while the window moves.
-#define VIRGA_GLSL
-#include "shared/ground_gpu.h"
+#include "tick.glsl"
 #include "shared/random.h"
 #include "shared/impact.h"
 #include "shared/landing.h"
 
-layout(scalar, set = 0, binding = 0) uniform Tick { virga_ground_tick_gpu tick; };
 layout(scalar, set = 0, binding = 3) buffer Floors { virga_floor_gpu floors[]; };
 layout(scalar, set = 0, binding = 4) buffer Cells { virga_cell_gpu cells[]; };
 layout(scalar, set = 0, binding = 9) buffer Counts { virga_ground_count_gpu counts[]; };

@@ -45,7 +45,7 @@ void main()
         stirs[place] = stir;
         const float film = clamp(depth_mm / 0.05, 0.0, 1.0);
         wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stir) * 1e-6, 0.1),
-                   float(own.height_um) * 1e-6 - tick.base_m);
+                   float(own.height_um) * 1e-6);
         bits = spots_left(place, spots[place], capacity > 0u ? held : film);
     }
     imageStore(wet_map, ivec3(texel, 0), wet);

@@ -18,6 +18,13 @@ struct Piece {
     uint water_nl;
 };
 
+// Height above the ground's base of what lies that far above the impacts' origin; both are large far from the world's.
+float above_base(float height_m)
+{
+    precise float above = (head.origin[1] - tick.base_m) + height_m;
+    return above;
+}
+
 // As many as there can be, whatever a host's buffer says.
 uint head_count() { return min(head.count, head.is_return != 0u ? tick.max_returns : tick.max_impacts); }
 
@@ -49,7 +56,7 @@ vec2 in_window(virga_impact_gpu impact)
     return at;
 }
 
-Piece piece_at(vec2 cells_in_window, float height_m)
+Piece piece_at(vec2 cells_in_window, float height_m) // above the base
 {
     Piece piece;
     piece.at = cells_in_window;
@@ -57,10 +64,12 @@ Piece piece_at(vec2 cells_in_window, float height_m)
     piece.cell = ivec2(whole) + ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
     piece.in_cell = cells_in_window - whole;
     piece.place = cell_place(piece.cell);
-    if (is_ground(piece.place) && abs(float(floors[piece.place].height_um) * 1e-6 - height_m) > SAME_SURFACE_M)
+    if (is_ground(piece.place)) {
+        precise float above = height_m - float(floors[piece.place].height_um) * 1e-6;
+        piece.place = abs(above) > SAME_SURFACE_M ? NO_CELL : piece.place;
+    } else {
         piece.place = NO_CELL;
-    else if (!is_ground(piece.place))
-        piece.place = NO_CELL;
+    }
     piece.water_nl = 0u;
     return piece;
 }
@@ -68,7 +77,7 @@ Piece piece_at(vec2 cells_in_window, float height_m)
 // Piece i of n; the first lies where the impact is, and takes what does not divide.
 Piece get_piece(virga_impact_gpu impact, uint i, uint n)
 {
-    const float height_m = head.origin[1] + impact.position[1];
+    const float height_m = above_base(impact.position[1]);
     const vec2 at = in_window(impact);
     const Piece own = piece_at(at, height_m);
     Piece piece = own;

@@ -24,7 +24,7 @@ bool on_water(uint index)
 void start_ring(uint place, uint index)
 {
     const virga_impact_gpu impact = impacts[index];
-    const Piece piece = piece_at(in_window(impact), head.origin[1] + impact.position[1]);
+    const Piece piece = piece_at(in_window(impact), above_base(impact.position[1]));
     virga_ring_gpu ring;
     ring.cell = int[2](piece.cell.x, piece.cell.y);
     ring.in_cell = float[2](piece.in_cell.x, piece.in_cell.y);
@@ -42,7 +42,7 @@ void main()
     if (lane == 0u)
         eligible = 0u;
     barrier();
-    for (uint first = 0u; first < head.count; first += VIRGA_GROUND_GROUP)
+    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP)
         if (on_water(first + lane))
             atomicAdd(eligible, 1u);
     barrier();
@@ -50,7 +50,7 @@ void main()
     const float quota = 0.95 * float(VIRGA_RINGS) * tick.tick_s / VIRGA_RING_TIME_S;
     const float share = quota / max(float(eligible), 1.0);
     uint total = rings_head.total;
-    for (uint first = 0u; first < head.count; first += VIRGA_GROUND_GROUP) {
+    for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP) {
         const uint index = first + lane;
         bool taken = on_water(index);
         if (taken)

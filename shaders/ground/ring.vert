@@ -2,7 +2,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "cells.glsl"
+#define RINGS_ACCESS readonly
+#include "tick.glsl"
 #include "rings.glsl"
 
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell

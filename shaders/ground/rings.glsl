@@ -1,6 +1,11 @@
-// rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets.
-layout(scalar, set = 0, binding = 5) buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
-layout(scalar, set = 0, binding = 15) buffer Rings
+// rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets. A vertex
+// shader defines RINGS_ACCESS readonly.
+#ifndef RINGS_ACCESS
+#define RINGS_ACCESS
+#endif
+
+layout(scalar, set = 0, binding = 5) RINGS_ACCESS buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
+layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;
     virga_ring_gpu rings[VIRGA_RINGS];

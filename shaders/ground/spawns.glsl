@@ -41,7 +41,7 @@ vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
     if (i == 0u || piece.place == NO_CELL)
         return own;
     const vec2 moved = (piece.at - in_window(impact)) * tick.cell_m;
-    const float floor_m = float(floors[piece.place].height_um) * 1e-6 - head.origin[1];
+    const float floor_m = float(floors[piece.place].height_um) * 1e-6 - above_base(0.0);
     return vec3(own.x + moved.x, floor_m, own.z + moved.y);
 }
 

@@ -34,17 +34,34 @@ virga_impact_gpu impact_of(Slot slot, Hit hit)
     return impact;
 }
 
+// What was counted and is not found again, as floats may come out otherwise in another shader: no water, where an old
+// drop would lie.
+virga_impact_gpu no_drop(Slot slot)
+{
+    Hit hit;
+    hit.share = 0.0;
+    hit.place = vec2(0.0);
+    hit.number = 0u;
+    virga_impact_gpu impact = impact_of(slot, hit);
+    impact.water_nl = 0u;
+    return impact;
+}
+
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= list.count)
         return;
     // Up to where those of the next begin: most slots have none, and are done at once.
-    const uint end = i + 1u < list.count ? hit_places[i + 1u] : hit_head.count + hit_head.dropped;
+    const uint all = hit_head.count + hit_head.dropped;
+    const uint end = min(i + 1u < list.count ? hit_places[i + 1u] : all, VIRGA_RAIN_MAX_HITS);
     const Slot slot = slot_at(listed[i]);
     Walk walk = walk_of(slot);
     Hit hit;
-    for (uint place = hit_places[i]; place < min(end, VIRGA_RAIN_MAX_HITS) && next_hit(slot, walk, hit);)
+    uint place = hit_places[i];
+    while (place < end && next_hit(slot, walk, hit))
         if (under_sky(slot, hit))
             hits[place++] = impact_of(slot, hit);
+    for (; place < end; place++)
+        hits[place] = no_drop(slot);
 }

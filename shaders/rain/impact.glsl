@@ -7,7 +7,8 @@ layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drop
 layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 
 struct Hit {
-    float weight; // 0: none
+    bool met;     // decided once, by impact_find.comp: floats may come out otherwise in another shader
+    float weight; // of the drop, were it to meet something
     float share;  // of the tick that had passed
     vec3 position, velocity;
     Shelter surface;
@@ -41,7 +42,7 @@ Hit find_hit(uint slot_index)
     hit.velocity = velocity;
     hit.size_class = size_class;
     hit.id = drop.id;
-    hit.weight = crossed && falling && !sheltered_before
-                     ? drop_weight(now, slot_level(slot_index), size_class, class_rank >> 16) : 0.0;
+    hit.weight = drop_weight(now, slot_level(slot_index), size_class, class_rank >> 16);
+    hit.met = crossed && falling && !sheltered_before && hit.weight > 0.0;
     return hit;
 }

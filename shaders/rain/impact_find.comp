@@ -12,5 +12,5 @@ layout(local_size_x = VIRGA_RAIN_GROUP) in;
 void main()
 {
     const uint slot_index = gl_GlobalInvocationID.x;
-    mark_pick(find_hit(slot_index).weight > 0.0 ? FIRST_KIND : NOT_PICKED);
+    mark_pick(find_hit(slot_index).met ? FIRST_KIND : NOT_PICKED);
 }

@@ -25,7 +25,7 @@ uint water_of(float diameter_m, float weight, uint id)
 // Slope of the host's depth where there is no normal: differences to the flatter neighbours.
 vec3 depth_normal(Shelter surface)
 {
-    const virga_map_gpu map = maps[surface.map];
+    const virga_map_gpu map = maps[min(surface.map, VIRGA_RAIN_MAX_MAPS - 1u)];
     const float texel_m = 2.0 / (map.inv_half_m * map.texels);
     const float here = texelFetch(occlusion_depth, surface.texel, 0).r;
     vec2 slope;
@@ -50,7 +50,8 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= list.count)
         return;
-    const Hit hit = find_hit(listed[gl_GlobalInvocationID.x]);
+    Hit hit = find_hit(listed[gl_GlobalInvocationID.x]);
+    hit.weight = max(hit.weight, 1e-6); // above 0 where it was found
     const uint place = list.first + gl_GlobalInvocationID.x;
     const float diameter = classes[hit.size_class].diameter_m;
     const uint water = water_of(diameter, hit.weight, hit.id);

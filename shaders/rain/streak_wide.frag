@@ -41,6 +41,8 @@ vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 
 void main()
 {
+    // Before any pixel is discarded: behind that, derivatives are undefined.
+    const vec2 across = vec2(dFdx(place.x), dFdy(place.x));
     const float half_width = shape.x, body = shape.y, way = shape.z;
     const float u = min(abs(place.x) / half_width, 1.0);
     float alpha = centre_alpha.a * streak_profile(abs(place.x), half_width) *
@@ -53,7 +55,6 @@ void main()
     const float wide = clamp(half_width - 0.75, 0.0, 1.0);
     vec3 light = mix(centre_alpha.rgb, rim_wave.rgb, wide * u * u + (1.0 - wide) * 0.5);
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
-    const vec2 across = vec2(dFdx(place.x), dFdy(place.x));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
     const float along = body > 0.0 ? clamp((place.y - 0.5 * way) / (0.5 * body), -1.0, 1.0) : 0.0;
     const vec3 lamps = max(centre_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));

@@ -14,7 +14,7 @@ typedef struct virga_cell_gpu virga_cell_gpu;
 
 /* What a cell is. */
 struct virga_floor_gpu {
-    int height_um;   /* of its middle, in the world, its material's unevenness in it */
+    int height_um;   /* of its middle above the ground's base_m, its material's unevenness in it */
     uint material;   /* [0; 31]; 0xff: there is no ground */
 };
 

@@ -52,9 +52,9 @@ struct virga_ground_tick_gpu {
     uint seed;
     float flow_s;       /* time that a flow pass stands for */
     float evaporation_nl_s;
-    float survey_top_m; /* height in the world of depth 0 in the survey, and metres to depth 1 */
+    float survey_top_m; /* height above the base of depth 0 in the survey, and metres to depth 1 */
     float survey_height_m;
-    float base_m;       /* that heights in the map count from */
+    float base_m;       /* height in the world that those of floors count from */
     float ripple_low_m[2];   /* low corner of the ripple map from the window's, and its side */
     float ripple_side_m;
     float tick_s;

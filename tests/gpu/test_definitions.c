@@ -54,7 +54,7 @@ static void rain_def_fields(void **state)
     static const field fields[] = {
         F(max_drops, CLAMPED, 1024, 4194304),
         F(range_m, CLAMPED, 4, 512),
-        F(max_impacts, CLAMPED, 256, 4194304),
+        F(max_impacts, CLAMPED, 256, 4194240),
         F(max_streaks, CLAMPED_BUT_0, 256, 4194304),
         F(max_ticks_per_step, CLAMPED, 1, 64),
         F(tick_s, CLAMPED, 1e-3, 0.05),
@@ -95,7 +95,7 @@ static void splash_def_fields(void **state)
 {
     static const field fields[] = {
         F(max_splashes, CLAMPED, 256, 1048576), F(max_spawns, CLAMPED, 256, 1048576),
-        F(max_returns, CLAMPED, 256, 4194304),  F(max_ticks_per_step, CLAMPED, 1, 64),
+        F(max_returns, CLAMPED, 256, 4194240),  F(max_ticks_per_step, CLAMPED, 1, 64),
         F(tick_s, CLAMPED, 1e-3, 0.05),
     };
     virga_splash_def good = small_splash_def();

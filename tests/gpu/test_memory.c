@@ -365,6 +365,63 @@ static void budget_holds_for_a_host_too(void **state)
     virga_context_destroy(&context);
 }
 
+/* ---- where the host reads */
+
+/* Most device memory is slow to read for the host; what is cached need not be coherent. */
+static void lie_uncached_or_incoherent(VkPhysicalDeviceMemoryProperties *properties)
+{
+    const VkMemoryPropertyFlags visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+    properties->memoryTypeCount = 2;
+    properties->memoryTypes[0].propertyFlags =
+        visible | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    properties->memoryTypes[1] =
+        (VkMemoryType){visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, properties->memoryTypes[0].heapIndex};
+}
+
+typedef struct two_types {
+    VkDevice device;
+    uint32_t asked[2];
+} two_types;
+
+/* Of the one type that there really is. */
+static VkResult two_types_alloc(void *user, const VkMemoryRequirements *need, uint32_t type, bool mapped,
+                                virga_memory_block *block)
+{
+    two_types *types = user;
+    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = need->size};
+    types->asked[type]++;
+    REQUIRE(vkAllocateMemory(types->device, &info, NULL, &block->memory) == VK_SUCCESS);
+    if (mapped)
+        REQUIRE(vkMapMemory(types->device, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped) == VK_SUCCESS);
+    return VK_SUCCESS;
+}
+
+static void two_types_free(void *user, const virga_memory_block *block)
+{
+    vkFreeMemory(((two_types *)user)->device, block->memory, NULL);
+}
+
+static void what_the_host_reads_is_cached_even_where_it_is_not_coherent(void **state)
+{
+    gpu_fixture *f = *state;
+    two_types types = {.device = f->gpu.device.device};
+    virga_context_def def = gpu_context_def(f);
+    def.device_memory = (virga_device_memory){&types, two_types_alloc, two_types_free};
+    watch.lie_memory = lie_uncached_or_incoherent;
+    watch.lie_types = 3;
+    stage s;
+    stage_open(f, &def, &s);
+    assert_int_equal(types.asked[1], 1); /* the one buffer that is read back; all others lie in the first type */
+    assert_true(types.asked[0] > 10);
+    for (int i = 0; i < 3; i++)
+        run_frame(f, &s);
+    gpu_wait(f);
+    virga_rain_stats stats;
+    virga_rain_stats_get(s.rain, &stats);
+    assert_true(stats.frame_index > 0 && stats.slots > 0);
+    stage_close(f, &s);
+}
+
 /* ---- recording */
 
 typedef struct host_heap {
@@ -522,6 +579,7 @@ int main(void)
         gpu_test(device_memory_of_a_host_is_used_and_given_back),
         gpu_test(device_memory_that_a_host_refuses_is_an_error),
         gpu_test(budget_holds_for_a_host_too),
+        gpu_test(what_the_host_reads_is_cached_even_where_it_is_not_coherent),
         gpu_test(host_memory_of_a_host_is_used_and_given_back),
         gpu_test(recording_allocates_and_creates_nothing),
         gpu_test(rain_destroyed_under_a_frame_lives_until_it_has_completed),

@@ -68,6 +68,7 @@ static struct watch {
     void (*lie_features)(VkPhysicalDeviceFeatures2 *features);
     void (*lie_format)(VkFormat format, VkFormatProperties *properties);
     void (*lie_memory)(VkPhysicalDeviceMemoryProperties *properties);
+    uint32_t lie_types; /* of memory that buffers may lie in, a bit each; 0: as it is */
 
     bool keep_pipelines;   /* made once, and given again to who asks for the same: see below */
     uint64_t device_calls; /* of all that can fail: what a lost device must not be asked any more */
@@ -450,6 +451,14 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_GetPipelineCacheData(VkDevice device
     return watch_fails("vkGetPipelineCacheData") ? watch.failure : vkGetPipelineCacheData(device, cache, size, data);
 }
 
+static VKAPI_ATTR void VKAPI_CALL watch_GetBufferMemoryRequirements(VkDevice device, VkBuffer buffer,
+                                                                    VkMemoryRequirements *need)
+{
+    vkGetBufferMemoryRequirements(device, buffer, need);
+    if (watch.lie_types)
+        need->memoryTypeBits = watch.lie_types;
+}
+
 /* ---- functions of the instance */
 
 static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceMemoryProperties(VkPhysicalDevice device,
@@ -505,6 +514,7 @@ static inline PFN_vkVoidFunction watch_find(const char *name)
         WATCH_ENTRY(FreeMemory)
         WATCH_ENTRY(MapMemory)
         WATCH_ENTRY(BindBufferMemory)
+        WATCH_ENTRY(GetBufferMemoryRequirements)
         WATCH_ENTRY(BindImageMemory)
         WATCH_ENTRY(AllocateDescriptorSets)
         WATCH_ENTRY(FlushMappedMemoryRanges)

@@ -24,8 +24,11 @@ typedef struct ground_fixture {
     uint32_t mesh_count;
     virga_ground_material_map materials; /* over those of meshes */
     char logged[512];                    /* the last error */
-    virga_impact_gpu drops[MOST_DROPS]; /* of the next step */
+    virga_impact_gpu drops[MOST_DROPS];  /* of the next step */
     uint32_t drop_count;
+    float origin[3];          /* of their positions, in the world */
+    VkDeviceSize list_offset; /* of them in their buffer, with their exact size then */
+    uint32_t told;            /* drops that the list's head tells of; 0: those that are there */
     double camera[3];
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
@@ -99,7 +102,7 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
     const size_t cells = (size_t)def.cells * def.cells;
     char *error = f->gpu.error;
     const size_t size = sizeof f->gpu.error;
-    REQUIRE(host_buffer_create(&f->gpu.device, sizeof(virga_impacts_gpu) + sizeof f->drops,
+    REQUIRE(host_buffer_create(&f->gpu.device, 512 + sizeof(virga_impacts_gpu) + sizeof f->drops,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                HOST_BUFFER_UPLOAD, "drops", &f->impacts, error, size));
     REQUIRE(host_buffer_create(&f->gpu.device, cells * sizeof(virga_cell_gpu), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -197,13 +200,14 @@ static inline void ground_fixture_fly(ground_fixture *f, VkCommandBuffer cmd, ui
  * cells, floors, landings and spawns. */
 static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
-    virga_impacts_gpu *head = f->impacts.mapped;
+    virga_impacts_gpu *head = (virga_impacts_gpu *)((char *)f->impacts.mapped + f->list_offset);
     memset(head, 0, sizeof *head);
-    head->count = f->drop_count;
+    head->count = f->told ? f->told : f->drop_count;
     head->group_count[0] = (f->drop_count + 63) / 64;
     head->group_count[1] = head->group_count[2] = 1;
     for (uint32_t i = 0; i < f->drop_count; i++)
         f->drops[i].tick += f->tick;
+    memcpy(head->origin, f->origin, sizeof head->origin);
     memcpy(head + 1, f->drops, f->drop_count * sizeof f->drops[0]);
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     virga_ground_step_info info = {.camera_m = {f->camera[0], f->camera[1], f->camera[2]},
@@ -211,6 +215,8 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .mesh_count = f->mesh_count,
                                    .materials = f->materials,
                                    .impacts = f->impacts.buffer,
+                                   .impacts_offset = f->list_offset,
+                                   .impacts_size = f->list_offset ? sizeof *head + sizeof f->drops : 0,
                                    .first_tick = f->tick,
                                    .ticks = ticks};
     ground_fixture_ask_splash(f, &info);

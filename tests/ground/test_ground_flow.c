@@ -308,10 +308,45 @@ static void test_floors_are_where_the_meshes_are(void **state)
     ground_fixture_close(&f);
 }
 
+/* A floor with bumps so high over the world's origin, rained on: its cells and floors, to be freed. */
+static void *rained_on_at(float height_m)
+{
+    static const float quad[1][4][3] = {{{-3, 0, -3}, {3, 0.2f, -3}, {3, 0.2f, 3}, {-3, 0, 3}}};
+    begin(quad, (const uint32_t[1]){VIRGA_MATERIAL_ASPHALT}, 1, NULL);
+    f.meshes[0].world_from_mesh[7] = f.origin[1] = height_m;
+    f.camera[1] = (double)height_m + 1.7;
+    for (int step = 0; step < 4; step++) {
+        drops_at_random(7, 2000, 40, 200000);
+        ground_fixture_step(&f, 1);
+    }
+    check_budget();
+    const size_t bytes = f.upload.size;
+    char *copy = malloc(2 * bytes);
+    memcpy(copy, f.cells, bytes);
+    memcpy(copy + bytes, f.floors, bytes);
+    ground_fixture_close(&f);
+    return copy;
+}
+
+static void test_ground_gets_wet_at_any_height(void **state)
+{
+    (void)state;
+    static const float heights_m[3] = {3000, -2500, 1e6f};
+    const size_t bytes = 128 * 128 * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu));
+    void *low = rained_on_at(0);
+    for (int i = 0; i < 3; i++) {
+        void *high = rained_on_at(heights_m[i]);
+        assert_memory_equal(low, high, bytes);
+        free(high);
+    }
+    free(low);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_floors_are_where_the_meshes_are),
+        cmocka_unit_test(test_ground_gets_wet_at_any_height),
         cmocka_unit_test(test_water_at_rest_ends_level),
         cmocka_unit_test(test_water_runs_down_a_slope_into_the_drain),
         cmocka_unit_test(test_a_sheet_flows_at_mannings_speed),

@@ -131,6 +131,20 @@ static void test_there_are_no_rings_on_a_film_or_beside_the_water(void **state)
     end();
 }
 
+/* Also one that a count in steps of a workgroup would run over the end of 32 bits with. */
+static void test_a_list_that_tells_of_any_number_of_drops_is_read_as_far_as_it_can_be(void **state)
+{
+    (void)state;
+    begin(5);
+    for (int i = 0; i < 10; i++)
+        ground_fixture_drop(&f, i, 0, 0, 4000);
+    f.told = 0xffffff01u;
+    ground_fixture_step(&f, 1);
+    read_back();
+    assert_int_equal(((const virga_rings_gpu *)records.mapped)->total, 10);
+    end();
+}
+
 static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state)
 {
     (void)state;
@@ -160,6 +174,7 @@ int main(void)
         cmocka_unit_test(test_the_map_shows_the_waves_of_the_table),
         cmocka_unit_test(test_a_ring_is_of_its_drop_and_its_instant),
         cmocka_unit_test(test_there_are_no_rings_on_a_film_or_beside_the_water),
+        cmocka_unit_test(test_a_list_that_tells_of_any_number_of_drops_is_read_as_far_as_it_can_be),
         cmocka_unit_test(test_a_cloudburst_never_lives_longer_than_there_is_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -468,6 +468,59 @@ static void test_in_a_hundred_ticks_of_ground_and_splashes_no_nanolitre_is_lost(
     ground_fixture_close(&f);
 }
 
+/* ---- a host's own lists */
+
+static void test_drops_are_read_where_a_host_says_they_begin(void **state)
+{
+    (void)state;
+    begin(VIRGA_MATERIAL_STEEL, NULL);
+    f.list_offset = 512;
+    ground_fixture_drop(&f, 3, -4, 0, 4000);
+    ground_fixture_step(&f, 1);
+    uint32_t around = 0; /* it runs to the neighbours */
+    for (int x = 2; x <= 4; x++)
+        for (int z = -5; z <= -3; z++)
+            around += ground_fixture_free(&f, x, z);
+    assert_int_equal(around, 4000);
+    ground_fixture_close(&f);
+}
+
+static void refuse(const virga_ground_step_info *info, const char *name)
+{
+    f.logged[0] = 0;
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    assert_int_equal(virga_ground_step(f.ground, cmd, info), VIRGA_ERROR_INVALID);
+    ground_fixture_submit(&f);
+    if (!strstr(f.logged, name) || strchr(f.logged, '\n'))
+        fail_msg("said '%s', expected a line with %s", f.logged, name);
+}
+
+static void test_lists_that_no_device_can_bind_are_refused(void **state)
+{
+    (void)state;
+    begin(VIRGA_MATERIAL_STEEL, NULL);
+    const virga_ground_step_info right = {.impacts = f.impacts.buffer,
+                                          .splash_rules = f.impacts.buffer,
+                                          .returns = f.impacts.buffer,
+                                          .first_tick = f.tick};
+    virga_ground_step_info info = right;
+    info.impacts_offset = 2;
+    refuse(&info, "step_info.impacts_offset");
+    info = right;
+    info.returns_offset = 254;
+    refuse(&info, "step_info.returns_offset");
+    info = right;
+    info.splash_rules_offset = 1;
+    refuse(&info, "step_info.splash_rules_offset");
+    info = right;
+    info.impacts_size = sizeof(virga_impacts_gpu) - 4;
+    refuse(&info, "step_info.impacts_size");
+    info = right;
+    info.returns_size = 1;
+    refuse(&info, "step_info.returns_size");
+    ground_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -483,6 +536,8 @@ int main(void)
         cmocka_unit_test(test_without_rules_nothing_flies_and_the_ground_is_as_ever),
         cmocka_unit_test(test_droplets_that_fall_back_make_dots_at_most),
         cmocka_unit_test(test_on_dry_ground_droplets_that_fall_back_make_nothing),
+        cmocka_unit_test(test_drops_are_read_where_a_host_says_they_begin),
+        cmocka_unit_test(test_lists_that_no_device_can_bind_are_refused),
         cmocka_unit_test(test_in_a_hundred_ticks_of_ground_and_splashes_no_nanolitre_is_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,12 +61,23 @@ static double highest(const float *slopes)
     return most;
 }
 
+static double half_value(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const double value = exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24);
+    return half & 0x8000 ? -value : value;
+}
+
+/* What all tests look at is the table as its image holds it. */
 static int set_up(void **state)
 {
     (void)state;
-    table = malloc(sizeof(float) * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII);
+    const size_t values = (size_t)VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII;
+    table = malloc(sizeof(float) * values);
     if (table)
         ring_table_fill(table, 0);
+    for (size_t i = 0; table && i < values; i++)
+        table[i] = (float)half_value(ring_half(table[i]));
     return table ? 0 : -1;
 }
 
@@ -75,6 +86,21 @@ static int tear_down(void **state)
     (void)state;
     free(table);
     return 0;
+}
+
+static void test_half_floats_are_the_nearest(void **state)
+{
+    (void)state;
+    for (int half = 0; half < 0x7c00; half++) {
+        const double own = half_value((uint16_t)half), next = half < 0x7bff ? half_value((uint16_t)(half + 1)) : 65536;
+        const float middle = (float)(0.5 * (own + next)); /* exact: a bit more than a half float has */
+        assert_int_equal(ring_half((float)own), half);
+        assert_int_equal(ring_half((float)-own), half | 0x8000);
+        assert_int_equal(ring_half(middle), half + (half & 1)); /* to the even one */
+        assert_int_equal(ring_half(nextafterf(middle, 0)), half);
+        assert_int_equal(ring_half(nextafterf(middle, 1e6f)), half + 1);
+    }
+    assert_int_equal(ring_half(-1e30f), 0xfc00);
 }
 
 static void test_the_slowest_wave_of_deep_water(void **state)
@@ -296,6 +322,7 @@ static void test_calm_time_is_the_table_summed_over_time(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_half_floats_are_the_nearest),
         cmocka_unit_test(test_the_slowest_wave_of_deep_water),
         cmocka_unit_test(test_damping_is_of_the_water_and_of_the_floor),
         cmocka_unit_test(test_entries_are_the_integral),

@@ -324,10 +324,12 @@ static void step_ground_and_splash(engine *e, VkCommandBuffer cmd, const world_m
                                   .mesh_count = WORLD_BOXES,
                                   .impacts = impacts.buffer,
                                   .impacts_offset = impacts.offset,
+                                  .impacts_size = impacts.size,
                                   .splash_rules = rules.buffer,
                                   .splash_rules_offset = rules.offset,
                                   .returns = returns.buffer,
-                                  .returns_offset = returns.offset};
+                                  .returns_offset = returns.offset,
+                                  .returns_size = returns.size};
     memcpy(wet.camera_m, moment->camera_m, sizeof wet.camera_m);
     memcpy(wet.focus_m, moment->focus_m, sizeof wet.focus_m);
     virga_rain_ticks(rain, &wet.first_tick, &wet.ticks);

@@ -76,6 +76,8 @@ static inline VkPhysicalDevice world_pick(world_gpu *gpu, const char *const *ext
     return infos[index].physical;
 }
 
+enum { WORLD_EXTENSIONS = 2 }; /* at most */
+
 /* `more` (optional) is a chain of further features. */
 static inline void world_gpu_open(world_gpu *gpu, const char *const *extensions, uint32_t extension_count, void *more)
 {
@@ -91,12 +93,17 @@ static inline void world_gpu_open(world_gpu *gpu, const char *const *extensions,
                                            .queueFamilyIndex = gpu->family,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
+    const char *enabled[HOST_DEVICE_EXTENSIONS + WORLD_EXTENSIONS];
+    const uint32_t needed = host_device_extensions(gpu->physical, false, enabled);
+    REQUIRE(extension_count <= WORLD_EXTENSIONS);
+    for (uint32_t i = 0; i < extension_count; i++)
+        enabled[needed + i] = extensions[i];
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &features,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue,
-                                     .enabledExtensionCount = extension_count,
-                                     .ppEnabledExtensionNames = extensions};
+                                     .enabledExtensionCount = needed + extension_count,
+                                     .ppEnabledExtensionNames = enabled};
     VK_REQUIRE(vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->types);

@@ -252,11 +252,9 @@ static inline void record_layer(const shot *s, VkCommandBuffer cmd)
     }
 }
 
-/* Steps, prepares and draws the layer. Its pixels live until the next frame. */
-static const float *draw_frame(shot *s, double dt_s)
+/* Prepares and draws the layer, and ends the frame. Its pixels live until the next one. */
+static const float *draw_without_step(shot *s, VkCommandBuffer cmd)
 {
-    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s->f);
-    rain_fixture_record_step(&s->f, cmd, dt_s);
     record_scene_depth(s, cmd);
     const virga_view view = view_of(s);
     REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain)) == VIRGA_OK);
@@ -268,6 +266,14 @@ static const float *draw_frame(shot *s, double dt_s)
     for (size_t i = 0; i < 4; i++)
         host_buffer_invalidate(&s->f.gpu.device, reads[i]);
     return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
+}
+
+/* A frame: steps, prepares and draws the layer. */
+static const float *draw_frame(shot *s, double dt_s)
+{
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s->f);
+    rain_fixture_record_step(&s->f, cmd, dt_s);
+    return draw_without_step(s, cmd);
 }
 
 static inline float *draw_copy(shot *s, double dt_s)

@@ -134,6 +134,67 @@ static void where_nothing_is_the_sky_also_in_reversed_depth(void **state)
     close_shot(&s);
 }
 
+/* ---- frames that do not do everything */
+
+/* What a frame reads lies in its own part of the ring: the parts of those before may be written by frames to come while
+ * the device still reads them. */
+static void frames_without_a_step_show_the_newest_one(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 80);
+    add_picture(&s, 160, 120);
+    apply_settings(&s);
+    aim_level(&s);
+    float *stepped = draw_copy(&s, 0.2);
+    const VkDeviceSize per_frame = s.f.rain->tick_ring->size / s.f.context->frames_in_flight;
+    for (uint32_t i = 0; i < 2 * s.f.context->frames_in_flight + 1; i++) {
+        assert_same_pixels(&s, stepped, draw_without_step(&s, rain_fixture_begin_frame(&s.f)));
+        assert_int_equal(s.f.rain->tick_offset / per_frame, s.f.context->ring_slot);
+    }
+    free(stepped);
+    close_shot(&s);
+}
+
+static void a_step_after_a_prepare_has_all_of_its_ticks(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 80);
+    add_picture(&s, 160, 120);
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
+    const virga_view view = view_of(&s);
+    assert_int_equal(virga_rain_prepare(s.f.rain, cmd, &view, virga_rain_time(s.f.rain)), VIRGA_OK);
+    rain_fixture_record_step(&s.f, cmd, s.f.rain->def.max_ticks_per_step * s.f.rain->def.tick_s);
+    rain_fixture_end_frame(&s.f);
+    uint32_t ticks = 0;
+    virga_rain_ticks(s.f.rain, NULL, &ticks);
+    assert_int_equal(ticks, s.f.rain->def.max_ticks_per_step);
+    close_shot(&s);
+}
+
+static void a_frame_without_a_prepare_draws_nothing(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 80);
+    add_picture(&s, 160, 120);
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    for (int stepped = 0; stepped < 2; stepped++) {
+        const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
+        if (stepped)
+            rain_fixture_record_step(&s.f, cmd, 1.0 / 60);
+        assert_int_equal(virga_rain_draw(s.f.rain, cmd, s.layer), VIRGA_NOT_READY);
+        rain_fixture_end_frame(&s.f);
+    }
+    close_shot(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +202,9 @@ int main(void)
         cmocka_unit_test(dynamic_rendering_gives_the_pixels_of_a_render_pass),
         cmocka_unit_test(reversed_depth_gives_the_same_picture),
         cmocka_unit_test(where_nothing_is_the_sky_also_in_reversed_depth),
+        cmocka_unit_test(frames_without_a_step_show_the_newest_one),
+        cmocka_unit_test(a_step_after_a_prepare_has_all_of_its_ticks),
+        cmocka_unit_test(a_frame_without_a_prepare_draws_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

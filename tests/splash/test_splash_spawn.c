@@ -441,6 +441,20 @@ static int open_all(void **state)
     return 0;
 }
 
+static void test_spawns_that_no_device_can_bind_are_refused(void **state)
+{
+    (void)state;
+    const VkCommandBuffer cmd = splash_fixture_begin(&f);
+    virga_splash_step_info info = {.spawns = f.spawns.buffer, .first_tick = f.tick, .spawns_offset = 2};
+    assert_int_equal(virga_splash_step(f.splash, cmd, &info), VIRGA_ERROR_INVALID);
+    info.spawns_offset = 0;
+    info.spawns_size = sizeof(virga_spawns_gpu) - 1;
+    assert_int_equal(virga_splash_step(f.splash, cmd, &info), VIRGA_ERROR_INVALID);
+    info.spawns_size = sizeof(virga_spawns_gpu) + 100 * sizeof(virga_spawn_gpu);
+    assert_int_equal(virga_splash_step(f.splash, cmd, &info), VIRGA_OK);
+    splash_fixture_submit(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -460,6 +474,7 @@ int main(void)
         cmocka_unit_test(test_a_splash_that_falls_ticks_later_waits_for_its_time),
         cmocka_unit_test(test_drops_that_come_in_aslant_send_their_droplets_on),
         cmocka_unit_test(test_drops_that_meet_a_slope_head_on_do_not),
+        cmocka_unit_test(test_spawns_that_no_device_can_bind_are_refused),
     };
     const int failed = cmocka_run_group_tests(tests, open_all, NULL);
     return failed + (int)splash_fixture_end(&f); /* validation has said nothing, and nothing is left */

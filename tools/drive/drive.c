@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_WINDOW_EXTENSIONS 8
 #define PANE_POINTS    33 /* along each side of the windshield's grid */
 #define MOST_OCCLUDERS 4096
 #define NEAR_ENOUGH_M  60 /* what is farther keeps no rain off that could be seen */
@@ -84,15 +85,20 @@ static bool create_instance(drive *d)
     char *error = d->error;
     const size_t error_size = sizeof d->error;
     uint32_t count = 0;
-    const char **extensions = d->chosen.out ? NULL : glfwGetRequiredInstanceExtensions(&count);
+    const char **asked = d->chosen.out ? NULL : glfwGetRequiredInstanceExtensions(&count);
+    const char *extensions[MOST_WINDOW_EXTENSIONS + 1];
+    count = count < MOST_WINDOW_EXTENSIONS ? count : MOST_WINDOW_EXTENSIONS;
+    for (uint32_t i = 0; i < count; i++)
+        extensions[i] = asked[i];
     const VkApplicationInfo application = {
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "drive", .apiVersion = VIRGA_VULKAN_API};
-    const VkInstanceCreateInfo info = {
+    VkInstanceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
         .pApplicationInfo = &application,
         .enabledExtensionCount = count,
         .ppEnabledExtensionNames = extensions,
     };
+    host_ask_portability(&info, extensions);
     HOST_TRY(vkCreateInstance(&info, NULL, &d->instance));
     d->listed.instance = d->instance;
     if (!d->chosen.out) {
@@ -114,7 +120,7 @@ static bool create_device(drive *d, const host_device_info *chosen)
         return false;
     /* ... and here a host sets its own. */
     const float priority = 1;
-    const char *const swapchain[] = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    const char *extensions[HOST_DEVICE_EXTENSIONS];
     const VkDeviceQueueCreateInfo queue = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
         .queueFamilyIndex = chosen->queue_family,
@@ -126,8 +132,8 @@ static bool create_device(drive *d, const host_device_info *chosen)
         .pNext = &features,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
-        .enabledExtensionCount = d->window ? 1 : 0,
-        .ppEnabledExtensionNames = swapchain,
+        .enabledExtensionCount = host_device_extensions(chosen->physical, d->window, extensions),
+        .ppEnabledExtensionNames = extensions,
     };
     HOST_TRY(vkCreateDevice(chosen->physical, &info, NULL, &d->device.device));
     return true;

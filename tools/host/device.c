@@ -45,13 +45,14 @@ static bool create_logical(host_device *device, char *error, size_t error_size)
         .queueCount = 1,
         .pQueuePriorities = &priority,
     };
-    const char *const extensions[] = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+    const char *extensions[HOST_DEVICE_EXTENSIONS];
+    const uint32_t extension_count = host_device_extensions(device->physical, device->instance->presents, extensions);
     VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &features,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
-        .enabledExtensionCount = device->instance->presents ? 1 : 0,
+        .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
     HOST_TRY(vkCreateDevice(device->physical, &info, NULL, &device->device));

@@ -47,6 +47,10 @@ bool host_instance_create_for_window(host_instance *instance, bool validate, con
                                      uint32_t extension_count, char *error, size_t error_size);
 void host_instance_destroy(host_instance *instance);
 
+/* Asks for devices that are not quite Vulkan too, where the loader knows of them: MoltenVK, the one of macOS. Writes
+ * an extension's name behind the `info->enabledExtensionCount` of `extensions`, which has room for it. */
+void host_ask_portability(VkInstanceCreateInfo *info, const char **extensions);
+
 /* ---- which device ------------------------------------------------------------------------------------------- */
 
 typedef struct host_device_info {
@@ -70,6 +74,11 @@ uint32_t host_devices_list(const host_instance *instance, host_device_info *info
  * "gpu", "cpu", or part of a name in any case. */
 bool host_device_pick(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index, char *error,
                       size_t error_size);
+
+/* The extensions that a device is made with: the swapchain where it is to present, and VK_KHR_portability_subset where
+ * the device has it, as it must be enabled then. Returns how many of `names` are set. */
+enum { HOST_DEVICE_EXTENSIONS = 2 };
+uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const char *names[HOST_DEVICE_EXTENSIONS]);
 
 /* ---- the device --------------------------------------------------------------------------------------------- */
 

@@ -19,6 +19,31 @@ const char *host_device_type_name(VkPhysicalDeviceType type)
     }
 }
 
+static bool has_extension(VkPhysicalDevice physical, const char *name)
+{
+    uint32_t count = 0;
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS || count == 0)
+        return false;
+    VkExtensionProperties *extensions = calloc(count, sizeof *extensions);
+    bool found = false;
+    if (extensions && vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= 0)
+        for (uint32_t i = 0; i < count && !found; i++)
+            found = strcmp(extensions[i].extensionName, name) == 0;
+    free(extensions);
+    return found;
+}
+
+uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const char *names[HOST_DEVICE_EXTENSIONS])
+{
+    static const char portability[] = "VK_KHR_portability_subset"; /* its macro is among the beta extensions' */
+    uint32_t count = 0;
+    if (presents)
+        names[count++] = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    if (has_extension(physical, portability))
+        names[count++] = portability;
+    return count;
+}
+
 /* Smaller is taken first. */
 static int rank(VkPhysicalDeviceType type)
 {

@@ -93,6 +93,15 @@ static bool has_extension(const char *layer, const char *name)
     return found;
 }
 
+void host_ask_portability(VkInstanceCreateInfo *info, const char **extensions)
+{
+    if (!has_extension(NULL, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME))
+        return;
+    extensions[info->enabledExtensionCount++] = VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
+    info->ppEnabledExtensionNames = extensions;
+    info->flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+}
+
 bool host_instance_create(host_instance *instance, bool validate, char *error, size_t error_size)
 {
     return host_instance_create_for_window(instance, validate, NULL, 0, error, error_size);
@@ -116,7 +125,7 @@ bool host_instance_create_for_window(host_instance *instance, bool validate, con
     instance->validation = validate;
     instance->debug_utils = has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const char *layers[] = {VALIDATION_LAYER};
-    const char *extensions[2 + MOST_WINDOW_EXTENSIONS];
+    const char *extensions[3 + MOST_WINDOW_EXTENSIONS];
     uint32_t extension_count = 0;
     while (extension_count < window_extension_count && extension_count < MOST_WINDOW_EXTENSIONS) {
         extensions[extension_count] = window_extensions[extension_count];
@@ -156,6 +165,7 @@ bool host_instance_create_for_window(host_instance *instance, bool validate, con
         .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
+    host_ask_portability(&info, extensions);
     HOST_TRY(vkCreateInstance(&info, NULL, &instance->instance));
 
     PFN_vkCreateDebugUtilsMessengerEXT create_messenger =

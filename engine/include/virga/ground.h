@@ -122,22 +122,25 @@ typedef struct virga_ground_material_map {
 
 /* One step. */
 typedef struct virga_ground_step_info {
-    double camera_m[3];           /* middle of the window, which follows in whole tiles */
+    double camera_m[3];           /* middle of the window, which follows in whole tiles. Ground is found within 256 m
+                                   * of its height at the first step, up and down */
     double focus_m[3];            /* middle of the map of ripples: on the ground some metres ahead of the camera, where
                                    * they can be seen */
     const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
     uint32_t mesh_count;
     virga_ground_material_map materials; /* (optional) looked at where the window moves, see virga_ground_survey */
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */
-    VkDeviceSize impacts_offset;
+    VkDeviceSize impacts_offset; /* a multiple of the device's minStorageBufferOffsetAlignment and of 4 */
+    VkDeviceSize impacts_size;   /* bytes from there: the head and the entries that there is room for. 0: all of the
+                                  * buffer, which then must not be larger than the device's maxStorageBufferRange */
     uint32_t first_tick, ticks; /* that the impacts are of, see virga_rain_ticks. Ticks that do not come after those
                                  * of the steps before are refused (VIRGA_LOG_FRAME_ORDER) */
     VkBuffer splash_rules; /* (optional) a virga_splash_rules_gpu in a uniform buffer: drops splash by it. NULL: none
                             * do */
-    VkDeviceSize splash_rules_offset;
+    VkDeviceSize splash_rules_offset; /* a multiple of the device's minUniformBufferOffsetAlignment */
     VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the
                        * first tick of the step; give each return to one step with ticks only */
-    VkDeviceSize returns_offset;
+    VkDeviceSize returns_offset, returns_size; /* as of the impacts */
 } virga_ground_step_info;
 
 /* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read
@@ -162,7 +165,8 @@ typedef struct virga_ground_maps {
     double ripple_low_m[2]; /* its low corner in x and z */
     uint32_t cells;
     float cell_m;
-    float base_m;
+    float base_m;       /* height in the world: the camera's at the first step, in whole metres (as far as a float has
+                         * them) */
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
 } virga_ground_maps;
 
@@ -179,6 +183,7 @@ typedef struct virga_ground_cells {
     uint32_t tiles;       /* of 64 x 64 cells along the window's side, a power of two */
     int32_t low_tile[2];  /* in x and z: the window begins with it */
     uint32_t nl_per_um;   /* nanolitres that make a micrometre of depth on a cell */
+    float base_m;         /* height in the world that those of floors count from, as in virga_ground_maps */
 } virga_ground_cells;
 
 /* Tells where the cells of the newest step are; all zero for NULL. virga_ground_step leaves them to compute shaders,

@@ -35,7 +35,7 @@ typedef struct virga_rain_def {
                             * rate never. 32 bytes of device memory each, 40 more with wind_texture. Default 131072 */
     float range_m;         /* [4; 512] drops are drawn and land up to here from the camera, haze takes over beyond.
                             * Default 32 */
-    uint32_t max_impacts;  /* [256; 4194304] impacts that one step can hold, 64 bytes each; more are counted and
+    uint32_t max_impacts;  /* [256; 4194240] impacts that one step can hold, 64 bytes each; more are counted and
                             * logged. Default 65536 */
     uint32_t max_streaks;  /* [256; 4194304] streaks that one prepare can hold, 96 bytes each. 0 means max_drops, the
                             * default. Not more than a quarter of the device's maxTexelBufferElements */
@@ -167,7 +167,8 @@ typedef struct virga_rain_step_info {
 
 /* Runs the ticks that dt_s completes, and writes impacts; VIRGA_DEGRADED and one log line where that is more than
  * max_ticks_per_step. A dt_s out of range is refused, and no time passes. Outside rendering. Leaves the impact buffer
- * ready to be read by compute and vertex shaders in the same command buffer. The first step also fills the state. */
+ * ready to be read by compute and vertex shaders, as indirect arguments (group_count) and by transfers, in the same
+ * command buffer. The first step also fills the state. */
 VIRGA_API virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_step_info *info);
 
 /* Simulated time (s) that draw times count from: whole ticks plus what dt_s left over. */
@@ -182,7 +183,8 @@ VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s` (normally virga_rain_time; any time within a tick or two of it is
- * exact). Outside rendering, after the step; once for each view to be drawn, directly before its draw.
+ * exact). Outside rendering, after the step, or in a frame without one; once for each view to be drawn, directly before
+ * its draw.
  * At most VIRGA_RAIN_MAX_VIEWS a frame. Costs one pass over all slots and one over what is seen. */
 VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s);
 
@@ -190,9 +192,9 @@ VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd,
  * for a rain. Call it where compiling is fine, not while recording a frame that must be on time. */
 VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *target);
 
-/* Draws haze and streaks of the newest prepare, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside rendering of
- * `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards. VIRGA_NOT_READY
- * (and nothing drawn) for a target that was not attached, or before the first prepare. */
+/* Draws haze and streaks of the newest prepare of this frame, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside
+ * rendering of `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards.
+ * VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or without a prepare in this frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
 /* ---- what others read ----------------------------------------------------------------------------------------- */

@@ -45,7 +45,7 @@ typedef struct virga_splash_def {
                             * sprites that a view needs and 72 for their indices. Where there is no room the water
                             * falls back at once. At most what a storage buffer of the device holds. Default 131072 */
     uint32_t max_spawns;   /* [256; 1048576] of one step, the same as the ground's. Default 65536 */
-    uint32_t max_returns;  /* [max_spawns; 4194304] droplets that fall in one step, 64 bytes each; more wait in the air
+    uint32_t max_returns;  /* [max_spawns; 4194240] droplets that fall in one step, 64 bytes each; more wait in the air
                             * for the next. The ground's must be as large. Default 131072 */
     uint32_t max_ticks_per_step; /* [1; 64] the same as rain's. Default 16 */
     double tick_s;         /* [1/1000; 1/20] the same as rain's. Default 1/60 */
@@ -150,7 +150,9 @@ typedef struct virga_splash_step_info {
     double camera_m[3];         /* positions are kept relative to an anchor near it */
     VkBuffer spawns;            /* virga_spawns_gpu and what follows; ready to be read by compute and as indirect
                                  * arguments, as virga_ground_step leaves them */
-    VkDeviceSize spawns_offset;
+    VkDeviceSize spawns_offset; /* a multiple of the device's minStorageBufferOffsetAlignment and of 4 */
+    VkDeviceSize spawns_size;   /* bytes from there: the head and the entries that there is room for. 0: all of the
+                                 * buffer, which then must not be larger than the device's maxStorageBufferRange */
     uint32_t first_tick, ticks; /* see virga_rain_ticks. Ticks that do not come after those of the steps before are
                                  * refused (VIRGA_LOG_FRAME_ORDER) */
     float wind_m_s[3];          /* [-1000; 1000] where the splashes are. Clamped, logged, VIRGA_DEGRADED */

@@ -191,7 +191,6 @@ static void fill_camera(const host_camera *camera, struct view_gpu *out)
     out->projection[3] = p[14];
     out->jitter[0] = p[8];
     out->jitter[1] = p[9];
-    out->jitter[2] = (float)camera->position_m[1];
     for (int axis = 0; axis < 3; axis++) {
         out->right[axis] = v[4 * axis];
         out->up[axis] = v[4 * axis + 1];
@@ -217,6 +216,7 @@ static void fill_ground(const shot *s, const host_camera *camera, uint32_t mode,
     out->ground[1] = (float)(maps.low_m[1] - camera->position_m[2]);
     out->ground[2] = 1 / maps.cell_m;
     out->ground[3] = (float)maps.cells;
+    out->jitter[2] = (float)(camera->position_m[1] - (double)cells.base_m);
     out->cells[0] = cells.low_tile[0];
     out->cells[1] = cells.low_tile[1];
     out->cells[2] = (int32_t)cells.tiles;

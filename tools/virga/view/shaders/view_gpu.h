@@ -46,7 +46,7 @@ struct view_gpu {
     VIEW_UVEC4 mode;     /* VIEW_..., layer, whether layers are there: 1 splash, 2 glass, 4 ground, 8 maps, 16
                           * heights */
     VIEW_VEC4 projection; /* P00, P11, P22, P32 */
-    VIEW_VEC4 jitter;    /* P20, P21; height of the camera in the world */
+    VIEW_VEC4 jitter;    /* P20, P21; height of the camera above the base of the ground's floors */
     VIEW_VEC4 right;     /* axes of the camera in the world */
     VIEW_VEC4 up;
     VIEW_VEC4 back;

@@ -1,0 +1,5 @@
+// tick.glsl - what all of ground's shaders are told of a tick.
+#define VIRGA_GLSL
+#include "shared/ground_gpu.h"
+
+layout(scalar, set = 0, binding = 0) uniform Tick { virga_ground_tick_gpu tick; };

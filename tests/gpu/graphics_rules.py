@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""What Vulkan asks of vertex and fragment shaders, and neither software Vulkan nor the eye notices.
+
+Every vertex and fragment shader that ships is compiled in all of its forms, and its SPIR-V is read:
+  - no derivative (nor a sample that takes one) comes after a discard: the pixels beside may be gone, and what is
+    derived is undefined (GLSL 4.60, section 8.14.1);
+  - every storage buffer and image is readonly: stores in these stages are features (vertexPipelineStoresAndAtomics,
+    fragmentStoresAndAtomics) that Virga does not ask for (VUID-RuntimeSpirv-NonWritable-06340 and -06341).
+
+usage: graphics_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+GLSLANG = ["-V", "--quiet", "--target-env", "vulkan1.2"]
+FORMS = [[], ["-DMOTION"], ["-DREACTIVE"], ["-DMOTION", "-DREACTIVE"]]
+DISCARDS = ("OpKill", "OpTerminateInvocation", "OpDemoteToHelperInvocation")
+DERIVES = re.compile(r"^Op(DPdx|DPdy|Fwidth|Image\w*ImplicitLod|ImageQueryLod)")
+
+
+def run(command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+    if done.returncode:
+        sys.exit("graphics_rules.py: %s gave %d:\n%s" % (" ".join(command), done.returncode, done.stdout))
+    return done.stdout
+
+
+def instructions(text):
+    """[(result, op, operands)]"""
+    found = []
+    for line in text.splitlines():
+        match = re.match(r"\s*(?:(%\w+) = )?(Op\w+)\s*(.*)", line)
+        if match:
+            found.append((match.group(1), match.group(2), match.group(3).split()))
+    return found
+
+
+def bodies(code):
+    """{function: its instructions}, in the order of the module: glslang puts main first."""
+    functions, name = {}, None
+    for result, op, words in code:
+        name = result if op == "OpFunction" else None if op == "OpFunctionEnd" else name
+        if name:
+            functions.setdefault(name, []).append((op, words))
+    return functions
+
+
+def with_calls(functions, test):
+    """The functions in which an instruction passes the test, or which call one of those."""
+    found = set()
+    while True:
+        more = {name for name, body in functions.items() if name not in found
+                and any(test(op) or op == "OpFunctionCall" and words[1] in found for op, words in body)}
+        if not more:
+            return found
+        found |= more
+
+
+def derives_late(code):
+    functions = bodies(code)
+    derive = with_calls(functions, lambda op: DERIVES.match(op))
+    discard = with_calls(functions, lambda op: op in DISCARDS)
+    for body in functions.values():
+        discarded = False
+        for op, words in body:
+            called = words[1] if op == "OpFunctionCall" else None
+            if discarded and (DERIVES.match(op) or called in derive):
+                return ["takes a derivative after a discard"]
+            discarded = discarded or op in DISCARDS or called in discard
+    return []
+
+
+def member_decorations(code, name):
+    """{struct: members with the decoration}"""
+    found = {}
+    for _, op, words in code:
+        if op == "OpMemberDecorate" and words[2] == name:
+            found.setdefault(words[0], set()).add(words[1])
+    return found
+
+
+def writes(code):
+    types = {result: (op, words) for result, op, words in code if result and op.startswith("OpType")}
+    decorated = {name: {words[0] for _, op, words in code if op == "OpDecorate" and words[1] == name}
+                 for name in ("NonWritable", "BufferBlock")}
+    readonly_members = member_decorations(code, "NonWritable")
+    names = {words[0]: words[1].strip('"') for _, op, words in code if op == "OpName"}
+    found = []
+    for result, op, words in code:
+        if op != "OpVariable" or result in decorated["NonWritable"]:
+            continue
+        kind, of = types[types[words[0]][1][1]]
+        while kind in ("OpTypeArray", "OpTypeRuntimeArray"):
+            kind, of = types[of[0]]
+        pointee = types[words[0]][1][1]
+        stored_image = kind == "OpTypeImage" and of[5] == "2"
+        block = words[1] == "StorageBuffer" or pointee in decorated["BufferBlock"]
+        if stored_image or block and len(readonly_members.get(pointee, ())) < len(of):
+            found.append("may write to %s" % (names[result] or names[pointee]))
+    return found
+
+
+def main():
+    source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
+    if not shutil.which("spirv-dis"):
+        print("graphics_rules.py: skipped, there is no spirv-dis (package spirv-tools)")
+        sys.exit(77)
+    modules, wrong = 0, []
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "pass.spv")
+        for shader in filter(lambda name: name.endswith((".vert", ".frag")), shaders):
+            for form in FORMS:
+                run([glslang] + GLSLANG + form + ["-I" + os.path.join(source, "shaders"), "-o", output,
+                                                  os.path.join(source, "shaders", shader)])
+                code = instructions(run(["spirv-dis", "--raw-id", output]))
+                wrong += [" ".join([shader] + form) + ": " + text for text in derives_late(code) + writes(code)]
+                modules += 1
+    for text in wrong:
+        print("graphics_rules.py: " + text, file=sys.stderr)
+    print("graphics_rules.py: %d modules, %d wrong" % (modules, len(wrong)))
+    sys.exit(1 if wrong or not modules else 0)
+
+
+if __name__ == "__main__":
+    main()
