@@ -147,6 +147,71 @@ static double texel_v(const shot *s, uint32_t row)
     return (row + 0.5) * (double)s->glass->def.height_m / s->rows;
 }
 
+/* ---- lists of tiles */
+
+/* Copies of what the newest frame left of tiles' lists; they stay until the fixture's next. */
+static const virga_glass_tile_gpu *read_lists(shot *s, host_buffer *down, const uint32_t **entries)
+{
+    const struct glass_picture *picture = s->glass->picture;
+    VkCommandBuffer cmd;
+    VkDeviceSize offset = 0;
+    REQUIRE(host_buffer_create(&s->gpu.device, picture->tiles->size + picture->entries->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "lists down", down, s->gpu.error,
+                               sizeof s->gpu.error));
+    shot_begin(s, &cmd);
+    effect_fixture_transfers(cmd);
+    const virga_glass_tile_gpu *tiles =
+        effect_fixture_copy(cmd, picture->tiles->buffer, picture->tiles->size, down, &offset);
+    *entries = effect_fixture_copy(cmd, picture->entries->buffer, picture->entries->size, down, &offset);
+    shot_submit(s);
+    host_buffer_invalidate(&s->gpu.device, down);
+    return tiles;
+}
+
+static bool reaches(const virga_glass_ball_gpu *ball, const uint32_t tile[2])
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (tile[axis] - (ball->tiles[axis] & 0xffff) >= ball->tiles[axis] >> 16)
+            return false;
+    return true;
+}
+
+/* Each ball, one to a drop at rest, once in the list of each tile that it says to reach: one entry more would be another
+ * tile's, one less an older frame's. Some lie over the edge. */
+static void lists_hold_the_balls_that_were_counted(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    host_buffer down = {0};
+    const uint32_t *entries;
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    shot_drop(&s, 0, 0.064, shot_water(&s, 3e-3));
+    shot_drop(&s, 0.096, 0, shot_water(&s, 2e-4));
+    shot_draw(&s, false);
+    const virga_glass_tile_gpu *tiles = read_lists(&s, &down, &entries);
+    const uint32_t columns = s.columns / VIRGA_GLASS_TILE, rows = s.rows / VIRGA_GLASS_TILE;
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < columns * rows; i++) {
+        const uint32_t at[2] = {i % columns, i / columns};
+        uint32_t reached = 0;
+        assert_int_equal(tiles[i].filled, tiles[i].count);
+        for (uint32_t k = 0; k < s.drop_count; k++) {
+            uint32_t times = 0;
+            for (uint32_t j = 0; j < tiles[i].count; j++)
+                times += entries[tiles[i].first + j] == k;
+            assert_int_equal(times, reaches(&s.balls[k], at));
+            reached += times;
+        }
+        assert_int_equal(reached, tiles[i].count);
+        all += reached;
+    }
+    assert_true(all > 4 * PLACES);
+    host_buffer_destroy(&s.gpu.device, &down);
+    shot_close(&s);
+}
+
 /* ---- the map */
 
 static void compare_map(const shot *s, const ball *balls, int count)
@@ -829,6 +894,7 @@ static void only_processors_shuffle(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_hold_the_balls_that_were_counted),
         cmocka_unit_test(the_map_is_that_of_the_reference),
         cmocka_unit_test(a_drop_alone_is_a_cap),
         cmocka_unit_test(weights_sum_to_one),
