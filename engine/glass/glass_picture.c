@@ -195,9 +195,14 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
 
 /* ---- creating */
 
-/* Lanes of a subgroup; 0 where compute shaders may not shuffle. */
+/* Lanes of a subgroup that passes may hand values around in by shuffles; 0: they use shared memory. Of processors alone,
+ * where it was measured to gain and where a workgroup of whole subgroups has no lane missing. Other devices may run a
+ * shader with fewer lanes than they say, or with some that do not exist, as Vulkan 1.2 cannot ask for full subgroups:
+ * what comes out of a lane that is not there is undefined. */
 static uint32_t shuffled_lanes(const virga_context *context)
 {
+    if (!context->software)
+        return 0;
     VkPhysicalDeviceSubgroupProperties subgroup = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                               .pNext = &subgroup};
@@ -345,11 +350,11 @@ error:
     return result; /* what was made goes with the pane */
 }
 
-virga_result glass_picture_share(virga_glass *glass)
+virga_result glass_picture_take_lanes(virga_glass *glass, uint32_t lanes)
 {
     retire_gathers(glass->context, glass->picture);
     retire_reliefs(glass->context, glass->picture);
-    glass->picture->lanes = 0;
+    glass->picture->lanes = lanes;
     const virga_result result = create_forms(glass);
     return result ? result : glass_picture_need(glass, &glass->settings);
 }

@@ -62,7 +62,7 @@ struct glass_picture {
     virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];             /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
-    uint32_t lanes;                               /* of a subgroup that may shuffle; 0: none may */
+    uint32_t lanes; /* of a subgroup that passes hand values around in; 0: they use shared memory */
     glass_target targets[GLASS_MAX_TARGETS];
     bool cleared; /* images have their layout, and `written` says that all is to be written */
 
@@ -90,7 +90,8 @@ uint32_t glass_view_bytes(void);
 /* Where the pane was in the previous frame's picture; world_from_pane is filled. In glass_temporal.c. */
 void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look);
 
-/* Hands balls around in shared memory, though the device may shuffle: for tests and measurements. The same bits. */
-virga_result glass_picture_share(virga_glass *glass);
+/* Makes the passes anew as for a subgroup of so many lanes, 0: as for a device that hands balls around in shared memory.
+ * For tests and measurements, on a device that may shuffle. The same bits. */
+virga_result glass_picture_take_lanes(virga_glass *glass, uint32_t lanes);
 
 #endif

@@ -217,6 +217,7 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     }
     TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
     context->vk.GetPhysicalDeviceProperties(def->physical_device, &context->properties);
+    context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
     TRY(virga_pipeline_cache_create(context, def->pipeline_cache, def->pipeline_cache_size));
     TRY(create_timers(context, def));

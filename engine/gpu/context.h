@@ -97,6 +97,7 @@ struct virga_context {
     uint32_t frames_in_flight;
     bool debug_names;
     bool lost;
+    bool software; /* the device is a processor: forms of passes that were measured to suit it */
     virga_pipelines_when pipelines_when;
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* pipelines to be built, in the order they were asked for */

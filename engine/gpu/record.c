@@ -125,16 +125,22 @@ virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, c
     return (virga_pass_scope){slot->count - 1};
 }
 
-/* A timestamp between two barriers: without them software Vulkan takes it before the work in front is done, and it
- * costs little where passes wait for each other anyway. */
-virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+static void wait_for_all(virga_context *context, VkCommandBuffer cmd)
 {
     const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-    if (context->timings)
-        virga_barrier(context, cmd, all, 0, all, 0);
+    virga_barrier(context, cmd, all, 0, all, 0);
+}
+
+/* On software Vulkan a timestamp between two barriers: without them it is taken before the work in front is done, and
+ * passes wait for each other there anyway. A GPU would drain at each, the host's own work with it. */
+virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
+{
+    const bool alone = context->timings && context->software;
+    if (alone)
+        wait_for_all(context, cmd);
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
-    if (context->timings)
-        virga_barrier(context, cmd, all, 0, all, 0);
+    if (alone)
+        wait_for_all(context, cmd);
     return scope;
 }
 

@@ -109,6 +109,19 @@ void run_off(inout virga_glass_drop_gpu drop)
     drop.target = OUTSIDE;
 }
 
+// The cell that it goes to, or over the edge.
+void go_on(uint place, inout virga_glass_drop_gpu drop)
+{
+    const ivec2 cell = cell_place(drop.cell), way = choose_way(drop, cell);
+    drop.ahead_m -= tick.pane.cell_m * length(vec2(way));
+    drop.kind |= VIRGA_GLASS_RUNNING;
+    if (on_pane(cell + way)) {
+        drop.target = cell_number(cell + way);
+        atomicMin(claims[claim_of(drop.target, round_index)], place);
+    } else
+        run_off(drop);
+}
+
 void main()
 {
     const uint place = awake_place();
@@ -132,15 +145,9 @@ void main()
         drop.target = NOWHERE;
     } else
         drop.captor = NOWHERE; // the last claims are cleared in touch.comp
-    if (goes) {
-        const ivec2 cell = cell_place(drop.cell), way = choose_way(drop, cell);
-        drop.ahead_m -= tick.pane.cell_m * length(vec2(way));
-        drop.kind |= VIRGA_GLASS_RUNNING;
-        if (on_pane(cell + way)) {
-            drop.target = cell_number(cell + way);
-            atomicMin(claims[claim_of(drop.target, round_index)], place);
-        } else
-            run_off(drop);
-    }
+    if (goes && to_vec2(drop.velocity) == vec2(0.0))
+        drop.ahead_m = 0.0; // at rest it has no direction to go in
+    else if (goes)
+        go_on(place, drop);
     drops[place] = drop;
 }

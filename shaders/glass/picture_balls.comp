@@ -79,18 +79,16 @@ void shape_tear(vec2 velocity)
     }
 }
 
-void count_tiles(vec2 middle, float reach_m)
+void count_tiles(uvec2 reached)
 {
-    ivec2 first, last;
-    uint reached = 0u;
-    tiles_around(middle, reach_m, first, last);
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++, reached++)
-            atomicAdd(tiles[tile_number(ivec2(x, y))].count, 1u);
-    atomicAdd(work.entries, reached);
+    const uvec2 first = reached & 0xffffu, number = reached >> 16;
+    for (uint y = 0u; y < number.y; y++)
+        for (uint x = 0u; x < number.x; x++)
+            atomicAdd(tiles[tile_number(first + uvec2(x, y))].count, 1u);
+    atomicAdd(work.entries, number.x * number.y);
 }
 
-void emit_balls(uint id, vec2 sag)
+void emit_balls(vec2 sag)
 {
     const float texel_m2 = look.texel_m[0] * look.texel_m[1];
     for (uint i = 0u; i < VIRGA_GLASS_DROP_BALLS; i++) {
@@ -99,10 +97,13 @@ void emit_balls(uint id, vec2 sag)
         const bool misty = i == 0u || sub_peak == 1.0;
         const float mist = misty ? (1.0 - shape) * min(3.14159265 * radius * radius / texel_m2, 4.0) : 0.0;
         if (radius > 0.0 && peak + mist > 0.0) {
-            balls[atomicAdd(work.balls, 1u)] = virga_glass_ball_gpu(float[2](middles[i].x, middles[i].y), radius, mist,
-                                                                   float[2](sag.x, sag.y), id, peak);
+            const uvec2 reached =
+                tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
+            balls[atomicAdd(work.balls, 1u)] =
+                virga_glass_ball_gpu(float[2](middles[i].x, middles[i].y), radius, mist, float[2](sag.x, sag.y), peak,
+                                     uint[2](reached.x, reached.y));
             atomicAdd(work.shaped, peak > 0.0 ? 1u : 0u);
-            count_tiles(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
+            count_tiles(reached);
             atomicMax(widest, floatBitsToUint(radius));
         }
     }
@@ -127,7 +128,7 @@ void make(uint place)
         shape_landing(age / look.impact_s, at.random);
     if (runs)
         shape_tear(velocity);
-    emit_balls(at.id, sag);
+    emit_balls(sag);
 }
 
 void main()

@@ -22,7 +22,7 @@ void mark(uvec2 cell)
     tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, reach_m, first, last);
     for (int y = first.y; y <= last.y; y++)
         for (int x = first.x; x <= last.x; x++)
-            atomicOr(tiles[tile_number(ivec2(x, y))].film, 1u);
+            atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
 }
 
 void main()

@@ -1,6 +1,6 @@
 // picture_gather.glsl - the height map, tile by tile: densities and heights of the balls that reach a texel are added
 // up, in whole numbers as no order is kept, blended, and compressed. The includer says how a workgroup hands balls
-// around: SHUFFLE or not.
+// around: SHUFFLE, where every lane of a subgroup is known to exist, or not.
 //
 // Of each ball four sums: its density V; and, with the weight k, k V, k V z and k K, where z is its height, sag and
 // all, over the highest of the view, and K = 1 / (1 + x^2)^2. With the weight k = z,

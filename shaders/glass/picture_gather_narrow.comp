@@ -1,4 +1,4 @@
-// picture_gather_narrow.comp - the height map, for devices with few lanes to a subgroup: a lane for each column
+// picture_gather_narrow.comp - the height map, for software Vulkan with few lanes to a subgroup: a lane for each column
 // of a tile. The same bits.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
-// picture_gather_shuffle.comp - the height map, balls handed around by shuffles, where a device has them: the same
-// bits.
+// picture_gather_shuffle.comp - the height map, balls handed around by shuffles, for software Vulkan with more lanes
+// to a subgroup than eight. The same bits.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

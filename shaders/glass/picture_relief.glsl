@@ -63,14 +63,18 @@ void put(ivec2 at, bool shown, vec4 texel, vec2 before, vec2 after)
 }
 
 #if LANES == 8
-// Of the row `row` of the tile: its level, and those at the tile's ends to the left and to the right, of a row by each
-// lane.
-#define LEFT(own, ends, row) (lane == 0u ? subgroupShuffle(ends, row) : subgroupShuffle(own, max(lane, 1u) - 1u))
-#define RIGHT(own, ends, row) (lane == 7u ? subgroupShuffle(ends, row) : subgroupShuffle(own, min(lane, 6u) + 1u))
+// What is beside a lane's texel in the row `row` of the tile: of `own` what the lane `beside` has, or, at the tile's
+// end, of `ends`, which each lane has for the row of its number. All lanes take part in both: a shuffle from one that
+// does not is undefined.
+float level_beside(float own, uint beside, bool at_end, float ends, uint row)
+{
+    const float inside = subgroupShuffle(own, beside), end = subgroupShuffle(ends, row);
+    return at_end ? end : inside;
+}
 
 void put_tile(ivec2 first, bool shown)
 {
-    const uint lane = gl_SubgroupInvocationID;
+    const uint lane = gl_SubgroupInvocationID, lane_left = max(lane, 1u) - 1u, lane_right = min(lane, 6u) + 1u;
     const float left = level(texel_at(first + ivec2(-1, lane))), right = level(texel_at(first + ivec2(TILE, lane)));
     vec4 own = texel_at(first + ivec2(lane, 0));
     float below = level(texel_at(first + ivec2(lane, -1)));
@@ -78,8 +82,9 @@ void put_tile(ivec2 first, bool shown)
     {                                                                                                                  \
         const vec4 next = texel_at(first + ivec2(lane, i + 1));                                                        \
         const float here = level(own);                                                                                 \
-        const vec2 before = vec2(LEFT(here, left, i), below), after = vec2(RIGHT(here, right, i), level(next));        \
-        put(first + ivec2(lane, i), shown, own, before, after);                                                        \
+        const float level_left = level_beside(here, lane_left, lane == 0u, left, i);                                   \
+        const float level_right = level_beside(here, lane_right, lane == 7u, right, i);                                \
+        put(first + ivec2(lane, i), shown, own, vec2(level_left, below), vec2(level_right, level(next)));              \
         below = here;                                                                                                  \
         own = next;                                                                                                    \
     }

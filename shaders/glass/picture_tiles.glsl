@@ -14,7 +14,17 @@ void tiles_around(vec2 middle, float reach_m, out ivec2 first, out ivec2 last)
     last = min(ivec2(floor(clamp((middle + reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), most);
 }
 
-uint tile_number(ivec2 tile) { return uint(tile.x) + uint(tile.y) * look.tile_columns; }
+uint tile_number(uvec2 tile) { return tile.x + tile.y * look.tile_columns; }
+
+// Those of a ball, along u and along v: the first | how many << 16. Found out once, and kept with the ball: the pass
+// that sizes tiles' lists and the one that fills them have to agree, and two compilations of one formula may round
+// apart.
+uvec2 tiles_reached(vec2 middle, float reach_m)
+{
+    ivec2 first, last;
+    tiles_around(middle, reach_m, first, last);
+    return uvec2(first) | uvec2(max(last - first + 1, ivec2(0))) << 16;
+}
 
 // A ball's reach: mist is spread over a texel.
 float ball_reach(float radius_m, float density_reach)

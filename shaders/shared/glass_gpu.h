@@ -172,14 +172,14 @@ struct virga_glass_seed_gpu {
     uint kind;
 };
 
-/* One two-dimensional metaball of the height map, 32 bytes. */
+/* One two-dimensional metaball of the height map, 36 bytes. */
 struct virga_glass_ball_gpu {
     float middle[2];       /* m on the pane */
     float radius_m;        /* where one alone has the density 0.5; its water is so high by the cap's shape */
     float mist;            /* texels that it covers besides its shape, as it is hardly larger than one */
     float sag[2];          /* height is multiplied by 1 + dot(sag, offset / radius): fatter to that side */
-    uint id;
     float peak;            /* density in its middle: 1, or less for what is hardly larger than a texel; 0: no shape */
+    uint tiles[2];         /* that it reaches along u, along v: the first | how many << 16 */
 };
 
 #ifndef VIRGA_GLSL
@@ -187,7 +187,7 @@ VIRGA_ASSERT_SIZE(virga_glass_pane_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_glass_node_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_glass_blade_gpu, 56);
 VIRGA_ASSERT_SIZE(virga_glass_seed_gpu, 40);
-VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_glass_ball_gpu, 36);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, alive_groups, 24);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, counts, 200);
 VIRGA_ASSERT_OFFSET(virga_glass_state_gpu, bins_nl, 296);

@@ -319,6 +319,60 @@ static void drops_that_become_one_lie_in_the_middle_of_their_water(void **unused
     glass_fixture_close(&f);
 }
 
+/* The drops as a test changed them in `upload`. */
+static void put_drops(void)
+{
+    const VkCommandBuffer cmd = glass_fixture_begin(&f);
+    const VkBufferCopy all = {0, 0, f.glass->drops->size};
+    effect_fixture_transfers(cmd);
+    vkCmdCopyBuffer(cmd, f.upload.buffer, f.glass->drops->buffer, 1, &all);
+    glass_fixture_submit(&f);
+}
+
+/* It has no direction: that of (0, 0) is undefined. */
+static void a_stopped_drop_with_way_left_stays(void **unused)
+{
+    (void)unused;
+    const float flat[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+    open_even(NULL);
+    memcpy(f.info.world_from_pane, flat, sizeof flat);
+    glass_fixture_land(&f, 0.0805, 0.0611, water_of(1e-3));
+    glass_fixture_step(&f, 1, true);
+    const uint32_t place = (uint32_t)(only_drop() - f.drops), cell = only_drop()->cell;
+    virga_glass_drop_gpu *given = f.upload.mapped;
+    memcpy(given, f.drops, f.glass->drops->size);
+    given[place].ahead_m = 3 * f.glass->def.cell_m;
+    given[place].kind |= VIRGA_GLASS_RUNNING;
+    put_drops();
+    glass_fixture_step(&f, 1, true);
+    assert_int_equal(f.drops[place].cell, cell);
+    assert_true(f.drops[place].ahead_m == 0);
+    assert_true(f.drops[place].velocity[0] == 0 && f.drops[place].velocity[1] == 0);
+    glass_fixture_close(&f);
+}
+
+/* Two of ten millilitres at 0.8 m/s: the momentum of each is more than a whole number of nl mm/s holds. What comes of
+ * them runs on, and not back. */
+static void the_largest_drops_keep_their_direction_as_they_merge(void **unused)
+{
+    (void)unused;
+    open_even(NULL);
+    glass_fixture_land(&f, 0.0805, 0.0811, 10000000);
+    glass_fixture_land(&f, 0.0825, 0.0811, 10000000);
+    glass_fixture_step(&f, 1, true);
+    virga_glass_drop_gpu *given = f.upload.mapped;
+    memcpy(given, f.drops, f.glass->drops->size);
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&given[i]) == VIRGA_GLASS_DROP)
+            given[i].velocity[0] = 0.8f;
+    put_drops();
+    glass_fixture_step(&f, 1, true);
+    const virga_glass_drop_gpu *drop = only_drop();
+    REQUIRE(drop && drop->water_nl == 20000000);
+    assert_true(drop->velocity[0] > 0.4f && drop->velocity[0] < 0.9f);
+    glass_fixture_close(&f);
+}
+
 /* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that
  * and the fourth were to be taken in by drops that were taken in themselves, and look again. */
 static void a_drop_whose_captor_is_gone_looks_again(void **unused)
@@ -544,6 +598,8 @@ int main(void)
         cmocka_unit_test(a_second_drop_follows_the_path_of_the_first),
         cmocka_unit_test(drops_at_rest_become_one_where_their_bases_meet),
         cmocka_unit_test(drops_that_become_one_lie_in_the_middle_of_their_water),
+        cmocka_unit_test(a_stopped_drop_with_way_left_stays),
+        cmocka_unit_test(the_largest_drops_keep_their_direction_as_they_merge),
         cmocka_unit_test(a_drop_whose_captor_is_gone_looks_again),
         cmocka_unit_test(drops_at_rest_do_not_touch),
         cmocka_unit_test(a_drop_becomes_as_many_particles_as_its_water_gives),

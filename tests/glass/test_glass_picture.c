@@ -147,6 +147,71 @@ static double texel_v(const shot *s, uint32_t row)
     return (row + 0.5) * (double)s->glass->def.height_m / s->rows;
 }
 
+/* ---- lists of tiles */
+
+/* Copies of what the newest frame left of tiles' lists; they stay until the fixture's next. */
+static const virga_glass_tile_gpu *read_lists(shot *s, host_buffer *down, const uint32_t **entries)
+{
+    const struct glass_picture *picture = s->glass->picture;
+    VkCommandBuffer cmd;
+    VkDeviceSize offset = 0;
+    REQUIRE(host_buffer_create(&s->gpu.device, picture->tiles->size + picture->entries->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "lists down", down, s->gpu.error,
+                               sizeof s->gpu.error));
+    shot_begin(s, &cmd);
+    effect_fixture_transfers(cmd);
+    const virga_glass_tile_gpu *tiles =
+        effect_fixture_copy(cmd, picture->tiles->buffer, picture->tiles->size, down, &offset);
+    *entries = effect_fixture_copy(cmd, picture->entries->buffer, picture->entries->size, down, &offset);
+    shot_submit(s);
+    host_buffer_invalidate(&s->gpu.device, down);
+    return tiles;
+}
+
+static bool reaches(const virga_glass_ball_gpu *ball, const uint32_t tile[2])
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (tile[axis] - (ball->tiles[axis] & 0xffff) >= ball->tiles[axis] >> 16)
+            return false;
+    return true;
+}
+
+/* Each ball, one to a drop at rest, once in the list of each tile that it says to reach: one entry more would be another
+ * tile's, one less an older frame's. Some lie over the edge. */
+static void lists_hold_the_balls_that_were_counted(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    host_buffer down = {0};
+    const uint32_t *entries;
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    shot_drop(&s, 0, 0.064, shot_water(&s, 3e-3));
+    shot_drop(&s, 0.096, 0, shot_water(&s, 2e-4));
+    shot_draw(&s, false);
+    const virga_glass_tile_gpu *tiles = read_lists(&s, &down, &entries);
+    const uint32_t columns = s.columns / VIRGA_GLASS_TILE, rows = s.rows / VIRGA_GLASS_TILE;
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < columns * rows; i++) {
+        const uint32_t at[2] = {i % columns, i / columns};
+        uint32_t reached = 0;
+        assert_int_equal(tiles[i].filled, tiles[i].count);
+        for (uint32_t k = 0; k < s.drop_count; k++) {
+            uint32_t times = 0;
+            for (uint32_t j = 0; j < tiles[i].count; j++)
+                times += entries[tiles[i].first + j] == k;
+            assert_int_equal(times, reaches(&s.balls[k], at));
+            reached += times;
+        }
+        assert_int_equal(reached, tiles[i].count);
+        all += reached;
+    }
+    assert_true(all > 4 * PLACES);
+    host_buffer_destroy(&s.gpu.device, &down);
+    shot_close(&s);
+}
+
 /* ---- the map */
 
 static void compare_map(const shot *s, const ball *balls, int count)
@@ -705,17 +770,27 @@ static void nothing_is_drawn_where_there_is_no_glass(void **state)
     shot_close(&s);
 }
 
+#define OWN_LANES UINT32_MAX /* those that the device was found to have */
+
+/* Drops in one place, of which more reach a tile than a workgroup takes at once. */
+static void crowd(shot *s)
+{
+    for (int i = 0; i < 150; i++)
+        shot_drop(s, 0.02 + 1e-5 * i, 0.03, shot_water(s, 2e-3));
+}
+
 /* A frame's map and pixels, with film and beads; to be freed. */
-static float *whole_frame(const char *threads, bool share, size_t *count)
+static float *whole_frame(const char *threads, uint32_t lanes, size_t *count)
 {
     shot s;
     ball balls[PLACES];
     setenv("LP_NUM_THREADS", threads, 1);
     open_small(&s);
-    if (share)
-        REQUIRE(glass_picture_share(s.glass) == VIRGA_OK);
+    if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
+        REQUIRE(glass_picture_take_lanes(s.glass, lanes) == VIRGA_OK);
     put_places(&s);
     put_balls(&s, balls, PLACES);
+    crowd(&s);
     for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
         s.film[i] = i % 5 * 20;
         s.passed[i] = i % 2 * s.glass->last_tick;
@@ -774,9 +849,9 @@ static void the_same_bits_come_out_every_time(void **state)
 {
     (void)state;
     size_t count = 0;
-    float *first = whole_frame("1", false, &count);
-    for (int i = 0; i < 3; i++) {
-        float *other = whole_frame(i == 1 ? "1" : "2", i == 2, &count);
+    float *first = whole_frame("1", OWN_LANES, &count);
+    for (int i = 0; i < 2; i++) {
+        float *other = whole_frame(i == 1 ? "1" : "2", OWN_LANES, &count);
         if (memcmp(first, other, count * 4))
             fail_msg("other bits in run %d", i);
         free(other);
@@ -784,9 +859,42 @@ static void the_same_bits_come_out_every_time(void **state)
     free(first);
 }
 
+/* By shared memory, by shuffles among a workgroup's subgroups, and as the device does it by itself. */
+static void the_same_bits_come_out_however_balls_are_handed_around(void **state)
+{
+    (void)state;
+    size_t count = 0;
+    float *own = whole_frame("2", OWN_LANES, &count);
+    for (uint32_t lanes = 0; lanes <= 64; lanes += 64) {
+        float *other = whole_frame("2", lanes, &count);
+        if (memcmp(own, other, count * 4))
+            fail_msg("other bits as for %u lanes", lanes);
+        free(other);
+    }
+    free(own);
+}
+
+/* What a GPU says of its subgroups is not what a shader runs with: it may lack lanes. */
+static void only_processors_shuffle(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    const virga_glass_def def = s.glass->def;
+    REQUIRE(s.context->software == (s.context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
+    REQUIRE(s.context->software || s.glass->picture->lanes == 0);
+    s.context->software = false;
+    virga_glass *other = NULL;
+    REQUIRE(virga_glass_create(s.context, &def, &other) == VIRGA_OK);
+    REQUIRE(other->picture->lanes == 0);
+    virga_glass_destroy(&other);
+    shot_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_hold_the_balls_that_were_counted),
         cmocka_unit_test(the_map_is_that_of_the_reference),
         cmocka_unit_test(a_drop_alone_is_a_cap),
         cmocka_unit_test(weights_sum_to_one),
@@ -805,6 +913,8 @@ int main(void)
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
         cmocka_unit_test(the_paper_shows_the_same_with_heights_and_without),
         cmocka_unit_test(the_same_bits_come_out_every_time),
+        cmocka_unit_test(the_same_bits_come_out_however_balls_are_handed_around),
+        cmocka_unit_test(only_processors_shuffle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

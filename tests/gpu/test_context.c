@@ -666,6 +666,55 @@ static void frames_rise_and_completed_stays_behind(void **state)
     virga_context_destroy(&context);
 }
 
+/* ---- timings */
+
+static VkPhysicalDeviceType lie_type_name;
+
+static void lie_type(VkPhysicalDeviceProperties *properties)
+{
+    properties->deviceType = lie_type_name;
+}
+
+/* Barriers at which everything waits for everything in a frame of rain on such a device, and passes that were timed. */
+static uint32_t full_barriers(gpu_fixture *f, VkPhysicalDeviceType type, bool timings, uint32_t *timed)
+{
+    virga_context_def def = gpu_context_def(f);
+    virga_context *context = NULL;
+    def.timings = timings;
+    lie_type_name = type;
+    watch.lie_properties = lie_type;
+    REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+    watch.lie_properties = NULL;
+    virga_rain *rain = gpu_rain(context);
+    gpu_picture picture;
+    gpu_picture_open(f, context, &picture);
+    REQUIRE(virga_rain_attach(rain, picture.target) == VIRGA_OK);
+    watch.full_barriers = 0;
+    gpu_record(gpu_begin_frame(f, context), rain, &picture);
+    const uint32_t found = watch.full_barriers;
+    gpu_submit(f);
+    gpu_wait(f);
+    REQUIRE(virga_frame_completed(context, f->gpu.device.completed) == VIRGA_OK);
+    *timed = virga_timings_get(context, NULL, 0);
+    virga_rain_destroy(&rain);
+    gpu_picture_close(f, &picture);
+    virga_context_destroy(&context);
+    return found;
+}
+
+/* A GPU would drain at each, also where timings are on by default. */
+static void passes_are_timed_one_by_one_on_processors_alone(void **state)
+{
+    gpu_fixture *f = *state;
+    uint32_t on_processor = 0, on_gpu = 0, none = 0;
+    assert_true(full_barriers(f, VK_PHYSICAL_DEVICE_TYPE_CPU, true, &on_processor) > 0);
+    assert_int_equal(full_barriers(f, VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, true, &on_gpu), 0);
+    assert_int_equal(full_barriers(f, VK_PHYSICAL_DEVICE_TYPE_CPU, false, &none), 0);
+    assert_true(on_processor > 0);
+    assert_int_equal(on_gpu, on_processor);
+    assert_int_equal(none, 0);
+}
+
 /* A frame that was never begun cannot have completed, whatever comes after it. */
 static void completed_does_not_pass_the_newest_frame(void **state)
 {
@@ -750,6 +799,7 @@ int main(void)
         gpu_test(occlusion_before_the_first_frame_is_refused),
         gpu_test(frames_rise_and_completed_stays_behind),
         gpu_test(completed_does_not_pass_the_newest_frame),
+        gpu_test(passes_are_timed_one_by_one_on_processors_alone),
         gpu_test(lost_device_is_sticky_and_said_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,6 +61,8 @@ static struct watch {
     const void *cache_data; /* what the newest pipeline cache was made of */
     size_t cache_size;
 
+    uint32_t full_barriers; /* that have been recorded: all commands wait for all */
+
     void (*before_pipeline)(void); /* called on the thread that makes one, before it does */
 
     const char *hidden; /* a function that the instance does not know */
@@ -459,6 +461,17 @@ static VKAPI_ATTR void VKAPI_CALL watch_GetBufferMemoryRequirements(VkDevice dev
         need->memoryTypeBits = watch.lie_types;
 }
 
+static VKAPI_ATTR void VKAPI_CALL watch_CmdPipelineBarrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
+                                                           VkPipelineStageFlags to, VkDependencyFlags flags,
+                                                           uint32_t memory_count, const VkMemoryBarrier *memory,
+                                                           uint32_t buffer_count, const VkBufferMemoryBarrier *buffers,
+                                                           uint32_t image_count, const VkImageMemoryBarrier *images)
+{
+    const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    watch.full_barriers += (from & all) && (to & all);
+    vkCmdPipelineBarrier(cmd, from, to, flags, memory_count, memory, buffer_count, buffers, image_count, images);
+}
+
 /* ---- functions of the instance */
 
 static VKAPI_ATTR void VKAPI_CALL watch_GetPhysicalDeviceMemoryProperties(VkPhysicalDevice device,
@@ -521,6 +534,7 @@ static inline PFN_vkVoidFunction watch_find(const char *name)
         WATCH_ENTRY(InvalidateMappedMemoryRanges)
         WATCH_ENTRY(GetQueryPoolResults)
         WATCH_ENTRY(GetPipelineCacheData)
+        WATCH_ENTRY(CmdPipelineBarrier)
         WATCH_ENTRY(GetPhysicalDeviceProperties)
         WATCH_ENTRY(GetPhysicalDeviceFeatures2)
         WATCH_ENTRY(GetPhysicalDeviceFormatProperties)

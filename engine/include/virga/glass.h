@@ -47,7 +47,7 @@ typedef struct virga_glass_def {
     float cell_m;                 /* [0.0005; 0.01] side of a cell, of which one drop has one. 16 bytes of device memory
                                    * a cell, 4,194,304 cells at most (else raised). Default 0.002, the paper's */
     uint32_t max_drops;           /* [256; 262144] drops and particles together, raised to whole workgroups of 256; 188
-                                   * bytes each, and 192 for its picture. Where there is no place, water joins the film.
+                                   * bytes each, and 208 for its picture. Where there is no place, water joins the film.
                                    * Default 32768 */
     float affinity_m;             /* [0.0005; 0.1] width of the spots that the glass is uneven in. Default 0.006 */
     uint32_t max_texels;          /* [64; 4096] of the height map along the pane's longer side; it is made as large as

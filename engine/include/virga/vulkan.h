@@ -125,7 +125,8 @@ typedef struct virga_context_def {
     virga_pipelines_when pipelines;    /* default VIRGA_PIPELINES_AT_ONCE */
     virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
-    bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none */
+    bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none. Costs two
+                        * timestamps a pass; on a software device also two barriers, so that passes run one by one */
     bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled: where
                         * get_instance_proc_addr gives its functions for the instance. Default true */
 } virga_context_def;
@@ -177,7 +178,10 @@ typedef struct virga_memory_stats {
 
 VIRGA_API void virga_memory_get(const virga_context *context, virga_memory_stats *stats);
 
-/* The device time of one pass in the newest completed frame that recorded it. */
+/* The device time of one pass in the newest completed frame that recorded it: from when the device came to it to when
+ * all up to its end was done. On a GPU no barrier sets passes apart for it, so that neighbours (and the host's own work
+ * recorded just before) may overlap and times add up to more than the frame took. On a software device passes are timed
+ * one by one. */
 typedef struct virga_pass_time {
     const char *name;    /* e.g. "rain.step"; static */
     double milliseconds; /* summed over the frame's dispatches or draws of that name */
