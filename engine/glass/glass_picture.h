@@ -90,8 +90,8 @@ uint32_t glass_view_bytes(void);
 /* Where the pane was in the previous frame's picture; world_from_pane is filled. In glass_temporal.c. */
 void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look);
 
-/* Makes the passes anew as for a subgroup of so many lanes, 0: as for a device that hands balls around in shared memory.
- * For tests and measurements, on a device that may shuffle. The same bits. */
+/* Makes the passes anew as for a subgroup of so many lanes, 0: as for a device that hands balls around in shared
+ * memory. For tests and measurements, on a device that may shuffle. The same bits. */
 virga_result glass_picture_take_lanes(virga_glass *glass, uint32_t lanes);
 
 #endif

@@ -176,8 +176,8 @@ static bool reaches(const virga_glass_ball_gpu *ball, const uint32_t tile[2])
     return true;
 }
 
-/* Each ball, one to a drop at rest, once in the list of each tile that it says to reach: one entry more would be another
- * tile's, one less an older frame's. Some lie over the edge. */
+/* Each ball, one to a drop at rest, once in the list of each tile that it says to reach: one entry more would be
+ * another tile's, one less an older frame's. Some lie over the edge. */
 static void lists_hold_the_balls_that_were_counted(void **state)
 {
     (void)state;
