@@ -196,9 +196,9 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
 /* ---- creating */
 
 /* Lanes of a subgroup that passes may hand values around in by shuffles; 0: they use shared memory. Of processors
- * alone, where it was measured to gain and where a workgroup of whole subgroups has no lane missing. Other devices may run a
- * shader with fewer lanes than they say, or with some that do not exist, as Vulkan 1.2 cannot ask for full subgroups:
- * what comes out of a lane that is not there is undefined. */
+ * alone, where it was measured to gain and where a workgroup of whole subgroups has no lane missing. Other devices
+ * may run a shader with fewer lanes than they say, or with some that do not exist, as Vulkan 1.2 cannot ask for full
+ * subgroups: what comes out of a lane that is not there is undefined. */
 static uint32_t shuffled_lanes(const virga_context *context)
 {
     if (!context->software)

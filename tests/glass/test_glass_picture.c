@@ -606,22 +606,34 @@ static void a_flat_film_does_not_bend(void **state)
     shot_close(&s);
 }
 
+/* Nothing is to be seen but what the pane shows of lights that a test adds. */
+static void open_before_black(shot *s)
+{
+    open_small(s);
+    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
+    shot_plate(s, black);
+    free(black);
+    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
+}
+
+/* An even film of so many nanolitres a cell, not yet drawn together into beads. */
+static void put_film(shot *s, uint32_t nl)
+{
+    for (uint32_t i = 0; i < s->glass->columns * s->glass->rows; i++) {
+        s->film[i] = nl;
+        s->passed[i] = s->glass->last_tick;
+    }
+}
+
 /* Before a black plate under an even sky a flat film shows what it reflects: ((n - 1) / (n + 1))^2 straight on. */
 static void water_reflects_by_fresnel(void **state)
 {
     (void)state;
     shot s;
-    open_small(&s);
-    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
-    shot_plate(&s, black);
-    free(black);
-    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    open_before_black(&s);
     for (int i = 0; i < 3; i++)
         s.settings.lighting.environment_sh[0][i] = 1 / 0.282095f;
-    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
-        s.film[i] = 80;
-        s.passed[i] = s.glass->last_tick;
-    }
+    put_film(&s, 80);
     const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
     const double straight = (WATER - 1) / (WATER + 1);
     for (int i = 0; i < 3; i++)
@@ -635,21 +647,14 @@ static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
 {
     (void)state;
     shot s;
-    open_small(&s);
-    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
-    shot_plate(&s, black);
-    free(black);
-    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    open_before_black(&s);
     s.settings.opaque = true;
     shot_face(&s, 1, 30);
     const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m;
     const double away = fmax(v, u * HEIGHT / WIDTH) / tan(15 * M_PI / 180);
     s.settings.lighting.light_count = 1;
     s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
-    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
-        s.film[i] = 40; /* 10 um */
-        s.passed[i] = s.glass->last_tick;
-    }
+    put_film(&s, 40); /* 10 um */
     const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
     const double straight = (WATER - 1) / (WATER + 1);
     const double spread = 1 / (away * away * 2 * M_PI * 0.15 * 0.15);
