@@ -1,10 +1,11 @@
-// rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets. A vertex
-// shader defines RINGS_ACCESS readonly.
+// rings.glsl - rings on puddles: where their records lie, how deep a crater a drop opens, how rough water gets. A
+// vertex shader defines RINGS_ACCESS readonly.
 #ifndef RINGS_ACCESS
 #define RINGS_ACCESS
 #endif
 
-layout(scalar, set = 0, binding = 17) RINGS_ACCESS buffer Stirs { uint stirs[]; }; // variance of slope by cell, in millionths
+// Variance of slope by cell, in millionths.
+layout(scalar, set = 0, binding = 17) RINGS_ACCESS buffer Stirs { uint stirs[]; };
 layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;

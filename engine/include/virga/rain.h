@@ -192,8 +192,9 @@ VIRGA_API virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd,
  * for a rain. Call it where compiling is fine, not while recording a frame that must be on time. */
 VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *target);
 
-/* Draws haze and streaks of the newest prepare of this frame, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA. Inside
- * rendering of `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again afterwards.
+/* Draws haze and streaks of the newest prepare of this frame, premultiplied, blended ONE and ONE_MINUS_SRC_ALPHA.
+ * Inside rendering of `target`; sets pipeline, descriptors, viewport and scissor, so a host sets its own again
+ * afterwards.
  * VIRGA_NOT_READY (and nothing drawn) for a target that was not attached, or without a prepare in this frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
