@@ -149,8 +149,8 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 /* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
-/* A list that a host gives in a storage buffer: where it may begin, and that its size (0: not told) holds `least`
- * bytes. `name` is that of the member that holds the buffer; _offset and _size are those beside it. */
+/* A host's list in a storage buffer: where it may begin, and that its size (0: not told) holds `least` bytes.
+ * `name` is that of the member that holds the buffer; _offset and _size are those beside it. */
 virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
                                    VkDeviceSize size, VkDeviceSize least);
 

@@ -4,7 +4,8 @@
 #define RINGS_ACCESS
 #endif
 
-layout(scalar, set = 0, binding = 5) RINGS_ACCESS buffer Stirs { uint stirs[]; }; // variance of slope, in millionths
+// Variance of slope by cell, in millionths.
+layout(scalar, set = 0, binding = 5) RINGS_ACCESS buffer Stirs { uint stirs[]; };
 layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;
