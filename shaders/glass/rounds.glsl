@@ -14,11 +14,11 @@ layout(push_constant) uniform Round
 
 uint claim_of(uint cell, uint of_round) { return cell + (of_round & 1u) * cell_count(); }
 
-// What a drop gives of momentum (nl mm/s) and of moment (nl 10 um), at most: half and a tenth of what a whole number
-// holds, so that some of the largest add up. No drop is held back by the first: at the most that a drop may run in a
-// tick, 7.2 cells or 864 mm/s by default, it is 1.2 ml, a cap with a radius of a centimetre. Beyond the range of whole
-// numbers a conversion is undefined.
-#define MOST_MOMENTUM 1e9
+// What a drop gives of momentum (nl mm/s) and of moment (nl 10 um), at most: beyond the range of whole numbers a
+// conversion is undefined. The first is 2.3 ml at the most that a drop may run in a tick, 7.2 cells or 864 mm/s by
+// default. What a wiper gathers comes near it (more than 1e9 in windshield.yaml), so it can not be less; the sum of
+// several such drops may still pass what a whole number holds.
+#define MOST_MOMENTUM 2e9
 #define MOST_MOMENT 2e8
 
 // Water and momentum of a drop that ends, given to another place, and how far from it that water was.
