@@ -92,20 +92,27 @@ static void test_water_runs_down_a_slope_into_the_drain(void **state)
     ground_fixture_close(&f);
 }
 
-/* A long slope of 1 %: a sheet of 2 mm moves with v = h^(2/3) sqrt(S) / n = 0.122 m/s at n = 0.013. */
-static void sheet_flows_at_mannings_speed(uint32_t flow_ticks)
+/* Two millimetres of water on every cell. */
+static void fill_two_mm(void)
 {
-    static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.03f, 3}, {-3, 0.03f, 3}}};
-    virga_ground_def def = virga_default_ground_def();
-    def.cells = 128;
-    def.max_impacts = MOST_DROPS;
-    def.flow_ticks = flow_ticks;
-    begin(slope, NULL, 1, &def);
     ground_fixture_step(&f, 0);
     virga_cell_gpu *cells = f.upload.mapped;
     for (uint32_t i = 0; i < 128 * 128; i++)
         cells[i] = (virga_cell_gpu){5000000, 0};
     ground_fixture_put(&f);
+}
+
+static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.03f, 3}, {-3, 0.03f, 3}}}; /* 1 % */
+
+/* On it a sheet of 2 mm moves with v = h^(2/3) sqrt(S) / n = 0.122 m/s at n = 0.013. */
+static void sheet_flows_at_mannings_speed(uint32_t flow_ticks)
+{
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.max_impacts = MOST_DROPS;
+    def.flow_ticks = flow_ticks;
+    begin(slope, NULL, 1, &def);
+    fill_two_mm();
     for (uint32_t i = 0; i < flow_ticks; i++)
         ground_fixture_step(&f, 16); /* 16 rounds in all */
     /* In the middle as much comes as goes; what passes x = 0 is seen where it gathers: sum right of it. */
@@ -151,13 +158,8 @@ static double unevenness(const uint32_t *swings)
 static void test_an_even_sheet_is_shown_even(void **state)
 {
     (void)state;
-    static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.03f, 3}, {-3, 0.03f, 3}}};
     begin(slope, NULL, 1, NULL);
-    ground_fixture_step(&f, 0);
-    virga_cell_gpu *cells = f.upload.mapped;
-    for (uint32_t i = 0; i < 128 * 128; i++)
-        cells[i] = (virga_cell_gpu){5000000, 0};
-    ground_fixture_put(&f);
+    fill_two_mm();
     for (int i = 0; i < 8; i++) {
         ground_fixture_step(&f, 13); /* ends after each of the four passes */
         assert_true(unevenness(NULL) > 0.1);
@@ -191,9 +193,9 @@ static double flow_between(virga_floor_gpu from_floor, double from, virga_floor_
 static void test_each_pass_moves_what_the_reference_does(void **state)
 {
     (void)state;
-    static const float slope[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.02f, 3}, {-3, 0.04f, 3}}};
+    static const float askew[1][4][3] = {{{-3, 0.03f, -3}, {3, -0.03f, -3}, {3, -0.02f, 3}, {-3, 0.04f, 3}}};
     static virga_cell_gpu before[128 * 128];
-    begin(slope, NULL, 1, NULL);
+    begin(askew, NULL, 1, NULL);
     ground_fixture_step(&f, 0);
     virga_cell_gpu *cells = f.upload.mapped;
     for (uint32_t i = 0; i < 128 * 128; i++)
@@ -231,11 +233,7 @@ static void test_water_sinks_and_dries_at_the_rates_asked_for(void **state)
     f.settings.materials[VIRGA_MATERIAL_OWN].drying = 2;
     f.settings.evaporation_mm_h = 9;
     virga_ground_set(f.ground, &f.settings);
-    ground_fixture_step(&f, 0);
-    virga_cell_gpu *cells = f.upload.mapped;
-    for (uint32_t i = 0; i < 128 * 128; i++)
-        cells[i] = (virga_cell_gpu){5000000, 0};
-    ground_fixture_put(&f);
+    fill_two_mm();
     for (int i = 0; i < 10; i++)
         ground_fixture_step(&f, 12);
     virga_ground_stats s;

@@ -19,15 +19,21 @@ static void change_target(shot *s, virga_target_kind kind, bool depth_attached)
     REQUIRE(virga_rain_attach(s->f.rain, s->layer) == VIRGA_OK);
 }
 
+/* A small picture in rain, looking level. */
+static void open_level(shot *s)
+{
+    open_shot(s, 80);
+    add_picture(s, 160, 120);
+    apply_settings(s);
+    aim_level(s);
+}
+
 static void an_attached_depth_hides_what_is_behind_it(void **state)
 {
     (void)state;
     shot s;
     double distance = 0;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     draw_frame(&s, 0.2);
     s.only = choose_streak(&s, &distance);
     const double whole = sum_of(&s, draw_frame(&s, 0), 3);
@@ -58,10 +64,7 @@ static void dynamic_rendering_gives_the_pixels_of_a_render_pass(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     if (!dynamic_rendering_there) {
         close_shot(&s);
         require_dynamic_rendering();
@@ -121,10 +124,7 @@ static void where_nothing_is_the_sky_also_in_reversed_depth(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     s.give_depth = true;
     float *normal = draw_copy(&s, 0.2);
     s.reversed = true;
@@ -142,10 +142,7 @@ static void frames_without_a_step_show_the_newest_one(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     float *stepped = draw_copy(&s, 0.2);
     const VkDeviceSize per_frame = s.f.rain->tick_ring->size / s.f.context->frames_in_flight;
     for (uint32_t i = 0; i < 2 * s.f.context->frames_in_flight + 1; i++) {
@@ -160,10 +157,7 @@ static void a_step_after_a_prepare_has_all_of_its_ticks(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     draw_frame(&s, 0.2);
     const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
     const virga_view view = view_of(&s);
@@ -180,10 +174,7 @@ static void a_frame_without_a_prepare_draws_nothing(void **state)
 {
     (void)state;
     shot s;
-    open_shot(&s, 80);
-    add_picture(&s, 160, 120);
-    apply_settings(&s);
-    aim_level(&s);
+    open_level(&s);
     draw_frame(&s, 0.2);
     for (int stepped = 0; stepped < 2; stepped++) {
         const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
