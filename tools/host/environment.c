@@ -7,11 +7,11 @@
 
 #include "panorama.h"
 
-#define SUN_LIMIT 32.0f    /* times the mean luminance; more rings in harmonics of degree 2 and speckles in the blur */
-#define SKY_MIN_WIDTH 2048 /* smaller panoramas show their texels: they are upsampled to this */
+#define SUN_LIMIT     32.0f /* times the mean luminance; more rings in harmonics of degree 2 and speckles in the blur */
+#define SKY_MIN_WIDTH 2048  /* smaller panoramas show their texels: they are upsampled to this */
 #define SKY_MAX_WIDTH 8192
-#define LIGHT_WIDTH 256    /* harmonics are taken from this size */
-#define BLUR_WIDTH 128     /* size of each reflection level */
+#define LIGHT_WIDTH   256 /* harmonics are taken from this size */
+#define BLUR_WIDTH    128 /* size of each reflection level */
 
 host_environment_def host_default_environment(void)
 {
@@ -52,8 +52,8 @@ static bool load(const host_environment_def *def, panorama *out, char *error, si
         return host_fail(error, error_size, "environment: intensity and rotation_deg must be finite, intensity >= 0");
     if (def->pixels && (def->width < 2 || def->height < 2))
         return host_fail(error, error_size, "environment: %u x %u pixels are no panorama", def->width, def->height);
-    bool ok = def->pixels ? panorama_from_rgb(def->pixels, def->width, def->height, def->intensity, out)
-                          : make_sky(def, out);
+    bool ok =
+        def->pixels ? panorama_from_rgb(def->pixels, def->width, def->height, def->intensity, out) : make_sky(def, out);
     return ok || host_fail(error, error_size, "environment: out of memory");
 }
 
@@ -83,7 +83,6 @@ static bool upload(host_device *device, const float *rgba, VkExtent3D extent, co
     host_image_def def = {
         .format = full ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT,
         .extent = extent,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
         .name = name,
     };
     size_t count = (size_t)extent.width * extent.height * extent.depth * 4;
@@ -93,9 +92,8 @@ static bool upload(host_device *device, const float *rgba, VkExtent3D extent, co
     for (size_t i = 0; halves && i < count; i++)
         halves[i] = half_from(rgba[i]);
     uint32_t texel = full ? 16 : 8;
-    bool ok = host_image_create(device, &def, image, error, error_size) &&
-              host_image_upload(device, image, full ? (const void *)rgba : halves, count / 4 * texel, texel, error,
-                                error_size);
+    bool ok = host_image_create_with(device, &def, full ? (const void *)rgba : halves, count / 4 * texel, texel, image,
+                                     error, error_size);
     free(halves);
     return ok;
 }
@@ -122,8 +120,8 @@ static bool make_reflection(host_device *device, const panorama *source, host_im
 {
     const uint32_t width = BLUR_WIDTH, height = BLUR_WIDTH / 2;
     panorama small = {0}, all = {0};
-    bool ok = panorama_resize(source, width, height, &small) &&
-              panorama_alloc(&all, width, height * HOST_REFLECTION_LEVELS);
+    bool ok =
+        panorama_resize(source, width, height, &small) && panorama_alloc(&all, width, height * HOST_REFLECTION_LEVELS);
     if (!ok)
         host_fail(error, error_size, "environment: out of memory");
     size_t level_floats = (size_t)width * height * 4;
@@ -134,8 +132,8 @@ static bool make_reflection(host_device *device, const panorama *source, host_im
         else
             panorama_blur(&small, (float)level / (HOST_REFLECTION_LEVELS - 1), &out);
     }
-    ok = ok && upload(device, all.rgba, (VkExtent3D){width, height, HOST_REFLECTION_LEVELS}, "reflection", image,
-                      error, error_size);
+    ok = ok && upload(device, all.rgba, (VkExtent3D){width, height, HOST_REFLECTION_LEVELS}, "reflection", image, error,
+                      error_size);
     panorama_free(&all);
     panorama_free(&small);
     return ok;

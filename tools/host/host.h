@@ -29,6 +29,7 @@
 #include "environment.h"
 #include "memory.h"
 #include "mesh.h"
+#include "passes.h"
 #include "pipeline.h"
 #include "renderer.h"
 #include "target.h"

@@ -21,8 +21,8 @@ static uint32_t find_type(const host_device *device, uint32_t allowed, VkMemoryP
 }
 
 static bool allocate(host_device *device, const VkMemoryRequirements *requirements, VkMemoryPropertyFlags needed,
-                     VkMemoryPropertyFlags liked, const char *name, VkDeviceMemory *memory, uint32_t *type,
-                     char *error, size_t error_size)
+                     VkMemoryPropertyFlags liked, const char *name, VkDeviceMemory *memory, uint32_t *type, char *error,
+                     size_t error_size)
 {
     *type = find_type(device, requirements->memoryTypeBits, needed, liked);
     if (*type == UINT32_MAX)
@@ -101,11 +101,11 @@ void host_buffer_invalidate(const host_device *device, const host_buffer *buffer
         vkInvalidateMappedMemoryRanges(device->device, 1, &range);
 }
 
-static bool create_staging(host_device *device, const void *data, VkDeviceSize size, host_buffer *staging,
-                           char *error, size_t error_size)
+static bool create_staging(host_device *device, const void *data, VkDeviceSize size, host_buffer *staging, char *error,
+                           size_t error_size)
 {
-    if (!host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "host staging",
-                            staging, error, error_size))
+    if (!host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "host staging", staging,
+                            error, error_size))
         return false;
     memcpy(staging->mapped, data, (size_t)size);
     return true;
@@ -119,14 +119,22 @@ static bool copy_buffer(host_device *device, const host_buffer *from, const host
         return false;
     VkBufferCopy region = {.size = size};
     vkCmdCopyBuffer(cmd, from->buffer, to->buffer, 1, &region);
-    VkMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-        .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-        .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT,
-    };
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &barrier, 0,
-                         NULL, 0, NULL);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT);
     return host_submit(device, error, error_size) && host_wait(device, error, error_size);
+}
+
+#define MOST_UPDATE 65536u /* bytes in a vkCmdUpdateBuffer */
+
+void host_buffer_update(VkCommandBuffer cmd, const host_buffer *buffer, const void *data, VkDeviceSize size,
+                        VkPipelineStageFlags readers, VkAccessFlags access)
+{
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    host_memory_barrier(cmd, readers, 0, copying, VK_ACCESS_TRANSFER_WRITE_BIT);
+    for (VkDeviceSize from = 0; from < size; from += MOST_UPDATE)
+        vkCmdUpdateBuffer(cmd, buffer->buffer, from, size - from < MOST_UPDATE ? size - from : MOST_UPDATE,
+                          (const char *)data + from);
+    host_memory_barrier(cmd, copying, VK_ACCESS_TRANSFER_WRITE_BIT, readers, access);
 }
 
 bool host_buffer_create_with(host_device *device, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
@@ -214,6 +222,28 @@ void host_image_destroy(host_device *device, host_image *image)
     memset(image, 0, sizeof *image);
 }
 
+bool host_view_create(host_device *device, VkImage image, VkFormat format, uint32_t level, uint32_t layer,
+                      VkImageView *view, char *error, size_t error_size)
+{
+    const VkImageViewCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = format,
+        .subresourceRange = {aspect_of(format), level, 1, layer, 1},
+    };
+    HOST_TRY(vkCreateImageView(device->device, &info, NULL, view));
+    return true;
+}
+
+void host_memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from_stage, VkAccessFlags from_access,
+                         VkPipelineStageFlags to_stage, VkAccessFlags to_access)
+{
+    const VkMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = from_access, .dstAccessMask = to_access};
+    vkCmdPipelineBarrier(cmd, from_stage, to_stage, 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
 void host_image_barrier(VkCommandBuffer cmd, const host_image *image, VkImageLayout from, VkImageLayout to,
                         VkPipelineStageFlags from_stage, VkAccessFlags from_access, VkPipelineStageFlags to_stage,
                         VkAccessFlags to_access)
@@ -237,8 +267,7 @@ static uint32_t half_of(uint32_t size)
     return size > 1 ? size / 2 : 1;
 }
 
-static void record_image_copy(VkCommandBuffer cmd, const host_buffer *staging, const host_image *image,
-                              uint32_t texel)
+static void record_image_copy(VkCommandBuffer cmd, const host_buffer *staging, const host_image *image, uint32_t texel)
 {
     host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                        VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -274,4 +303,17 @@ bool host_image_upload(host_device *device, host_image *image, const void *data,
     }
     host_buffer_destroy(device, &staging);
     return ok;
+}
+
+bool host_image_create_with(host_device *device, const host_image_def *def, const void *data, VkDeviceSize size,
+                            uint32_t texel, host_image *image, char *error, size_t error_size)
+{
+    host_image_def filled = *def;
+    filled.usage |= VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (!host_image_create(device, &filled, image, error, error_size))
+        return false;
+    if (host_image_upload(device, image, data, size, texel, error, error_size))
+        return true;
+    host_image_destroy(device, image);
+    return false;
 }

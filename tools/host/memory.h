@@ -25,6 +25,11 @@ void host_buffer_destroy(host_device *device, host_buffer *buffer);
 /* Makes what the device wrote visible to the CPU. */
 void host_buffer_invalidate(const host_device *device, const host_buffer *buffer);
 
+/* Records an update of a device buffer in line with the commands: after `readers` have read what was there, before they
+ * read what is. */
+void host_buffer_update(VkCommandBuffer cmd, const host_buffer *buffer, const void *data, VkDeviceSize size,
+                        VkPipelineStageFlags readers, VkAccessFlags access);
+
 /* Makes a device buffer with data in it; TRANSFER_DST is added to the usage. Waits until it is there. */
 bool host_buffer_create_with(host_device *device, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
                              const char *name, host_buffer *buffer, char *error, size_t error_size);
@@ -55,6 +60,18 @@ void host_image_destroy(host_device *device, host_image *image);
  * each), and leaves it in SHADER_READ_ONLY_OPTIMAL. The image needs TRANSFER_DST. Waits until it is there. */
 bool host_image_upload(host_device *device, host_image *image, const void *data, VkDeviceSize size, uint32_t texel,
                        char *error, size_t error_size);
+
+/* The two in one; SAMPLED and TRANSFER_DST are added to the usage. */
+bool host_image_create_with(host_device *device, const host_image_def *def, const void *data, VkDeviceSize size,
+                            uint32_t texel, host_image *image, char *error, size_t error_size);
+
+/* A 2D view of one level of one layer. */
+bool host_view_create(host_device *device, VkImage image, VkFormat format, uint32_t level, uint32_t layer,
+                      VkImageView *view, char *error, size_t error_size);
+
+/* Records that all memory which was accessed so may then be accessed so. */
+void host_memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from_stage, VkAccessFlags from_access,
+                         VkPipelineStageFlags to_stage, VkAccessFlags to_access);
 
 /* Records a layout change of a whole image. */
 void host_image_barrier(VkCommandBuffer cmd, const host_image *image, VkImageLayout from, VkImageLayout to,

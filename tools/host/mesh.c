@@ -19,7 +19,7 @@
 /* Share of a cut-out's surface that its picture leaves standing, weighted by area: seven points a triangle. */
 static float find_cover(const host_mesh_build *build, const host_primitive *primitive, const host_material *material)
 {
-    static const float points[7][2] = {{0.33f, 0.33f}, {0.1f, 0.1f}, {0.8f, 0.1f}, {0.1f, 0.8f},
+    static const float points[7][2] = {{0.33f, 0.33f}, {0.1f, 0.1f},  {0.8f, 0.1f},  {0.1f, 0.8f},
                                        {0.45f, 0.1f},  {0.1f, 0.45f}, {0.45f, 0.45f}};
     const host_picture *picture = &build->pictures[material->base_texture];
     double area_sum = 0.0, covered = 0.0;
@@ -97,8 +97,7 @@ static bool upload_geometry(host_device *device, host_mesh *mesh, const host_ver
                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "mesh vertices", &mesh->vertices, error,
                                    error_size) &&
            host_buffer_create_with(device, indices, (VkDeviceSize)index_count * sizeof *indices,
-                                   VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "mesh indices", &mesh->indices, error,
-                                   error_size);
+                                   VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "mesh indices", &mesh->indices, error, error_size);
 }
 
 /* ---- loading ------------------------------------------------------------------------------------------------ */
@@ -224,26 +223,15 @@ bool host_mesh_read(host_device *device, const char *path, const float world_fro
     return ok;
 }
 
-#define MOST_UPDATE 65536u /* bytes in a vkCmdUpdateBuffer */
-
 void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices)
 {
-    const VkDeviceSize size = mesh->vertex_count * sizeof *vertices;
-    const VkPipelineStageFlags reading = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
-    vkCmdPipelineBarrier(cmd, reading, copying, 0, 1, &barrier, 0, NULL, 0, NULL);
-    for (VkDeviceSize from = 0; from < size; from += MOST_UPDATE)
-        vkCmdUpdateBuffer(cmd, mesh->vertices.buffer, from, size - from < MOST_UPDATE ? size - from : MOST_UPDATE,
-                          (const char *)vertices + from);
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT;
-    vkCmdPipelineBarrier(cmd, copying, reading, 0, 1, &barrier, 0, NULL, 0, NULL);
+    host_buffer_update(cmd, &mesh->vertices, vertices, mesh->vertex_count * sizeof *vertices,
+                       VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT);
 }
 
-bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count,
-                      const uint32_t *indices, uint32_t index_count, const host_material *material, host_mesh *mesh,
-                      char *error, size_t error_size)
+bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
+                      uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,
+                      size_t error_size)
 {
     memset(mesh, 0, sizeof *mesh);
     mesh->materials = calloc(1, sizeof *mesh->materials);

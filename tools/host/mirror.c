@@ -1,11 +1,9 @@
 /* mirror.c - images and render pass of what water mirrors. */
 #include "mirror.h"
 
-#include "pipeline.h"
+#include "passes.h"
 
 #include <string.h>
-
-#define DEPTH_STAGES (VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT)
 
 static bool create_images(host_device *device, host_mirror *mirror, char *error, size_t error_size)
 {
@@ -25,81 +23,32 @@ static bool create_images(host_device *device, host_mirror *mirror, char *error,
     return host_image_create(device, &def, &mirror->depth, error, error_size);
 }
 
-static VkAttachmentDescription cleared(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final)
-{
-    return (VkAttachmentDescription){
-        .format = format,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-        .storeOp = store,
-        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .finalLayout = final,
-    };
-}
-
 static bool create_pass(host_device *device, host_mirror *mirror, char *error, size_t error_size)
 {
-    const VkAttachmentDescription attachments[] = {
-        cleared(mirror->color.format, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-        cleared(mirror->depth.format, VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+    VkAttachmentDescription attachments[] = {
+        host_attachment(mirror->color.format, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+        host_attachment(mirror->depth.format, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
     };
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-        .colorAttachmentCount = 1,
-        .pColorAttachments = &color,
-        .pDepthStencilAttachment = &depth,
+    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkPipelineStageFlags reads = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const host_pass_def def = {
+        .attachments = attachments,
+        .color_count = 1,
+        .depth = true,
+        /* After the plate of the frame before has read it. */
+        .before = {reads | draws | HOST_DEPTH_STAGES, HOST_DRAW_WRITES, draws | HOST_DEPTH_STAGES,
+                   HOST_DRAW_WRITES | HOST_DRAW_READS},
+        .after = {draws, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, reads, VK_ACCESS_SHADER_READ_BIT},
     };
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-    const VkSubpassDependency dependencies[] = {
-        {
-            /* After the plate of the frame before has read it. */
-            .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask =
-                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .srcAccessMask = writes,
-            .dstAccessMask = writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
-        },
-        {
-            .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .dstStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
-        },
-    };
-    const VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = 2,
-        .pAttachments = attachments,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = dependencies,
-    };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &mirror->pass));
-    return true;
+    return host_pass_create(device, &def, &mirror->pass, error, error_size);
 }
 
 static bool create_framebuffer(host_device *device, host_mirror *mirror, char *error, size_t error_size)
 {
     const VkImageView views[] = {mirror->levels.views[0], mirror->depth.view};
-    const VkFramebufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-        .renderPass = mirror->pass,
-        .attachmentCount = 2,
-        .pAttachments = views,
-        .width = mirror->width,
-        .height = mirror->height,
-        .layers = 1,
-    };
-    HOST_TRY(vkCreateFramebuffer(device->device, &info, NULL, &mirror->framebuffer));
-    return true;
+    return host_framebuffer_create(device, mirror->pass, views, 2, mirror->width, mirror->height, &mirror->framebuffer,
+                                   error, error_size);
 }
 
 bool host_mirror_create(host_device *device, uint32_t width, uint32_t height, host_mirror *mirror, char *error,
@@ -128,19 +77,7 @@ void host_mirror_destroy(host_device *device, host_mirror *mirror)
 
 void host_mirror_begin(const host_mirror *mirror, VkCommandBuffer cmd)
 {
-    VkClearValue clears[2];
-    memset(clears, 0, sizeof clears);
-    clears[1].depthStencil.depth = 1.0f;
-    const VkRenderPassBeginInfo begin = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-        .renderPass = mirror->pass,
-        .framebuffer = mirror->framebuffer,
-        .renderArea = {{0, 0}, {mirror->width, mirror->height}},
-        .clearValueCount = 2,
-        .pClearValues = clears,
-    };
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_set_area(cmd, mirror->width, mirror->height);
+    host_pass_begin(cmd, mirror->pass, mirror->framebuffer, mirror->width, mirror->height, 1);
 }
 
 void host_mirror_end(const host_mirror *mirror, VkCommandBuffer cmd)

@@ -1,6 +1,7 @@
 /* mirror_levels.c - each level from the one before, by one triangle over it. */
 #include "mirror_levels.h"
 
+#include "passes.h"
 #include "pipeline.h"
 
 #include <string.h>
@@ -29,74 +30,31 @@ uint32_t host_mirror_level_count(uint32_t width, uint32_t height)
 static bool create_pass(host_device *device, host_mirror_levels *levels, VkFormat format, char *error,
                         size_t error_size)
 {
-    const VkAttachmentDescription attachment = {
-        .format = format,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-    };
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &color};
+    VkAttachmentDescription attachment = host_attachment(format, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkPipelineStageFlags reads = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    const VkSubpassDependency dependencies[] = {
-        {
-            /* After the level before is drawn, and what read this one in the frame before has. */
-            .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = draws | reads,
-            .dstStageMask = draws | reads,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT,
-        },
-        {
-            .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = draws,
-            .dstStageMask = reads,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
-        },
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = &attachment,
+        .color_count = 1,
+        /* After the level before is drawn, and what read this one in the frame before has. */
+        .before = {draws | reads, writes, draws | reads, writes | VK_ACCESS_SHADER_READ_BIT},
+        .after = {draws, writes, reads, VK_ACCESS_SHADER_READ_BIT},
     };
-    const VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &attachment,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = dependencies,
-    };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &levels->pass));
-    return true;
+    return host_pass_create(device, &def, &levels->pass, error, error_size);
 }
 
 static bool create_views(host_device *device, host_mirror_levels *levels, const host_image *color, char *error,
                          size_t error_size)
 {
     for (uint32_t i = 0; i < levels->count; i++) {
-        const VkImageViewCreateInfo view = {
-            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-            .image = color->image,
-            .viewType = VK_IMAGE_VIEW_TYPE_2D,
-            .format = color->format,
-            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, i, 1, 0, 1},
-        };
-        HOST_TRY(vkCreateImageView(device->device, &view, NULL, &levels->views[i]));
-        const VkFramebufferCreateInfo framebuffer = {
-            .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-            .renderPass = levels->pass,
-            .attachmentCount = 1,
-            .pAttachments = &levels->views[i],
-            .width = level_side(color->extent.width, i),
-            .height = level_side(color->extent.height, i),
-            .layers = 1,
-        };
-        if (i > 0)
-            HOST_TRY(vkCreateFramebuffer(device->device, &framebuffer, NULL, &levels->framebuffers[i]));
+        const uint32_t width = level_side(color->extent.width, i), height = level_side(color->extent.height, i);
+        if (!host_view_create(device, color->image, color->format, i, 0, &levels->views[i], error, error_size))
+            return false;
+        if (i > 0 && !host_framebuffer_create(device, levels->pass, &levels->views[i], 1, width, height,
+                                              &levels->framebuffers[i], error, error_size))
+            return false;
     }
     return true;
 }
@@ -196,12 +154,7 @@ void host_mirror_levels_record(const host_mirror_levels *levels, VkCommandBuffer
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->pipeline);
     for (uint32_t i = 1; i < levels->count; i++) {
         const uint32_t width = level_side(color->extent.width, i), height = level_side(color->extent.height, i);
-        const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                             .renderPass = levels->pass,
-                                             .framebuffer = levels->framebuffers[i],
-                                             .renderArea = {{0, 0}, {width, height}}};
-        vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-        host_set_area(cmd, width, height);
+        host_pass_begin(cmd, levels->pass, levels->framebuffers[i], width, height, 1);
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->layout, 0, 1, &levels->sets[i], 0, NULL);
         vkCmdDraw(cmd, 3, 1, 0, 0);
         vkCmdEndRenderPass(cmd);

@@ -90,27 +90,15 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
 static bool create_blank_spots(host_renderer *r, char *error, size_t error_size)
 {
     static const uint32_t none = 0;
-    host_image_def def = {
-        .format = VK_FORMAT_R32_UINT,
-        .extent = {1, 1, 1},
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = "no spots",
-    };
-    return host_image_create(r->device, &def, &r->blank_spots, error, error_size) &&
-           host_image_upload(r->device, &r->blank_spots, &none, sizeof none, 4, error, error_size);
+    const host_image_def def = {.format = VK_FORMAT_R32_UINT, .extent = {1, 1, 1}, .name = "no spots"};
+    return host_image_create_with(r->device, &def, &none, sizeof none, 4, &r->blank_spots, error, error_size);
 }
 
 static bool create_white(host_renderer *r, char *error, size_t error_size)
 {
     static const uint8_t texel[4] = {255, 255, 255, 255};
-    host_image_def def = {
-        .format = VK_FORMAT_R8G8B8A8_SRGB,
-        .extent = {1, 1, 1},
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .name = "white",
-    };
-    return host_image_create(r->device, &def, &r->white, error, error_size) &&
-           host_image_upload(r->device, &r->white, texel, sizeof texel, 4, error, error_size);
+    const host_image_def def = {.format = VK_FORMAT_R8G8B8A8_SRGB, .extent = {1, 1, 1}, .name = "white"};
+    return host_image_create_with(r->device, &def, texel, sizeof texel, 4, &r->white, error, error_size);
 }
 
 bool host_renderer_create(host_device *device, const host_target *target, host_renderer **renderer, char *error,
@@ -396,20 +384,9 @@ static void fill_frame(const host_renderer *r, const host_target *target, const 
 /* Writes the frame's numbers in line with the commands, so that any number of plates may be in one command buffer. */
 static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame)
 {
-    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    VkBufferMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .buffer = r->frame_buffer.buffer,
-        .size = VK_WHOLE_SIZE,
-    };
-    barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    vkCmdPipelineBarrier(cmd, readers, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, NULL, 1, &barrier, 0, NULL);
-    vkCmdUpdateBuffer(cmd, r->frame_buffer.buffer, 0, sizeof *frame, frame);
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_UNIFORM_READ_BIT;
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, readers, 0, 0, NULL, 1, &barrier, 0, NULL);
+    host_buffer_update(cmd, &r->frame_buffer, frame, sizeof *frame,
+                       VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                       VK_ACCESS_UNIFORM_READ_BIT);
 }
 
 static void fill_surface(const host_material *material, uint32_t id, struct host_surface_gpu *out)

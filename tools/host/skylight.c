@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesh.h"
+#include "passes.h"
 #include "pipeline.h"
 
 #include "skylight_comp.spv.h"
@@ -23,50 +24,18 @@
 
 static bool create_pass(host_device *device, host_skylight *s, char *error, size_t error_size)
 {
-    VkAttachmentDescription attachment = {
-        .format = VK_FORMAT_D32_SFLOAT,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    const VkAttachmentDescription attachment =
+        host_attachment(VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    const VkPipelineStageFlags gathers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    const VkAccessFlags reads = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+    const VkAccessFlags writes = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = &attachment,
+        .depth = true,
+        .before = {gathers | HOST_DEPTH_STAGES, writes, HOST_DEPTH_STAGES, reads | writes},
+        .after = {HOST_DEPTH_STAGES, writes, gathers, VK_ACCESS_SHADER_READ_BIT},
     };
-    VkAttachmentReference depth = {0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-        .pDepthStencilAttachment = &depth,
-    };
-    const VkPipelineStageFlags tests =
-        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkSubpassDependency dependencies[] = {
-        {
-            .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | tests,
-            .dstStageMask = tests,
-            .srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-        },
-        {
-            .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = tests,
-            .dstStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-            .srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
-        },
-    };
-    VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &attachment,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = dependencies,
-    };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &s->pass));
-    return true;
+    return host_pass_create(device, &def, &s->pass, error, error_size);
 }
 
 static bool create_images(host_device *device, host_skylight *s, char *error, size_t error_size)
@@ -87,26 +56,11 @@ static bool create_images(host_device *device, host_skylight *s, char *error, si
     if (!host_image_create(device, &maps, &s->maps, error, error_size) ||
         !host_image_create(device, &volume, &s->volume, error, error_size))
         return false;
-    for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
-        VkImageViewCreateInfo view = {
-            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-            .image = s->maps.image,
-            .viewType = VK_IMAGE_VIEW_TYPE_2D,
-            .format = s->maps.format,
-            .subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, i, 1},
-        };
-        HOST_TRY(vkCreateImageView(device->device, &view, NULL, &s->layers[i]));
-        VkFramebufferCreateInfo framebuffer = {
-            .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-            .renderPass = s->pass,
-            .attachmentCount = 1,
-            .pAttachments = &s->layers[i],
-            .width = MAP_SIZE,
-            .height = MAP_SIZE,
-            .layers = 1,
-        };
-        HOST_TRY(vkCreateFramebuffer(device->device, &framebuffer, NULL, &s->framebuffers[i]));
-    }
+    for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
+        if (!host_view_create(device, s->maps.image, s->maps.format, 0, i, &s->layers[i], error, error_size) ||
+            !host_framebuffer_create(device, s->pass, &s->layers[i], 1, MAP_SIZE, MAP_SIZE, &s->framebuffers[i], error,
+                                     error_size))
+            return false;
     return true;
 }
 
@@ -359,32 +313,13 @@ void host_skylight_frame(const host_skylight *s, const double camera_m[3], struc
 
 void host_skylight_begin(host_skylight *s, VkCommandBuffer cmd)
 {
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0,
-                         NULL, 0, NULL);
-    vkCmdUpdateBuffer(cmd, s->numbers.buffer, 0, sizeof s->gpu, &s->gpu);
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_UNIFORM_READ_BIT;
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &barrier, 0,
-                         NULL, 0, NULL);
+    host_buffer_update(cmd, &s->numbers, &s->gpu, sizeof s->gpu, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_UNIFORM_READ_BIT);
 }
 
 void host_skylight_begin_map(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction)
 {
-    VkClearValue clear;
-    memset(&clear, 0, sizeof clear);
-    clear.depthStencil.depth = 1.0f;
-    VkRenderPassBeginInfo begin = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-        .renderPass = s->pass,
-        .framebuffer = s->framebuffers[direction],
-        .renderArea = {{0, 0}, {MAP_SIZE, MAP_SIZE}},
-        .clearValueCount = 1,
-        .pClearValues = &clear,
-    };
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_set_area(cmd, MAP_SIZE, MAP_SIZE);
+    host_pass_begin(cmd, s->pass, s->framebuffers[direction], MAP_SIZE, MAP_SIZE, 0);
 }
 
 void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction, float alpha, float cutoff)

@@ -1,7 +1,7 @@
 /* target.c - images, the render passes between them, and copies to the CPU. */
 #include "target.h"
 
-#include "pipeline.h"
+#include "passes.h"
 
 #include <string.h>
 
@@ -43,69 +43,30 @@ static VkAttachmentDescription drawn(host_output output)
     VkImageLayout final;
     if (!is_sampled(output, &final))
         final = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    return (VkAttachmentDescription){
-        .format = outputs_table[output].format,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .finalLayout = final,
-    };
+    return host_attachment(outputs_table[output].format, final);
 }
 
-#define DEPTH_STAGES (VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT)
-#define READERS      (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
+#define READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
 
 static bool create_plate_pass(host_device *device, host_target *target, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[HOST_PLATE_COLORS + 1];
-    VkAttachmentReference colors[HOST_PLATE_COLORS];
-    for (uint32_t i = 0; i < HOST_PLATE_COLORS; i++) {
+    for (uint32_t i = 0; i <= HOST_PLATE_COLORS; i++)
         attachments[i] = drawn((host_output)i);
-        colors[i] = (VkAttachmentReference){i, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    }
-    attachments[HOST_DEPTH] = drawn(HOST_DEPTH);
-    VkAttachmentReference depth = {HOST_DEPTH, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-        .colorAttachmentCount = HOST_PLATE_COLORS,
-        .pColorAttachments = colors,
-        .pDepthStencilAttachment = &depth,
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES;
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const host_pass_def def = {
+        .attachments = attachments,
+        .color_count = HOST_PLATE_COLORS,
+        .depth = true,
+        /* After the copies of the frame before, and its layers' reads. */
+        .before = {copying | drawing | READERS, HOST_DRAW_WRITES, drawing, HOST_DRAW_READS | HOST_DRAW_WRITES},
+        /* Before the copies, the layers' depth test and whoever samples depth or color. */
+        .after = {drawing, HOST_DRAW_WRITES, copying | HOST_DEPTH_STAGES | READERS,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT},
     };
-    const VkSubpassDependency dependencies[] = {
-        {
-            /* After the copies of the frame before, and its layers' reads. */
-            .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask =
-                VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES | READERS,
-            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
-                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-        },
-        {
-            /* Before the copies, the layers' depth test and whoever samples depth or color. */
-            .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES,
-            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | DEPTH_STAGES | READERS,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask =
-                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
-        },
-    };
-    VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = HOST_PLATE_COLORS + 1,
-        .pAttachments = attachments,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = dependencies,
-    };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->plate_pass));
-    return true;
+    return host_pass_create(device, &def, &target->plate_pass, error, error_size);
 }
 
 /* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
@@ -113,40 +74,18 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
 static bool create_color_pass(host_device *device, const VkAttachmentDescription *attachment, VkRenderPass *pass,
                               char *error, size_t error_size)
 {
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-        .colorAttachmentCount = 1,
-        .pColorAttachments = &color,
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = attachment,
+        .color_count = 1,
+        /* Passes are compatible only with the same dependencies: they are those that any of them needs. */
+        .before = {copying | drawing, writes | VK_ACCESS_TRANSFER_WRITE_BIT, drawing,
+                   VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | writes},
+        .after = {drawing, writes, copying | READERS, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT},
     };
-    /* Passes are compatible only with the same dependencies: they are those that any of them needs. */
-    const VkSubpassDependency dependencies[] = {
-        {
-            .srcSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-        },
-        {
-            .dstSubpass = VK_SUBPASS_EXTERNAL,
-            .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-            .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT | READERS,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
-        },
-    };
-    VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = attachment,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = dependencies,
-    };
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, pass));
-    return true;
+    return host_pass_create(device, &def, pass, error, error_size);
 }
 
 /* The velocity as the plate has left it, ready to be copied, and so again. */
@@ -157,25 +96,16 @@ static bool create_moving_pass(host_device *device, host_target *target, char *e
     attachments[0].finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     attachments[1].initialLayout = attachments[1].finalLayout;
-    const VkAttachmentReference colors[2] = {{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
-                                             {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 2, .pColorAttachments = colors};
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkAccessFlags wrote = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | drawing, drawing, wrote,
-         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | wrote, 0},
-        {0, VK_SUBPASS_EXTERNAL, drawing, VK_PIPELINE_STAGE_TRANSFER_BIT, wrote, VK_ACCESS_TRANSFER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    HOST_TRY(vkCreateRenderPass(device->device, &info, NULL, &target->moving_pass));
-    return true;
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = attachments,
+        .color_count = 2,
+        .before = {copying | drawing, writes, drawing, VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | writes},
+        .after = {drawing, writes, copying, VK_ACCESS_TRANSFER_READ_BIT},
+    };
+    return host_pass_create(device, &def, &target->moving_pass, error, error_size);
 }
 
 static bool create_layer_passes(host_device *device, host_target *target, char *error, size_t error_size)
@@ -193,17 +123,8 @@ static bool create_framebuffer(host_device *device, const host_target *target, V
                                const VkImageView *views, uint32_t count, VkFramebuffer *framebuffer, char *error,
                                size_t error_size)
 {
-    VkFramebufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-        .renderPass = pass,
-        .attachmentCount = count,
-        .pAttachments = views,
-        .width = target->width,
-        .height = target->height,
-        .layers = 1,
-    };
-    HOST_TRY(vkCreateFramebuffer(device->device, &info, NULL, framebuffer));
-    return true;
+    return host_framebuffer_create(device, pass, views, count, target->width, target->height, framebuffer, error,
+                                   error_size);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------------------------- */
@@ -327,27 +248,10 @@ void host_target_destroy(host_device *device, host_target *target)
 
 /* ---- recording ---------------------------------------------------------------------------------------------- */
 
-static void begin_pass(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer,
-                       const VkClearValue *clears, uint32_t clear_count)
-{
-    VkRenderPassBeginInfo begin = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-        .renderPass = pass,
-        .framebuffer = framebuffer,
-        .renderArea = {{0, 0}, {target->width, target->height}},
-        .clearValueCount = clear_count,
-        .pClearValues = clears,
-    };
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_set_area(cmd, target->width, target->height);
-}
-
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd)
 {
-    VkClearValue clears[HOST_PLATE_COLORS + 1];
-    memset(clears, 0, sizeof clears);
-    clears[HOST_DEPTH].depthStencil.depth = 1.0f;
-    begin_pass(target, cmd, target->plate_pass, target->plate_framebuffer, clears, HOST_PLATE_COLORS + 1);
+    host_pass_begin(cmd, target->plate_pass, target->plate_framebuffer, target->width, target->height,
+                    HOST_PLATE_COLORS);
 }
 
 void host_target_end_plate(const host_target *target, VkCommandBuffer cmd)
@@ -388,9 +292,7 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
 /* A pass of its own clears; that of what is behind panes takes no notice of the clear value. */
 static void begin_layer(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer)
 {
-    VkClearValue clear;
-    memset(&clear, 0, sizeof clear);
-    begin_pass(target, cmd, pass, framebuffer, &clear, 1);
+    host_pass_begin(cmd, pass, framebuffer, target->width, target->height, 1);
 }
 
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
@@ -514,7 +416,7 @@ static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_outp
     VkImageLayout layout;
     if (is_sampled(output, &layout))
         host_image_barrier(cmd, &target->images[output], layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_STAGES | READERS,
+                           VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
 }
@@ -525,7 +427,7 @@ static void end_copy(const host_target *target, VkCommandBuffer cmd, host_output
     VkImageLayout layout;
     if (is_sampled(output, &layout))
         host_image_barrier(cmd, &target->images[output], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout,
-                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, DEPTH_STAGES | READERS,
+                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, HOST_DEPTH_STAGES | READERS,
                            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT);
 }
 
@@ -538,13 +440,9 @@ void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32
         copy_image(target, cmd, (host_output)i);
         end_copy(target, cmd, (host_output)i);
     }
-    VkMemoryBarrier to_cpu = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-        .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-        .dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-    };
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &to_cpu, 0, NULL, 0, NULL);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                        VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
 const float *host_target_floats(const host_device *device, const host_target *target, host_output output)

@@ -230,17 +230,11 @@ bool host_picture_upload(host_device *device, const host_picture *picture, const
         .format = VK_FORMAT_R8G8B8A8_SRGB,
         .extent = {picture->width, picture->height, 1},
         .levels = picture->levels,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
         .name = name,
     };
     uint32_t limit = device->properties.limits.maxImageDimension2D;
     if (picture->width > limit || picture->height > limit)
         return host_fail(error, error_size, "%s: %u x %u is more than this device's %u", name, picture->width,
                          picture->height, limit);
-    if (!host_image_create(device, &def, image, error, error_size))
-        return false;
-    if (host_image_upload(device, image, picture->texels, picture->size, 4, error, error_size))
-        return true;
-    host_image_destroy(device, image);
-    return false;
+    return host_image_create_with(device, &def, picture->texels, picture->size, 4, image, error, error_size);
 }

@@ -11,45 +11,16 @@
 
 static bool create_pass(bench *b, picture *p)
 {
-    char *error = b->error;
-    const size_t error_size = sizeof b->error;
-    VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                               .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                               .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
-                                              {.format = VK_FORMAT_D32_SFLOAT,
-                                               .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                               .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL}};
-    for (int i = 0; i < 2; i++) {
-        attachments[i].samples = VK_SAMPLE_COUNT_1_BIT;
-        attachments[i].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        attachments[i].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        attachments[i].stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    }
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          .colorAttachmentCount = 1,
-                                          .pColorAttachments = &color,
-                                          .pDepthStencilAttachment = &depth};
-    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                        VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-    const VkSubpassDependency after_last = {.srcSubpass = VK_SUBPASS_EXTERNAL,
-                                            .srcStageMask = stages,
-                                            .dstStageMask = stages,
-                                            .srcAccessMask = writes,
-                                            .dstAccessMask = writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT |
-                                                             VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 1,
-                                         .pDependencies = &after_last};
-    HOST_TRY(vkCreateRenderPass(b->device.device, &info, NULL, &p->pass));
-    return true;
+    VkAttachmentDescription attachments[2] = {
+        host_attachment(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL),
+        host_attachment(VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
+    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES;
+    const host_pass_def def = {.attachments = attachments,
+                               .color_count = 1,
+                               .depth = true,
+                               .before = {drawing, HOST_DRAW_WRITES, drawing, HOST_DRAW_WRITES | HOST_DRAW_READS}};
+    return host_pass_create(&b->device, &def, &p->pass, b->error, sizeof b->error);
 }
 
 static bool create_images(bench *b, picture *p)
@@ -68,14 +39,9 @@ static bool create_images(bench *b, picture *p)
     if (!host_image_create(&b->device, &def, &p->depth, error, error_size))
         return false;
     const VkImageView views[2] = {p->color.view, p->depth.view};
-    const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                          .renderPass = p->pass,
-                                          .attachmentCount = 2,
-                                          .pAttachments = views,
-                                          .width = def.extent.width,
-                                          .height = def.extent.height,
-                                          .layers = 1};
-    HOST_TRY(vkCreateFramebuffer(b->device.device, &info, NULL, &p->framebuffer));
+    if (!host_framebuffer_create(&b->device, p->pass, views, 2, def.extent.width, def.extent.height, &p->framebuffer,
+                                 error, error_size))
+        return false;
     const VkQueryPoolCreateInfo query = {
         .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_OCCLUSION, .queryCount = 1};
     HOST_TRY(vkCreateQueryPool(b->device.device, &query, NULL, &p->query));
@@ -110,14 +76,7 @@ static void set_box(VkCommandBuffer cmd, float x, float y, float width, float he
 
 void splash_bench_begin_picture(const picture *p, VkCommandBuffer cmd)
 {
-    const VkClearValue clears[2] = {{.color = {{0}}}, {.depthStencil = {.depth = 1}}};
-    const VkRenderPassBeginInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                        .renderPass = p->pass,
-                                        .framebuffer = p->framebuffer,
-                                        .renderArea = {{0, 0}, {bench_sizes[PICTURE][0], bench_sizes[PICTURE][1]}},
-                                        .clearValueCount = 2,
-                                        .pClearValues = clears};
-    vkCmdBeginRenderPass(cmd, &info, VK_SUBPASS_CONTENTS_INLINE);
+    host_pass_begin(cmd, p->pass, p->framebuffer, bench_sizes[PICTURE][0], bench_sizes[PICTURE][1], 1);
 }
 
 #define QUAD_BOXES 16 /* along each side of the picture, so that all who fill pixels have work */

@@ -143,13 +143,10 @@ static bool feed(run *r, uint32_t count)
     if (!bench_begin(r->b, &cmd))
         return false;
     const VkBufferCopy copy = {0, 0, sizeof *head + (VkDeviceSize)count * sizeof *spawns};
-    const VkMemoryBarrier there = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                   .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT};
     vkCmdCopyBuffer(cmd, r->upload.buffer, r->spawns.buffer, 1, &copy);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &there, 0,
-                         NULL, 0, NULL);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     return bench_submit(r->b, &ms);
 }
 
@@ -184,12 +181,9 @@ static bool read_droplets(run *r)
     if (!bench_begin(r->b, &cmd))
         return false;
     const VkBufferCopy copy = {droplets.offset, 0, r->readback.size};
-    const VkMemoryBarrier there = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     vkCmdCopyBuffer(cmd, droplets.buffer, r->readback.buffer, 1, &copy);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &there, 0, NULL, 0,
-                         NULL);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                        VK_ACCESS_HOST_READ_BIT);
     if (!bench_submit(r->b, &ms))
         return false;
     host_buffer_invalidate(&r->b->device, &r->readback);

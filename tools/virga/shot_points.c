@@ -15,17 +15,11 @@ bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize 
                             &read->buffer, error, error_size))
         return false;
     const VkBufferCopy copy = {offset, 0, size};
-    const VkMemoryBarrier before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                    .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkMemoryBarrier after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0,
-                         NULL);
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags written = VK_ACCESS_TRANSFER_WRITE_BIT;
+    host_memory_barrier(cmd, copying, written, copying, written);
     vkCmdCopyBuffer(cmd, from, read->buffer.buffer, 1, &copy);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, NULL, 0,
-                         NULL);
+    host_memory_barrier(cmd, copying, written, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     return true;
 }
 

@@ -108,12 +108,8 @@ static bool create_samplers(view_picture *p, char *error, size_t error_size)
 static bool create_blanks(view_picture *p, char *error, size_t error_size)
 {
     const uint8_t zero[64] = {0};
-    host_image_def def = {.format = VK_FORMAT_R8G8B8A8_UNORM,
-                          .extent = {1, 1, 1},
-                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                          .name = "blank"};
-    if (!host_image_create(p->device, &def, &p->blank, error, error_size) ||
-        !host_image_upload(p->device, &p->blank, zero, 4, 4, error, error_size))
+    const host_image_def def = {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1, 1}, .name = "blank"};
+    if (!host_image_create_with(p->device, &def, zero, 4, 4, &p->blank, error, error_size))
         return false;
     /* An array of one layer cannot be told from a plain image by its definition; its view is made here. */
     const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
@@ -390,18 +386,15 @@ void view_picture_prepare(view_picture *p, VkCommandBuffer cmd, const shot *s, c
                           const view_shown *shown)
 {
     const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
-    const VkMemoryBarrier buffers = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                     .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
-                                                      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT};
     fill(s, camera, shown, p->uniforms[slot].mapped);
     write_set(p, s, shown, p->sets[slot], &p->uniforms[slot]);
     make_readable(cmd, s);
-    vkCmdPipelineBarrier(cmd,
-                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                             VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT,
-                         VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &buffers, 0,
-                         NULL, 0, NULL);
+    host_memory_barrier(
+        cmd,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+            VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT,
+        VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+        VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
 }
 
 void view_picture_draw(const view_picture *p, VkCommandBuffer cmd, const shot *s, const view_window *window,

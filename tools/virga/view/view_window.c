@@ -76,41 +76,20 @@ static bool check_present(const view_window *w, char *error, size_t error_size)
 
 static bool create_pass(view_window *w, char *error, size_t error_size)
 {
-    const VkAttachmentDescription attachment = {
-        .format = w->format.format,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, /* all of it is drawn over */
-        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-        .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-        .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
+    VkAttachmentDescription attachment = host_attachment(w->format.format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; /* all of it is drawn over */
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    const host_pass_def def = {
+        .attachments = &attachment,
+        .color_count = 1,
+        /* after the semaphore of the acquire */
+        .before = {drawing, 0, drawing, writes | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT},
+        /* before a copy, see view_window_copy */
+        .after = {drawing, writes, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT},
     };
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &color};
-    const VkSubpassDependency dependencies[] = {
-        {/* after the semaphore of the acquire */
-         .srcSubpass = VK_SUBPASS_EXTERNAL,
-         .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-         .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-         .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT},
-        {/* before a copy, see view_window_copy */
-         .dstSubpass = VK_SUBPASS_EXTERNAL,
-         .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-         .dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT,
-         .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-         .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT},
-    };
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 1,
-                                         .pAttachments = &attachment,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    HOST_TRY(vkCreateRenderPass(w->device->device, &info, NULL, &w->pass));
-    return true;
+    return host_pass_create(w->device, &def, &w->pass, error, error_size);
 }
 
 /* ---- the swapchain */
@@ -132,20 +111,10 @@ static void drop_images(view_window *w)
 
 static bool create_image(view_window *w, uint32_t i, char *error, size_t error_size)
 {
-    const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                        .image = w->images[i],
-                                        .viewType = VK_IMAGE_VIEW_TYPE_2D,
-                                        .format = w->format.format,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    HOST_TRY(vkCreateImageView(w->device->device, &view, NULL, &w->views[i]));
-    const VkFramebufferCreateInfo framebuffer = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                                 .renderPass = w->pass,
-                                                 .attachmentCount = 1,
-                                                 .pAttachments = &w->views[i],
-                                                 .width = w->width,
-                                                 .height = w->height,
-                                                 .layers = 1};
-    HOST_TRY(vkCreateFramebuffer(w->device->device, &framebuffer, NULL, &w->framebuffers[i]));
+    if (!host_view_create(w->device, w->images[i], w->format.format, 0, 0, &w->views[i], error, error_size) ||
+        !host_framebuffer_create(w->device, w->pass, &w->views[i], 1, w->width, w->height, &w->framebuffers[i], error,
+                                 error_size))
+        return false;
     const VkSemaphoreCreateInfo semaphore = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     HOST_TRY(vkCreateSemaphore(w->device->device, &semaphore, NULL, &w->drawn[i]));
     return true;
@@ -279,12 +248,7 @@ bool view_window_acquire(view_window *w, bool *ready, char *error, size_t error_
 
 void view_window_begin(const view_window *w, VkCommandBuffer cmd)
 {
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = w->pass,
-                                         .framebuffer = w->framebuffers[w->image],
-                                         .renderArea = {{0, 0}, {w->width, w->height}}};
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_set_area(cmd, w->width, w->height);
+    host_pass_begin(cmd, w->pass, w->framebuffers[w->image], w->width, w->height, 1);
 }
 
 void view_window_end(const view_window *w, VkCommandBuffer cmd)
@@ -342,14 +306,11 @@ bool view_window_copy(view_window *w, VkCommandBuffer cmd, char *error, size_t e
         return false;
     const VkBufferImageCopy region = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                       .imageExtent = {w->width, w->height, 1}};
-    const VkMemoryBarrier read = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                  .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                  .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     turn_image(w, cmd, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     vkCmdCopyImageToBuffer(cmd, w->images[w->image], VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, w->copy.buffer, 1, &region);
     turn_image(w, cmd, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &read, 0, NULL, 0,
-                         NULL);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                        VK_ACCESS_HOST_READ_BIT);
     return true;
 }
 
