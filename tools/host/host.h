@@ -25,6 +25,7 @@
 
 #include "accumulate.h"
 #include "camera.h"
+#include "descriptors.h"
 #include "device.h"
 #include "environment.h"
 #include "memory.h"

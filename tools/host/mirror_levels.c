@@ -1,6 +1,7 @@
 /* mirror_levels.c - each level from the one before, by one triangle over it. */
 #include "mirror_levels.h"
 
+#include "descriptors.h"
 #include "passes.h"
 #include "pipeline.h"
 
@@ -59,56 +60,25 @@ static bool create_views(host_device *device, host_mirror_levels *levels, const 
     return true;
 }
 
-static bool create_layout(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
-{
-    const VkSamplerCreateInfo sampler = {
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .magFilter = VK_FILTER_LINEAR,
-        .minFilter = VK_FILTER_LINEAR,
-        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-    };
-    HOST_TRY(vkCreateSampler(device->device, &sampler, NULL, &levels->sampler));
-    const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-                                                  VK_SHADER_STAGE_FRAGMENT_BIT, NULL};
-    const VkDescriptorSetLayoutCreateInfo set = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &binding};
-    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &set, NULL, &levels->set_layout));
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                               .setLayoutCount = 1,
-                                               .pSetLayouts = &levels->set_layout};
-    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &levels->layout));
-    return true;
-}
-
 static bool create_sets(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
 {
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, HOST_MIRROR_LEVELS};
-    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                             .maxSets = HOST_MIRROR_LEVELS,
-                                             .poolSizeCount = 1,
-                                             .pPoolSizes = &size};
-    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &levels->pool));
-    for (uint32_t i = 1; i < levels->count; i++) {
-        const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                      .descriptorPool = levels->pool,
-                                                      .descriptorSetCount = 1,
-                                                      .pSetLayouts = &levels->set_layout};
-        HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &levels->sets[i]));
-        const VkDescriptorImageInfo image = {levels->sampler, levels->views[i - 1],
-                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = levels->sets[i],
-                                            .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                            .pImageInfo = &image};
-        vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
-    }
+    static const VkDescriptorType type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    const host_set_shape shape = {&type, 1, VK_SHADER_STAGE_FRAGMENT_BIT};
+    if (!host_sampler_create(device, HOST_SAMPLE_LINEAR, &levels->sampler, error, error_size) ||
+        !host_set_layout_create(device, &shape, &levels->set_layout, error, error_size) ||
+        !host_set_pool_create(device, &shape, HOST_MIRROR_LEVELS, &levels->pool, error, error_size) ||
+        !host_sets_allocate(device, levels->pool, levels->set_layout, levels->count, levels->sets, error, error_size))
+        return false;
+    for (uint32_t i = 1; i < levels->count; i++)
+        host_set_write_image(device, levels->sets[i], 0, levels->sampler, levels->views[i - 1],
+                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     return true;
 }
 
 static bool create_pipeline(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
 {
+    if (!host_pipeline_layout_create(device, &levels->set_layout, 1, 0, 0, &levels->layout, error, error_size))
+        return false;
     const host_graphics_def def = {.vertex = HOST_CODE(mirror_level_vert),
                                    .fragment = HOST_CODE(mirror_level_frag),
                                    .layout = levels->layout,
@@ -124,8 +94,8 @@ bool host_mirror_levels_create(host_device *device, const host_image *color, hos
     memset(levels, 0, sizeof *levels);
     levels->count = color->levels;
     if (create_pass(device, levels, color->format, error, error_size) &&
-        create_views(device, levels, color, error, error_size) && create_layout(device, levels, error, error_size) &&
-        create_sets(device, levels, error, error_size) && create_pipeline(device, levels, error, error_size))
+        create_views(device, levels, color, error, error_size) && create_sets(device, levels, error, error_size) &&
+        create_pipeline(device, levels, error, error_size))
         return true;
     host_mirror_levels_destroy(device, levels);
     return false;

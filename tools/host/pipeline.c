@@ -13,6 +13,22 @@ const VkPipelineColorBlendAttachmentState host_blend_over = {.blendEnable = VK_T
                                                              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                                              .colorWriteMask = ALL_CHANNELS};
 
+bool host_pipeline_layout_create(host_device *device, const VkDescriptorSetLayout *sets, uint32_t set_count,
+                                 VkShaderStageFlags push_stages, uint32_t push_size, VkPipelineLayout *layout,
+                                 char *error, size_t error_size)
+{
+    const VkPushConstantRange push = {push_stages, 0, push_size};
+    const VkPipelineLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = set_count,
+        .pSetLayouts = sets,
+        .pushConstantRangeCount = push_size > 0,
+        .pPushConstantRanges = &push,
+    };
+    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, layout));
+    return true;
+}
+
 /* A stage with a module of its own, which the caller destroys; none for no shader. */
 static bool make_stage(host_device *device, host_code code, VkShaderStageFlagBits which,
                        VkPipelineShaderStageCreateInfo *stage, char *error, size_t error_size)

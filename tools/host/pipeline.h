@@ -30,6 +30,11 @@ typedef struct host_graphics_def {
 /* What replaces what is there, and what is laid over it premultiplied. */
 extern const VkPipelineColorBlendAttachmentState host_blend_replace, host_blend_over;
 
+/* With push constants of `push_size` bytes from the start, seen by those stages; 0: none. */
+bool host_pipeline_layout_create(host_device *device, const VkDescriptorSetLayout *sets, uint32_t set_count,
+                                 VkShaderStageFlags push_stages, uint32_t push_size, VkPipelineLayout *layout,
+                                 char *error, size_t error_size);
+
 bool host_graphics_create(host_device *device, const host_graphics_def *def, VkPipeline *pipeline, char *error,
                           size_t error_size);
 

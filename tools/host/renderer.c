@@ -13,71 +13,24 @@
 
 static bool create_samplers(host_renderer *r, char *error, size_t error_size)
 {
-    VkSamplerCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .magFilter = VK_FILTER_LINEAR,
-        .minFilter = VK_FILTER_LINEAR,
-        .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
-        .anisotropyEnable = r->device->anisotropy > 0.0f,
-        .maxAnisotropy = r->device->anisotropy,
-        .maxLod = VK_LOD_CLAMP_NONE,
-    };
-    HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->mesh_sampler));
-    info.anisotropyEnable = VK_FALSE; /* u goes around, v ends at the poles */
-    info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->sky_sampler));
-    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->volume_sampler));
-    info.magFilter = info.minFilter = VK_FILTER_NEAREST;
-    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    HOST_TRY(vkCreateSampler(r->device->device, &info, NULL, &r->point_sampler));
-    return true;
+    return host_sampler_create(r->device, HOST_SAMPLE_TEXTURE, &r->mesh_sampler, error, error_size) &&
+           host_sampler_create(r->device, HOST_SAMPLE_PANORAMA, &r->sky_sampler, error, error_size) &&
+           host_sampler_create(r->device, HOST_SAMPLE_LINEAR, &r->volume_sampler, error, error_size) &&
+           host_sampler_create(r->device, HOST_SAMPLE_NEAREST, &r->point_sampler, error, error_size);
 }
 
 static void write_image(const host_renderer *r, VkDescriptorSet set, uint32_t binding, VkSampler sampler,
                         const host_image *image)
 {
-    const VkDescriptorImageInfo info = {sampler, image->view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    VkWriteDescriptorSet write = {
-        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-        .dstSet = set,
-        .dstBinding = binding,
-        .descriptorCount = 1,
-        .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-        .pImageInfo = &info,
-    };
-    vkUpdateDescriptorSets(r->device->device, 1, &write, 0, NULL);
+    host_set_write_image(r->device, set, binding, sampler, image->view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
 {
-    const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 7},
-    };
-    VkDescriptorPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 1,
-        .poolSizeCount = 2,
-        .pPoolSizes = sizes,
-    };
-    HOST_TRY(vkCreateDescriptorPool(r->device->device, &pool, NULL, &r->frame_pool));
-    VkDescriptorSetAllocateInfo allocate = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = r->frame_pool,
-        .descriptorSetCount = 1,
-        .pSetLayouts = &r->frame_layout,
-    };
-    HOST_TRY(vkAllocateDescriptorSets(r->device->device, &allocate, &r->frame_set));
-    const VkDescriptorBufferInfo buffer = {r->frame_buffer.buffer, 0, VK_WHOLE_SIZE};
-    VkWriteDescriptorSet write = {
-        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-        .dstSet = r->frame_set,
-        .descriptorCount = 1,
-        .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-        .pBufferInfo = &buffer,
-    };
-    vkUpdateDescriptorSets(r->device->device, 1, &write, 0, NULL);
+    if (!host_set_pool_create(r->device, &host_frame_shape, 1, &r->frame_pool, error, error_size) ||
+        !host_sets_allocate(r->device, r->frame_pool, r->frame_layout, 1, &r->frame_set, error, error_size))
+        return false;
+    host_set_write_buffer(r->device, r->frame_set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r->frame_buffer.buffer);
     write_image(r, r->frame_set, 3, r->volume_sampler, &r->skylight.volume);
     write_image(r, r->frame_set, 4, r->point_sampler, &r->white);
     write_image(r, r->frame_set, 5, r->point_sampler, &r->blank_spots);
@@ -166,22 +119,11 @@ static const host_image *texture_or_white(const host_renderer *r, const host_mes
 static bool create_material_sets(host_renderer *r, host_entry *entry, char *error, size_t error_size)
 {
     const host_mesh *mesh = entry->mesh;
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * mesh->material_count};
-    VkDescriptorPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = mesh->material_count,
-        .poolSizeCount = 1,
-        .pPoolSizes = &size,
-    };
-    HOST_TRY(vkCreateDescriptorPool(r->device->device, &pool, NULL, &entry->pool));
+    if (!host_set_pool_create(r->device, &host_material_shape, mesh->material_count, &entry->pool, error, error_size) ||
+        !host_sets_allocate(r->device, entry->pool, r->material_layout, mesh->material_count, entry->sets, error,
+                            error_size))
+        return false;
     for (uint32_t i = 0; i < mesh->material_count; i++) {
-        VkDescriptorSetAllocateInfo allocate = {
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-            .descriptorPool = entry->pool,
-            .descriptorSetCount = 1,
-            .pSetLayouts = &r->material_layout,
-        };
-        HOST_TRY(vkAllocateDescriptorSets(r->device->device, &allocate, &entry->sets[i]));
         const host_material *material = &mesh->materials[i];
         write_image(r, entry->sets[i], 0, r->mesh_sampler, texture_or_white(r, mesh, material->base_texture));
         write_image(r, entry->sets[i], 1, r->mesh_sampler, texture_or_white(r, mesh, material->emissive_texture));
@@ -218,28 +160,15 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
     return true;
 }
 
-static void write_view(const host_renderer *r, uint32_t binding, VkSampler sampler, VkImageView view)
-{
-    VkDescriptorImageInfo info = {sampler, view, VK_IMAGE_LAYOUT_GENERAL};
-    VkWriteDescriptorSet write = {
-        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-        .dstSet = r->frame_set,
-        .dstBinding = binding,
-        .descriptorCount = 1,
-        .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-        .pImageInfo = &info,
-    };
-    vkUpdateDescriptorSets(r->device->device, 1, &write, 0, NULL);
-}
-
 void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
 {
     const bool other = maps && maps->wet != r->ground.wet;
     r->ground = maps ? *maps : (virga_ground_maps){0};
     if (other) {
-        write_view(r, 4, r->point_sampler, maps->wet);
-        write_view(r, 5, r->point_sampler, maps->spots);
-        write_view(r, 6, r->volume_sampler, maps->ripples);
+        const VkImageLayout general = VK_IMAGE_LAYOUT_GENERAL;
+        host_set_write_image(r->device, r->frame_set, 4, r->point_sampler, maps->wet, general);
+        host_set_write_image(r->device, r->frame_set, 5, r->point_sampler, maps->spots, general);
+        host_set_write_image(r->device, r->frame_set, 6, r->volume_sampler, maps->ripples, general);
     }
 }
 

@@ -2,6 +2,7 @@
 #ifndef VIRGA_HOST_RENDERER_INTERNAL_H
 #define VIRGA_HOST_RENDERER_INTERNAL_H
 
+#include "descriptors.h"
 #include "mirror.h"
 #include "renderer.h"
 #include "shaders/frame_gpu.h"
@@ -16,6 +17,10 @@ typedef enum host_pipeline {
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,
 } host_pipeline;
+
+/* Sets of a frame: its numbers, sky, reflection, skylight, the ground's wetness, spots and ripples, the mirror. Sets of
+ * a material: its two textures. */
+extern const host_set_shape host_frame_shape, host_material_shape;
 
 typedef struct host_entry { /* a mesh that was added */
     const host_mesh *mesh;

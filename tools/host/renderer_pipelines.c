@@ -14,43 +14,22 @@
 #include "sky_frag_mirror.spv.h"
 #include "sky_vert.spv.h"
 
+#define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+
+static const VkDescriptorType types[] = {
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
+
+const host_set_shape host_frame_shape = {types, 8, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
+const host_set_shape host_material_shape = {types + 1, 2, VK_SHADER_STAGE_FRAGMENT_BIT};
+
 static bool create_layouts(host_renderer *r, char *error, size_t error_size)
 {
-    const VkDescriptorSetLayoutBinding frame[] = {
-        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {7, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-    };
-    VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = 8,
-        .pBindings = frame,
-    };
-    HOST_TRY(vkCreateDescriptorSetLayout(r->device->device, &info, NULL, &r->frame_layout));
-    const VkDescriptorSetLayoutBinding material[] = {
-        {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-        {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL},
-    };
-    info.bindingCount = 2;
-    info.pBindings = material;
-    HOST_TRY(vkCreateDescriptorSetLayout(r->device->device, &info, NULL, &r->material_layout));
-
+    if (!host_set_layout_create(r->device, &host_frame_shape, &r->frame_layout, error, error_size) ||
+        !host_set_layout_create(r->device, &host_material_shape, &r->material_layout, error, error_size))
+        return false;
     const VkDescriptorSetLayout sets[] = {r->frame_layout, r->material_layout};
-    VkPushConstantRange surface = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(struct host_surface_gpu)};
-    VkPipelineLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 2,
-        .pSetLayouts = sets,
-        .pushConstantRangeCount = 1,
-        .pPushConstantRanges = &surface,
-    };
-    HOST_TRY(vkCreatePipelineLayout(r->device->device, &layout, NULL, &r->layout));
-    return true;
+    return host_pipeline_layout_create(r->device, sets, 2, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                       sizeof(struct host_surface_gpu), &r->layout, error, error_size);
 }
 
 /* ---- one pipeline ------------------------------------------------------------------------------------------- */

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "descriptors.h"
 #include "mesh.h"
 #include "passes.h"
 #include "pipeline.h"
@@ -70,67 +71,16 @@ static const VkDescriptorType gather_kinds[3] = {
 
 static bool create_set(host_device *device, host_skylight *s, char *error, size_t error_size)
 {
-    VkDescriptorSetLayoutBinding bindings[3];
-    VkDescriptorPoolSize sizes[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        bindings[i] = (VkDescriptorSetLayoutBinding){i, gather_kinds[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-        sizes[i] = (VkDescriptorPoolSize){gather_kinds[i], 1};
-    }
-    VkDescriptorSetLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = 3,
-        .pBindings = bindings,
-    };
-    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &layout, NULL, &s->set_layout));
-    VkDescriptorPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 1,
-        .poolSizeCount = 3,
-        .pPoolSizes = sizes,
-    };
-    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &s->pool));
-    VkDescriptorSetAllocateInfo allocate = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = s->pool,
-        .descriptorSetCount = 1,
-        .pSetLayouts = &s->set_layout,
-    };
-    HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &s->set));
+    const host_set_shape shape = {gather_kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT};
+    if (!host_set_layout_create(device, &shape, &s->set_layout, error, error_size) ||
+        !host_set_pool_create(device, &shape, 1, &s->pool, error, error_size) ||
+        !host_sets_allocate(device, s->pool, s->set_layout, 1, &s->set, error, error_size) ||
+        !host_sampler_create(device, HOST_SAMPLE_NEAREST, &s->sampler, error, error_size)) /* depth must not be mixed */
+        return false;
+    host_set_write_buffer(device, s->set, 0, gather_kinds[0], s->numbers.buffer);
+    host_set_write_image(device, s->set, 1, s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    host_set_write_image(device, s->set, 2, VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL);
     return true;
-}
-
-static bool create_sampler(host_device *device, host_skylight *s, char *error, size_t error_size)
-{
-    VkSamplerCreateInfo sampler = {
-        /* nearest: depth must not be mixed */
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-    };
-    HOST_TRY(vkCreateSampler(device->device, &sampler, NULL, &s->sampler));
-    return true;
-}
-
-static void write_set(host_device *device, host_skylight *s)
-{
-    const VkDescriptorBufferInfo buffer = {s->numbers.buffer, 0, VK_WHOLE_SIZE};
-    const VkDescriptorImageInfo images[] = {
-        {s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL},
-        {VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL},
-    };
-    VkWriteDescriptorSet writes[3];
-    for (uint32_t i = 0; i < 3; i++)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = s->set,
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = gather_kinds[i],
-            .pBufferInfo = i == 0 ? &buffer : NULL,
-            .pImageInfo = i > 0 ? &images[i - 1] : NULL,
-        };
-    vkUpdateDescriptorSets(device->device, 3, writes, 0, NULL);
 }
 
 /* ---- pipelines ---------------------------------------------------------------------------------------------- */
@@ -160,20 +110,10 @@ static bool create_draw(host_device *device, host_skylight *s, host_code fragmen
 static bool create_layouts(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
                            size_t error_size)
 {
-    const VkPushConstantRange push = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                      sizeof(struct host_skylight_draw_gpu)};
-    VkPipelineLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 1,
-        .pSetLayouts = &material_layout,
-        .pushConstantRangeCount = 1,
-        .pPushConstantRanges = &push,
-    };
-    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, &s->draw_layout));
-    info.pSetLayouts = &s->set_layout;
-    info.pushConstantRangeCount = 0;
-    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, &s->gather_layout));
-    return true;
+    const VkShaderStageFlags drawing = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    return host_pipeline_layout_create(device, &material_layout, 1, drawing, sizeof(struct host_skylight_draw_gpu),
+                                       &s->draw_layout, error, error_size) &&
+           host_pipeline_layout_create(device, &s->set_layout, 1, 0, 0, &s->gather_layout, error, error_size);
 }
 
 static bool create_pipelines(host_device *device, host_skylight *s, char *error, size_t error_size)
@@ -203,11 +143,9 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
         create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
         host_buffer_create(device, sizeof s->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
-        create_set(device, s, error, error_size) && create_sampler(device, s, error, error_size) &&
-        create_layouts(device, material_layout, s, error, error_size) && create_pipelines(device, s, error, error_size);
-    if (ok)
-        write_set(device, s);
-    else
+        create_set(device, s, error, error_size) && create_layouts(device, material_layout, s, error, error_size) &&
+        create_pipelines(device, s, error, error_size);
+    if (!ok)
         host_skylight_destroy(device, s);
     return ok;
 }

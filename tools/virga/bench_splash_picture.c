@@ -53,8 +53,8 @@ static bool create_fill(bench *b, picture *p)
 {
     char *error = b->error;
     const size_t error_size = sizeof b->error;
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    HOST_TRY(vkCreatePipelineLayout(b->device.device, &layout, NULL, &p->layout));
+    if (!host_pipeline_layout_create(&b->device, NULL, 0, 0, 0, &p->layout, error, error_size))
+        return false;
     const host_graphics_def def = {.vertex = HOST_CODE(fill_vert),
                                    .fragment = HOST_CODE(fill_frag),
                                    .layout = p->layout,

@@ -36,47 +36,27 @@ double bench_median(double *values, size_t count)
 
 static bool create_set(host_device *device, limits *l, char *error, size_t error_size)
 {
-    VkDescriptorSetLayoutBinding bindings[2];
-    for (uint32_t i = 0; i < 2; i++)
-        bindings[i] =
-            (VkDescriptorSetLayoutBinding){i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-    const VkDescriptorSetLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 2, .pBindings = bindings};
-    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &layout, NULL, &l->set_layout));
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
-    const VkDescriptorPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, .maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size};
-    HOST_TRY(vkCreateDescriptorPool(device->device, &pool, NULL, &l->pool));
-    const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                  .descriptorPool = l->pool,
-                                                  .descriptorSetCount = 1,
-                                                  .pSetLayouts = &l->set_layout};
-    HOST_TRY(vkAllocateDescriptorSets(device->device, &allocate, &l->set));
-    const VkDescriptorBufferInfo infos[2] = {{l->from.buffer, 0, VK_WHOLE_SIZE}, {l->to.buffer, 0, VK_WHOLE_SIZE}};
-    VkWriteDescriptorSet writes[2];
-    for (uint32_t i = 0; i < 2; i++)
-        writes[i] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                           .dstSet = l->set,
-                                           .dstBinding = i,
-                                           .descriptorCount = 1,
-                                           .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                           .pBufferInfo = &infos[i]};
-    vkUpdateDescriptorSets(device->device, 2, writes, 0, NULL);
+    static const VkDescriptorType types[2] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    const host_set_shape shape = {types, 2, VK_SHADER_STAGE_COMPUTE_BIT};
+    if (!host_set_layout_create(device, &shape, &l->set_layout, error, error_size) ||
+        !host_set_pool_create(device, &shape, 1, &l->pool, error, error_size) ||
+        !host_sets_allocate(device, l->pool, l->set_layout, 1, &l->set, error, error_size))
+        return false;
+    host_set_write_buffer(device, l->set, 0, types[0], l->from.buffer);
+    host_set_write_buffer(device, l->set, 1, types[1], l->to.buffer);
     return true;
 }
 
 static bool create_bare(host_device *device, limits *l, char *error, size_t error_size)
 {
-    const VkPipelineLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &l->set_layout};
-    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->layout));
-    return host_compute_create(device, HOST_CODE(bare_comp), l->layout, &l->bare, error, error_size);
+    return host_pipeline_layout_create(device, &l->set_layout, 1, 0, 0, &l->layout, error, error_size) &&
+           host_compute_create(device, HOST_CODE(bare_comp), l->layout, &l->bare, error, error_size);
 }
 
 static bool create_fill(host_device *device, limits *l, const host_target *target, char *error, size_t error_size)
 {
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    HOST_TRY(vkCreatePipelineLayout(device->device, &layout, NULL, &l->fill_layout));
+    if (!host_pipeline_layout_create(device, NULL, 0, 0, 0, &l->fill_layout, error, error_size))
+        return false;
     const host_graphics_def def = {.vertex = HOST_CODE(fill_vert),
                                    .fragment = HOST_CODE(fill_frag),
                                    .layout = l->fill_layout,

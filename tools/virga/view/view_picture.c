@@ -39,69 +39,34 @@ static const host_output output_at[] = {
 
 /* ---- pipelines */
 
-static bool create_layouts(view_picture *p, char *error, size_t error_size)
-{
-    VkDescriptorSetLayoutBinding bindings[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; i++) {
-        const bool image = i >= AT_COLOR && i <= AT_HEIGHTS;
-        bindings[i] =
-            (VkDescriptorSetLayoutBinding){.binding = i,
-                                           .descriptorType = i == AT_VIEW ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                             : image      ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                                                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                           .descriptorCount = 1,
-                                           .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_VERTEX_BIT};
-    }
-    const VkDescriptorSetLayoutCreateInfo set = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = BINDINGS, .pBindings = bindings};
-    HOST_TRY(vkCreateDescriptorSetLayout(p->device->device, &set, NULL, &p->set_layout));
-    const VkPushConstantRange window = {VK_SHADER_STAGE_VERTEX_BIT, 0, 8};
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                               .setLayoutCount = 1,
-                                               .pSetLayouts = &p->set_layout,
-                                               .pushConstantRangeCount = 1,
-                                               .pPushConstantRanges = &window};
-    HOST_TRY(vkCreatePipelineLayout(p->device->device, &layout, NULL, &p->layout));
-    return true;
-}
-
 static bool create_sets(view_picture *p, char *error, size_t error_size)
 {
-    const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_FRAMES},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, HOST_FRAMES * (AT_HEIGHTS - AT_COLOR + 1)},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, HOST_FRAMES * (AT_DROPS - AT_FLOORS + 1)}};
-    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                             .maxSets = HOST_FRAMES,
-                                             .poolSizeCount = 3,
-                                             .pPoolSizes = sizes};
-    HOST_TRY(vkCreateDescriptorPool(p->device->device, &pool, NULL, &p->pool));
-    for (uint32_t i = 0; i < HOST_FRAMES; i++) {
-        const VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                      .descriptorPool = p->pool,
-                                                      .descriptorSetCount = 1,
-                                                      .pSetLayouts = &p->set_layout};
-        HOST_TRY(vkAllocateDescriptorSets(p->device->device, &allocate, &p->sets[i]));
+    const VkShaderStageFlags seen = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    VkDescriptorType types[BINDINGS];
+    for (uint32_t i = 0; i < BINDINGS; i++)
+        types[i] = i == AT_VIEW      ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                   : i <= AT_HEIGHTS ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const host_set_shape shape = {types, BINDINGS, seen};
+    for (uint32_t i = 0; i < HOST_FRAMES; i++)
         if (!host_buffer_create(p->device, sizeof(struct view_gpu), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 HOST_BUFFER_UPLOAD, "view", &p->uniforms[i], error, error_size))
             return false;
-    }
-    return true;
+    return host_set_layout_create(p->device, &shape, &p->set_layout, error, error_size) &&
+           host_set_pool_create(p->device, &shape, HOST_FRAMES, &p->pool, error, error_size) &&
+           host_sets_allocate(p->device, p->pool, p->set_layout, HOST_FRAMES, p->sets, error, error_size) &&
+           host_pipeline_layout_create(p->device, &p->set_layout, 1, VK_SHADER_STAGE_VERTEX_BIT, 8, &p->layout, error,
+                                       error_size);
 }
 
 static bool create_samplers(view_picture *p, char *error, size_t error_size)
 {
     VkFormatProperties about;
-    VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-                                .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
-    HOST_TRY(vkCreateSampler(p->device->device, &info, NULL, &p->nearest));
     vkGetPhysicalDeviceFormatProperties(p->device->physical, VK_FORMAT_R32G32B32A32_SFLOAT, &about);
-    if (about.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT)
-        info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    HOST_TRY(vkCreateSampler(p->device->device, &info, NULL, &p->linear));
-    return true;
+    const bool filtered = about.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return host_sampler_create(p->device, HOST_SAMPLE_NEAREST, &p->nearest, error, error_size) &&
+           host_sampler_create(p->device, filtered ? HOST_SAMPLE_LINEAR : HOST_SAMPLE_NEAREST, &p->linear, error,
+                               error_size);
 }
 
 /* What stands for outputs that a scene has not. */
@@ -141,7 +106,7 @@ bool view_picture_create(host_device *device, const view_window *window, view_pi
     memset(p, 0, sizeof *p);
     p->device = device;
     return create_samplers(p, error, error_size) && create_blanks(p, error, error_size) &&
-           create_layouts(p, error, error_size) && create_sets(p, error, error_size) &&
+           create_sets(p, error, error_size) &&
            build(p, window->pass, HOST_CODE(view_view_vert), HOST_CODE(view_view_frag), &p->picture, error,
                  error_size) &&
            build(p, window->pass, HOST_CODE(view_pane_drops_vert), HOST_CODE(view_pane_drops_frag), &p->drops, error,
@@ -285,54 +250,27 @@ static void fill(const shot *s, const host_camera *camera, const view_shown *sho
 
 /* ---- descriptors */
 
-typedef struct writes {
-    VkWriteDescriptorSet all[BINDINGS];
-    VkDescriptorImageInfo images[BINDINGS];
-    VkDescriptorBufferInfo buffers[BINDINGS];
-    uint32_t count;
-} writes;
-
-static VkWriteDescriptorSet *add(writes *w, VkDescriptorSet set, uint32_t binding, VkDescriptorType type)
+/* A storage buffer, or what stands for it. */
+static void write_buffer(const view_picture *p, VkDescriptorSet set, uint32_t binding, VkBuffer buffer)
 {
-    VkWriteDescriptorSet *write = &w->all[w->count++];
-    *write = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                    .dstSet = set,
-                                    .dstBinding = binding,
-                                    .descriptorCount = 1,
-                                    .descriptorType = type,
-                                    .pImageInfo = &w->images[binding],
-                                    .pBufferInfo = &w->buffers[binding]};
-    return write;
+    host_set_write_buffer(p->device, set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                          buffer ? buffer : p->blank_buffer.buffer);
 }
 
-static void add_image(writes *w, VkDescriptorSet set, uint32_t binding, VkSampler sampler, VkImageView view,
-                      VkImageLayout layout)
-{
-    w->images[binding] = (VkDescriptorImageInfo){sampler, view, layout};
-    add(w, set, binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-}
-
-static void add_buffer(writes *w, VkDescriptorSet set, uint32_t binding, VkBuffer buffer, VkBuffer blank)
-{
-    w->buffers[binding] = (VkDescriptorBufferInfo){buffer ? buffer : blank, 0, VK_WHOLE_SIZE};
-    add(w, set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-}
-
-static void add_outputs(const view_picture *p, const shot *s, VkDescriptorSet set, writes *w)
+static void write_outputs(const view_picture *p, const shot *s, VkDescriptorSet set)
 {
     for (uint32_t i = AT_COLOR; i <= AT_DEPTH; i++) {
         const host_image *image = &s->target.images[output_at[i]];
         const bool smooth = i <= AT_GLASS;
-        add_image(w, set, i, smooth ? p->linear : p->nearest, image->image ? image->view : p->blank.view,
-                  i == AT_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
-                                : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        host_set_write_image(
+            p->device, set, i, smooth ? p->linear : p->nearest, image->image ? image->view : p->blank.view,
+            i == AT_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }
 
 static void write_set(const view_picture *p, const shot *s, const view_shown *shown, VkDescriptorSet set,
                       const host_buffer *uniforms)
 {
-    writes w = {.count = 0};
     const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const shot_pane *pane = pane_of(s, shown);
     virga_rain_occlusion_map map;
@@ -346,18 +284,16 @@ static void write_set(const view_picture *p, const shot *s, const view_shown *sh
         virga_glass_surface(pane->glass, &surface, NULL, NULL);
         virga_glass_drops(pane->glass, &drops, NULL);
     }
-    w.buffers[AT_VIEW] = (VkDescriptorBufferInfo){uniforms->buffer, 0, VK_WHOLE_SIZE};
-    add(&w, set, AT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
-    add_outputs(p, s, set, &w);
-    add_image(&w, set, AT_OCCLUSION, p->nearest, map.depth ? map.depth : p->blank_array.view,
-              map.depth ? map.layout : read);
-    add_image(&w, set, AT_HEIGHTS, p->nearest, heights.view ? heights.view : p->blank.view,
-              heights.view ? VK_IMAGE_LAYOUT_GENERAL : read);
-    add_buffer(&w, set, AT_FLOORS, cells.floors, p->blank_buffer.buffer);
-    add_buffer(&w, set, AT_CELLS, cells.cells, p->blank_buffer.buffer);
-    add_buffer(&w, set, AT_SURFACE, surface.buffer, p->blank_buffer.buffer);
-    add_buffer(&w, set, AT_DROPS, drops.buffer, p->blank_buffer.buffer);
-    vkUpdateDescriptorSets(p->device->device, w.count, w.all, 0, NULL);
+    host_set_write_buffer(p->device, set, AT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniforms->buffer);
+    write_outputs(p, s, set);
+    host_set_write_image(p->device, set, AT_OCCLUSION, p->nearest, map.depth ? map.depth : p->blank_array.view,
+                         map.depth ? map.layout : read);
+    host_set_write_image(p->device, set, AT_HEIGHTS, p->nearest, heights.view ? heights.view : p->blank.view,
+                         heights.view ? VK_IMAGE_LAYOUT_GENERAL : read);
+    write_buffer(p, set, AT_FLOORS, cells.floors);
+    write_buffer(p, set, AT_CELLS, cells.cells);
+    write_buffer(p, set, AT_SURFACE, surface.buffer);
+    write_buffer(p, set, AT_DROPS, drops.buffer);
 }
 
 /* ---- recording */

@@ -1,0 +1,98 @@
+/* descriptors.c - see descriptors.h. */
+#include "descriptors.h"
+
+bool host_sampler_create(host_device *device, host_sampling sampling, VkSampler *sampler, char *error,
+                         size_t error_size)
+{
+    const bool linear = sampling != HOST_SAMPLE_NEAREST, texture = sampling == HOST_SAMPLE_TEXTURE;
+    const VkSamplerAddressMode ends = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, around = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    const VkSamplerCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+        .minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+        .mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .addressModeU = texture || sampling == HOST_SAMPLE_PANORAMA ? around : ends,
+        .addressModeV = texture ? around : ends,
+        .addressModeW = texture ? around : ends,
+        .anisotropyEnable = texture && device->anisotropy > 0.0f,
+        .maxAnisotropy = device->anisotropy,
+        .maxLod = VK_LOD_CLAMP_NONE,
+    };
+    HOST_TRY(vkCreateSampler(device->device, &info, NULL, sampler));
+    return true;
+}
+
+bool host_set_layout_create(host_device *device, const host_set_shape *shape, VkDescriptorSetLayout *layout,
+                            char *error, size_t error_size)
+{
+    VkDescriptorSetLayoutBinding bindings[HOST_SET_BINDINGS];
+    for (uint32_t i = 0; i < shape->count; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){i, shape->types[i], 1, shape->stages, NULL};
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = shape->count,
+        .pBindings = bindings,
+    };
+    HOST_TRY(vkCreateDescriptorSetLayout(device->device, &info, NULL, layout));
+    return true;
+}
+
+bool host_set_pool_create(host_device *device, const host_set_shape *shape, uint32_t most, VkDescriptorPool *pool,
+                          char *error, size_t error_size)
+{
+    VkDescriptorPoolSize sizes[HOST_SET_BINDINGS];
+    for (uint32_t i = 0; i < shape->count; i++)
+        sizes[i] = (VkDescriptorPoolSize){shape->types[i], most};
+    const VkDescriptorPoolCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+        .maxSets = most,
+        .poolSizeCount = shape->count,
+        .pPoolSizes = sizes,
+    };
+    HOST_TRY(vkCreateDescriptorPool(device->device, &info, NULL, pool));
+    return true;
+}
+
+bool host_sets_allocate(host_device *device, VkDescriptorPool pool, VkDescriptorSetLayout layout, uint32_t count,
+                        VkDescriptorSet *sets, char *error, size_t error_size)
+{
+    const VkDescriptorSetAllocateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &layout,
+    };
+    for (uint32_t i = 0; i < count; i++)
+        HOST_TRY(vkAllocateDescriptorSets(device->device, &info, &sets[i]));
+    return true;
+}
+
+void host_set_write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkSampler sampler,
+                          VkImageView view, VkImageLayout layout)
+{
+    const VkDescriptorImageInfo image = {sampler, view, layout};
+    const VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = set,
+        .dstBinding = binding,
+        .descriptorCount = 1,
+        .descriptorType = sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+        .pImageInfo = &image,
+    };
+    vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
+}
+
+void host_set_write_buffer(const host_device *device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                           VkBuffer buffer)
+{
+    const VkDescriptorBufferInfo whole = {buffer, 0, VK_WHOLE_SIZE};
+    const VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = set,
+        .dstBinding = binding,
+        .descriptorCount = 1,
+        .descriptorType = type,
+        .pBufferInfo = &whole,
+    };
+    vkUpdateDescriptorSets(device->device, 1, &write, 0, NULL);
+}
