@@ -2,6 +2,9 @@
  * images: stage_images.c. */
 #include "stage_internal.h"
 
+#include "descriptors.h"
+#include "passes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -114,20 +117,7 @@ static uint32_t slot(const stage *s)
 
 static void begin_pass(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, const stage *s)
 {
-    const VkClearValue clears[2] = {{.color = {.float32 = {0, 0, 0, 0}}}, {.depthStencil = {1, 0}}};
-    VkRenderPassBeginInfo begin = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-        .renderPass = pass,
-        .framebuffer = framebuffer,
-        .renderArea = {.extent = {s->width, s->height}},
-        .clearValueCount = 2,
-        .pClearValues = clears,
-    };
-    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    VkViewport viewport = {0, 0, (float)s->width, (float)s->height, 0, 1};
-    VkRect2D scissor = {.extent = {s->width, s->height}};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &scissor);
+    host_pass_begin(cmd, pass, framebuffer, s->width, s->height, 1);
 }
 
 bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size)
@@ -266,33 +256,8 @@ static void show(stage *s, VkCommandBuffer cmd, bool keep)
     VkBufferImageCopy whole = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                .imageExtent = {s->width, s->height, 1}};
     vkCmdCopyImageToBuffer(cmd, s->picture.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, s->copy.buffer, 1, &whole);
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                               .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, NULL, 0,
-                         NULL);
-}
-
-/* host_submit, with the semaphores that a window needs. */
-static bool submit(stage *s, char *error, size_t error_size)
-{
-    host_frame *frame = &s->device->frames[slot(s)];
-    const VkPipelineStageFlags wait = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    HOST_TRY(vkEndCommandBuffer(frame->cmd));
-    HOST_TRY(vkResetFences(s->device->device, 1, &frame->fence));
-    VkSubmitInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-        .waitSemaphoreCount = 1,
-        .pWaitSemaphores = &s->acquired[slot(s)],
-        .pWaitDstStageMask = &wait,
-        .commandBufferCount = 1,
-        .pCommandBuffers = &frame->cmd,
-        .signalSemaphoreCount = 1,
-        .pSignalSemaphores = &s->finished[s->image],
-    };
-    HOST_TRY(vkQueueSubmit(s->device->queue, 1, &info, frame->fence));
-    frame->index = s->device->frame;
-    return true;
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                        VK_ACCESS_HOST_READ_BIT);
 }
 
 bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size)
@@ -302,7 +267,7 @@ bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool k
     s->has_last = true;
     if (!s->window)
         return host_submit(s->device, error, error_size);
-    if (!submit(s, error, error_size))
+    if (!host_submit_for_window(s->device, s->acquired[slot(s)], s->finished[s->image], error, error_size))
         return false;
     VkPresentInfoKHR present = {
         .sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
@@ -326,50 +291,20 @@ const uint8_t *stage_picture(stage *s)
 
 /* ---- descriptors */
 
-typedef struct binding {
-    VkDescriptorSet set;
-    uint32_t index;
-    VkSampler sampler;
-    VkImageView view;
-    VkImageLayout layout;
-} binding;
-
-static void bind_image(const stage *s, binding b)
-{
-    VkDescriptorImageInfo image = {b.sampler, b.view, b.layout};
-    VkWriteDescriptorSet write = {
-        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-        .dstSet = b.set,
-        .dstBinding = b.index,
-        .descriptorCount = 1,
-        .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-        .pImageInfo = &image,
-    };
-    vkUpdateDescriptorSets(s->device->device, 1, &write, 0, NULL);
-}
-
 void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment)
 {
     const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
         const VkDescriptorSet set = s->frame_sets[i];
-        VkDescriptorBufferInfo buffer = {s->numbers[i].buffer, 0, VK_WHOLE_SIZE};
-        VkWriteDescriptorSet write = {
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = set,
-            .descriptorCount = 1,
-            .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-            .pBufferInfo = &buffer,
-        };
-        vkUpdateDescriptorSets(s->device->device, 1, &write, 0, NULL);
-        bind_image(s, (binding){set, 1, s->repeat, environment->sky.view, read});
-        bind_image(s, (binding){set, 2, s->smooth, environment->reflection.view, read});
-        bind_image(s, (binding){set, 3, s->nearest, maps->wet, general});
-        bind_image(s, (binding){set, 4, s->nearest, maps->spots, general});
-        bind_image(s, (binding){set, 5, s->smooth, maps->ripples, general});
-        bind_image(s, (binding){set, 6, s->smooth, s->behind.view, read});
+        host_set_write_buffer(s->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, s->numbers[i].buffer);
+        host_set_write_image(s->device, set, 1, s->repeat, environment->sky.view, read);
+        host_set_write_image(s->device, set, 2, s->smooth, environment->reflection.view, read);
+        host_set_write_image(s->device, set, 3, s->nearest, maps->wet, general);
+        host_set_write_image(s->device, set, 4, s->nearest, maps->spots, general);
+        host_set_write_image(s->device, set, 5, s->smooth, maps->ripples, general);
+        host_set_write_image(s->device, set, 6, s->smooth, s->behind.view, read);
     }
-    bind_image(s, (binding){s->show_set, 0, s->nearest, s->color.view, read});
+    host_set_write_image(s->device, s->show_set, 0, s->nearest, s->color.view, read);
 }
 
 bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size)
@@ -377,19 +312,14 @@ bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size)
     if (s->mesh_count == STAGE_MESHES || mesh->material_count > 64)
         return host_fail(error, error_size, "more than %d meshes, or 64 materials in one", STAGE_MESHES);
     VkDescriptorSet *sets = s->meshes[s->mesh_count].sets;
+    if (!host_sets_allocate(s->device, s->pool, s->material_layout, mesh->material_count, sets, error, error_size))
+        return false;
     for (uint32_t i = 0; i < mesh->material_count; i++) {
         const host_material *material = &mesh->materials[i];
         const int32_t textures[2] = {material->base_texture, material->emissive_texture};
-        VkDescriptorSetAllocateInfo allocate = {
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-            .descriptorPool = s->pool,
-            .descriptorSetCount = 1,
-            .pSetLayouts = &s->material_layout,
-        };
-        HOST_TRY(vkAllocateDescriptorSets(s->device->device, &allocate, &sets[i]));
         for (uint32_t k = 0; k < 2; k++) {
             const VkImageView view = textures[k] >= 0 ? mesh->textures[textures[k]].view : s->white.view;
-            bind_image(s, (binding){sets[i], k, s->repeat, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+            host_set_write_image(s->device, sets[i], k, s->repeat, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
     }
     s->meshes[s->mesh_count++].mesh = mesh;

@@ -5,6 +5,8 @@
 
 #include "stage_internal.h"
 
+#include "passes.h"
+
 #include <string.h>
 
 bool stage_images_choose(stage *s, char *error, size_t error_size)
@@ -46,15 +48,9 @@ static bool create_swapchain(stage *s, VkExtent2D extent, const VkSurfaceCapabil
     s->image_count = STAGE_IMAGES;
     HOST_TRY(vkGetSwapchainImagesKHR(s->device->device, s->swapchain, &s->image_count, s->images));
     for (uint32_t i = 0; i < s->image_count; i++) {
-        VkImageViewCreateInfo view = {
-            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-            .image = s->images[i],
-            .viewType = VK_IMAGE_VIEW_TYPE_2D,
-            .format = s->show_format,
-            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
-        };
         VkSemaphoreCreateInfo semaphore = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-        HOST_TRY(vkCreateImageView(s->device->device, &view, NULL, &s->image_views[i]));
+        if (!host_view_create(s->device, s->images[i], s->show_format, 0, 0, &s->image_views[i], error, error_size))
+            return false;
         HOST_TRY(vkCreateSemaphore(s->device->device, &semaphore, NULL, &s->finished[i]));
     }
     return true;
@@ -70,17 +66,7 @@ static bool create_image(stage *s, VkFormat format, VkImageUsageFlags usage, con
 static bool create_framebuffer(stage *s, VkRenderPass pass, const VkImageView *views, uint32_t count,
                                VkFramebuffer *framebuffer, char *error, size_t error_size)
 {
-    VkFramebufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-        .renderPass = pass,
-        .attachmentCount = count,
-        .pAttachments = views,
-        .width = s->width,
-        .height = s->height,
-        .layers = 1,
-    };
-    HOST_TRY(vkCreateFramebuffer(s->device->device, &info, NULL, framebuffer));
-    return true;
+    return host_framebuffer_create(s->device, pass, views, count, s->width, s->height, framebuffer, error, error_size);
 }
 
 static bool create_images(stage *s, char *error, size_t error_size)

@@ -1,6 +1,10 @@
 /* stage_passes.c - render passes, layouts, pipelines and samplers: what does not depend on the picture's size. */
 #include "stage_internal.h"
 
+#include "descriptors.h"
+#include "passes.h"
+#include "pipeline.h"
+
 #include "full_vert.spv.h"
 #include "show_frag.spv.h"
 #include "sky_frag.spv.h"
@@ -20,54 +24,26 @@ typedef struct pass_def {
 /* What came before a pass and what follows it, as wide as such a small renderer can afford. */
 static bool create_pass(stage *s, const pass_def *def, VkRenderPass *pass, char *error, size_t error_size)
 {
-    const VkImageLayout kept = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    const VkAttachmentLoadOp load = def->load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
-    const VkAttachmentDescription attachments[2] = {
-        {.format = def->color,
-         .samples = VK_SAMPLE_COUNT_1_BIT,
-         .loadOp = load,
-         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-         .initialLayout = def->color_before,
-         .finalLayout = def->color_after},
-        {.format = VK_FORMAT_D32_SFLOAT,
-         .samples = VK_SAMPLE_COUNT_1_BIT,
-         .loadOp = load,
-         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-         .finalLayout = kept},
+    VkAttachmentDescription attachments[2] = {
+        host_attachment(def->color, def->color_after),
+        host_attachment(VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL),
     };
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .colorAttachmentCount = 1, .pColorAttachments = &color, .pDepthStencilAttachment = def->depth ? &depth : NULL};
-    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                         VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                         VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkPipelineStageFlags using =
-        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    const VkAccessFlags written = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-    const VkAccessFlags read = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-    const VkSubpassDependency around[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, drawing | using, drawing | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-         written | VK_ACCESS_TRANSFER_WRITE_BIT, written | read | VK_ACCESS_SHADER_READ_BIT, 0},
-        {0, VK_SUBPASS_EXTERNAL, drawing, drawing | using, written,
-         written | read | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT, 0},
+    attachments[0].initialLayout = def->color_before;
+    if (def->load)
+        attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    const VkPipelineStageFlags shading = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | HOST_DEPTH_STAGES;
+    const VkPipelineStageFlags all =
+        drawing | shading | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags used = HOST_DRAW_WRITES | HOST_DRAW_READS | VK_ACCESS_SHADER_READ_BIT;
+    const host_pass_def made = {
+        .attachments = attachments,
+        .color_count = 1,
+        .depth = def->depth,
+        .before = {all, HOST_DRAW_WRITES | VK_ACCESS_TRANSFER_WRITE_BIT, drawing | shading, used},
+        .after = {drawing, HOST_DRAW_WRITES, all, used | VK_ACCESS_TRANSFER_READ_BIT},
     };
-    VkRenderPassCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-        .attachmentCount = def->depth ? 2 : 1,
-        .pAttachments = attachments,
-        .subpassCount = 1,
-        .pSubpasses = &subpass,
-        .dependencyCount = 2,
-        .pDependencies = around,
-    };
-    HOST_TRY(vkCreateRenderPass(s->device->device, &info, NULL, pass));
-    return true;
+    return host_pass_create(s->device, &made, pass, error, error_size);
 }
 
 static bool create_passes(stage *s, char *error, size_t error_size)
@@ -84,45 +60,24 @@ static bool create_passes(stage *s, char *error, size_t error_size)
 
 /* ---- layouts */
 
-static bool create_set_layout(stage *s, uint32_t count, bool numbers, VkDescriptorSetLayout *layout, char *error,
-                              size_t error_size)
-{
-    VkDescriptorSetLayoutBinding bindings[8];
-    for (uint32_t i = 0; i < count; i++)
-        bindings[i] = (VkDescriptorSetLayoutBinding){
-            .binding = i,
-            .descriptorType =
-                numbers && i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            .descriptorCount = 1,
-            .stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
-        };
-    VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    HOST_TRY(vkCreateDescriptorSetLayout(s->device->device, &info, NULL, layout));
-    return true;
-}
+#define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+
+static const VkDescriptorType types[7] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
 
 static bool create_layouts(stage *s, char *error, size_t error_size)
 {
-    if (!create_set_layout(s, 7, true, &s->frame_layout, error, error_size) ||
-        !create_set_layout(s, 2, false, &s->material_layout, error, error_size) ||
-        !create_set_layout(s, 1, false, &s->show_layout, error, error_size))
+    const VkShaderStageFlags drawing = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    const host_set_shape frame = {types, 7, drawing}, material = {types + 1, 2, drawing},
+                         show = {types + 1, 1, drawing};
+    if (!host_set_layout_create(s->device, &frame, &s->frame_layout, error, error_size) ||
+        !host_set_layout_create(s->device, &material, &s->material_layout, error, error_size) ||
+        !host_set_layout_create(s->device, &show, &s->show_layout, error, error_size))
         return false;
     const VkDescriptorSetLayout world[2] = {s->frame_layout, s->material_layout};
-    const VkPushConstantRange surface = {VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                         sizeof(struct drive_surface_gpu)};
-    VkPipelineLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 2,
-        .pSetLayouts = world,
-        .pushConstantRangeCount = 1,
-        .pPushConstantRanges = &surface,
-    };
-    HOST_TRY(vkCreatePipelineLayout(s->device->device, &info, NULL, &s->world_layout));
-    info = (VkPipelineLayoutCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &s->show_layout};
-    HOST_TRY(vkCreatePipelineLayout(s->device->device, &info, NULL, &s->show_pipeline_layout));
-    return true;
+    return host_pipeline_layout_create(s->device, world, 2, drawing, sizeof(struct drive_surface_gpu), &s->world_layout,
+                                       error, error_size) &&
+           host_pipeline_layout_create(s->device, &s->show_layout, 1, 0, 0, &s->show_pipeline_layout, error,
+                                       error_size);
 }
 
 static bool create_sets(stage *s, char *error, size_t error_size)
@@ -138,37 +93,15 @@ static bool create_sets(stage *s, char *error, size_t error_size)
         .pPoolSizes = sizes,
     };
     HOST_TRY(vkCreateDescriptorPool(s->device->device, &pool, NULL, &s->pool));
-    for (uint32_t i = 0; i <= HOST_FRAMES; i++) {
-        VkDescriptorSetAllocateInfo allocate = {
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-            .descriptorPool = s->pool,
-            .descriptorSetCount = 1,
-            .pSetLayouts = i < HOST_FRAMES ? &s->frame_layout : &s->show_layout,
-        };
-        HOST_TRY(
-            vkAllocateDescriptorSets(s->device->device, &allocate, i < HOST_FRAMES ? &s->frame_sets[i] : &s->show_set));
-    }
-    return true;
+    return host_sets_allocate(s->device, s->pool, s->frame_layout, HOST_FRAMES, s->frame_sets, error, error_size) &&
+           host_sets_allocate(s->device, s->pool, s->show_layout, 1, &s->show_set, error, error_size);
 }
 
 static bool create_samplers(stage *s, char *error, size_t error_size)
 {
-    VkSamplerCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .maxLod = VK_LOD_CLAMP_NONE,
-    };
-    HOST_TRY(vkCreateSampler(s->device->device, &info, NULL, &s->nearest));
-    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    HOST_TRY(vkCreateSampler(s->device->device, &info, NULL, &s->smooth));
-    info.addressModeU = info.addressModeV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-    info.anisotropyEnable = s->device->anisotropy > 1;
-    info.maxAnisotropy = s->device->anisotropy;
-    HOST_TRY(vkCreateSampler(s->device->device, &info, NULL, &s->repeat));
-    return true;
+    return host_sampler_create(s->device, HOST_SAMPLE_NEAREST, &s->nearest, error, error_size) &&
+           host_sampler_create(s->device, HOST_SAMPLE_LINEAR, &s->smooth, error, error_size) &&
+           host_sampler_create(s->device, HOST_SAMPLE_TEXTURE, &s->repeat, error, error_size);
 }
 
 /* ---- pipelines */
@@ -283,16 +216,12 @@ static bool create_pipelines(stage *s, char *error, size_t error_size)
 static bool create_data(stage *s, char *error, size_t error_size)
 {
     const uint8_t texel[4] = {255, 255, 255, 255};
-    const host_image_def white = {.format = VK_FORMAT_R8G8B8A8_UNORM,
-                                  .extent = {1, 1, 1},
-                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                                  .name = "drive white"};
+    const host_image_def white = {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1, 1}, .name = "drive white"};
     for (uint32_t i = 0; i < HOST_FRAMES; i++)
         if (!host_buffer_create(s->device, sizeof(struct drive_frame_gpu), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 HOST_BUFFER_UPLOAD, "drive frame", &s->numbers[i], error, error_size))
             return false;
-    return host_image_create(s->device, &white, &s->white, error, error_size) &&
-           host_image_upload(s->device, &s->white, texel, sizeof texel, 4, error, error_size);
+    return host_image_create_with(s->device, &white, texel, sizeof texel, 4, &s->white, error, error_size);
 }
 
 static bool create_acquired(stage *s, char *error, size_t error_size)
