@@ -1,0 +1,257 @@
+/* test_glass_drawn.c - what a drop does to light in closed form, and what is drawn where. */
+#include "glass_ball_fixture.h"
+
+/* ---- light */
+
+static bool refract_ray(const double d[3], const double n[3], double ratio, double out[3])
+{
+    const double c = -(d[0] * n[0] + d[1] * n[1] + d[2] * n[2]), k = 1 - ratio * ratio * (1 - c * c);
+    for (int i = 0; i < 3; i++)
+        out[i] = ratio * d[i] + (ratio * c - sqrt(fmax(k, 0))) * n[i];
+    return k >= 0;
+}
+
+/* Where a ray from the camera through a pixel leaves the pane to, through one cap, as tangents; false: thrown back. */
+static bool leaves(const double tangent[2], double side, const double slope[2], double out[2])
+{
+    const double length = sqrt(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    const double d[3] = {tangent[0] / length, tangent[1] / length, -side / length};
+    const double n = sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    const double normal[3] = {-slope[0] / n, -slope[1] / n, 1 / n}, flat[3] = {0, 0, side};
+    const double facing[3] = {side * normal[0], side * normal[1], side * normal[2]};
+    double in_water[3], e[3];
+    refract_ray(d, side > 0 ? facing : flat, 1 / WATER, in_water);
+    const bool passes = refract_ray(in_water, side > 0 ? flat : facing, WATER, e);
+    for (int i = 0; i < 2; i++)
+        out[i] = e[i] / fabs(e[2]);
+    return passes;
+}
+
+/* From both sides, straight on: to 4 % of the way and a pixel within 0.85 radii, where the map's texels show the
+ * slope. Where the closed form is thrown back (a coated pane, seen from behind), so is the ray. */
+static void compare_refraction(shot *s, double side, const ball *b, int *passed, int *thrown_back)
+{
+    shot_face(s, side, 30);
+    const float *pixels = shot_draw(s, true);
+    const double f = 0.5 * HEIGHT / tan(15 * M_PI / 180), away = fabs(s->camera.position_m[2]);
+    for (int y = 0; y < HEIGHT; y += 2)
+        for (int x = 0; x < WIDTH; x += 2) {
+            const double right = (x + 0.5 - 0.5 * WIDTH) / f, up = -(y + 0.5 - 0.5 * HEIGHT) / f;
+            const double tangent[2] = {right * side, up}; /* along u and v */
+            const double p = (0.048 + tangent[0] * away - b->middle[0]) / b->radius;
+            const double q = (0.032 + tangent[1] * away - b->middle[1]) / b->radius, r2 = p * p + q * q;
+            const float *found = pixels + 4 * (y * WIDTH + x);
+            if (r2 > 1.5)
+                assert_float_equal(found[3], 0, 0);
+            if (r2 > 0.72)
+                continue;
+            const double sag = 1 + b->sag[1] * q, steep = b->height / b->radius;
+            const double slope[2] = {-2 * p * sag * steep, (-2 * q * sag + (1 - r2) * b->sag[1]) * steep};
+            double out[2];
+            if (!leaves(tangent, side, slope, out)) {
+                if (hypot(slope[0], slope[1]) > 1.3)
+                    assert_float_equal(hypot((double)found[0], (double)found[1]), 0, 0);
+                *thrown_back += 1;
+                continue;
+            }
+            const double way[2] = {(out[0] - tangent[0]) * side * f, -(out[1] - tangent[1]) * f};
+            if (hypot(way[0], way[1]) > 500)
+                continue; /* grazing: a texel's slope decides */
+            *passed += 1;
+            assert_float_equal(found[2], 1, 0);
+            const double allowed = 1.5 + 0.04 * hypot(way[0], way[1]);
+            if (hypot((double)found[0] - way[0], (double)found[1] - way[1]) > allowed)
+                fail_msg("side %g at %d, %d: %g, %g px, expected %g, %g", side, x, y, (double)found[0],
+                         (double)found[1], way[0], way[1]);
+        }
+}
+
+static void a_drop_bends_light_by_snell(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.thickness_mm = 0;
+    for (int coated = 0; coated < 2; coated++) {
+        int passed = 0, thrown_back = 0;
+        s.settings.advancing_deg = coated ? 112 : 60;
+        s.settings.receding_deg = coated ? 98 : 38;
+        shot_forget(&s);
+        const ball b = ball_of(&s, shot_drop(&s, 0.048, 0.032, shot_water(&s, 20e-3)));
+        compare_refraction(&s, 1, &b, &passed, &thrown_back);
+        REQUIRE(passed > 500 && !thrown_back);
+        compare_refraction(&s, -1, &b, &passed, &thrown_back);
+        REQUIRE(!coated == !thrown_back);
+    }
+    shot_close(&s);
+}
+
+/* A film of the same thickness everywhere is drawn, and shows what lies behind it. */
+static void a_flat_film_does_not_bend(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.thickness_mm = 0;
+    shot_face(&s, -1, 30);
+    put_film(&s, 80); /* 20 um */
+    const float *pixels = shot_draw(&s, true);
+    for (int y = 16; y < HEIGHT - 16; y++)
+        for (int x = 16; x < WIDTH - 16; x++) {
+            const float *found = pixels + 4 * (y * WIDTH + x);
+            assert_float_equal(found[3], 1, 1e-6);
+            assert_float_equal(hypot((double)found[0], (double)found[1]), 0, 0.02);
+        }
+    shot_close(&s);
+}
+
+/* Nothing is to be seen but what the pane shows of lights that a test adds. */
+static void open_before_black(shot *s)
+{
+    open_small(s);
+    float *black = calloc(4ull * WIDTH * HEIGHT, sizeof *black);
+    shot_plate(s, black);
+    free(black);
+    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
+}
+
+/* Before a black plate under an even sky a flat film shows what it reflects: ((n - 1) / (n + 1))^2 straight on. */
+static void water_reflects_by_fresnel(void **state)
+{
+    (void)state;
+    shot s;
+    open_before_black(&s);
+    for (int i = 0; i < 3; i++)
+        s.settings.lighting.environment_sh[0][i] = 1 / 0.282095f;
+    put_film(&s, 80);
+    const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    const double straight = (WATER - 1) / (WATER + 1);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(middle[i], straight * straight, 2e-4);
+    shot_close(&s);
+}
+
+/* A lamp beside the eye, mirrored straight back by a thin film on what is not glass: spread over a disc of 0.15 rad, as
+ * bumps would, Fresnel's 0.02 of I / (distance^2 2 pi 0.15^2). Over one of 0.02 rad it would be 56 times as bright. */
+static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
+{
+    (void)state;
+    shot s;
+    open_before_black(&s);
+    s.settings.opaque = true;
+    shot_face(&s, 1, 30);
+    const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m;
+    const double away = fmax(v, u * HEIGHT / WIDTH) / tan(15 * M_PI / 180);
+    s.settings.lighting.light_count = 1;
+    s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
+    put_film(&s, 40); /* 10 um */
+    const float *middle = shot_draw(&s, false) + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    const double straight = (WATER - 1) / (WATER + 1);
+    const double spread = 1 / (away * away * 2 * M_PI * 0.15 * 0.15);
+    assert_float_equal(middle[0] / (straight * straight * spread), 1, 0.02);
+    shot_close(&s);
+}
+
+static double mirrored(double x)
+{
+    return 1 - fabs(1 - (x - 2 * floor(x / 2)));
+}
+
+/* In the style of the paper always, mirrored at the borders; by Snell where the picture has it. To 3 % of the
+ * picture, as copies are coarse. */
+static void compare_lookup(shot *s, int *compared, int *beyond)
+{
+    float *vectors = malloc(16ull * WIDTH * HEIGHT);
+    memcpy(vectors, shot_draw(s, true), 16ull * WIDTH * HEIGHT);
+    const float *colors = shot_draw(s, false);
+    const bool paper = s->settings.style == VIRGA_GLASS_STYLE_PAPER;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float *v = vectors + 4 * i, *c = colors + 4 * i;
+        const double x = (i % WIDTH + 0.5 + (double)v[0]) / WIDTH, y = (i / WIDTH + 0.5 + (double)v[1]) / HEIGHT;
+        const bool inside = x > 0.16 && x < 0.84 && y > 0.16 && y < 0.84;
+        if (v[2] < 1 || (v[0] == 0 && v[1] == 0) || (!paper && !inside))
+            continue;
+        *compared += 1;
+        *beyond += x < -0.1 || x > 1.1 || y < -0.1 || y > 1.1;
+        assert_float_equal((double)c[0] / (double)c[2], mirrored(x), 0.03);
+        assert_float_equal((double)c[1] / (double)c[2], mirrored(y), 0.03);
+    }
+    free(vectors);
+}
+
+static void the_picture_is_looked_up_where_the_vectors_say(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    int compared = 0, beyond = 0;
+    open_small(&s);
+    put_places(&s);
+    put_balls(&s, balls, 20);
+    shot_face(&s, -1, 30);
+    s.settings.gain = 0;
+    memset(&s.settings.lighting.environment_sh, 0, sizeof s.settings.lighting.environment_sh);
+    compare_lookup(&s, &compared, &beyond);
+    print_message("%d compared\n", compared);
+    REQUIRE(compared > 300);
+    s.settings.style = VIRGA_GLASS_STYLE_PAPER;
+    s.settings.paper_shift = 4;
+    compared = 0;
+    compare_lookup(&s, &compared, &beyond);
+    REQUIRE(compared > 1000 && beyond > 200);
+    shot_close(&s);
+}
+
+/* ---- where */
+
+static void the_scene_hides_what_is_behind_it(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    s.give_depth = true;
+    const double distance = fabs(s.camera.position_m[2]);
+    const float *p = s.camera.clip_from_view;
+    for (int nearer = 0; nearer < 2; nearer++) {
+        s.scene_depth = (float)(-(double)p[10] + (double)p[14] / (distance * (nearer ? 0.95 : 1.05)));
+        const double alpha = sum_of_alpha(shot_draw(&s, false), 0, WIDTH);
+        REQUIRE(nearer ? alpha == 0 : alpha > 1000);
+    }
+    shot_close(&s);
+}
+
+static void nothing_is_drawn_where_there_is_no_glass(void **state)
+{
+    (void)state;
+    static const uint8_t half[2] = {0, 1};
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    virga_glass_shape shape = virga_default_glass_shape();
+    shape.mask = half;
+    shape.mask_columns = 2;
+    shape.mask_rows = 1;
+    REQUIRE(virga_glass_shape_set(s.glass, &shape) == VIRGA_OK);
+    shot_step(&s, 1);
+    put_balls(&s, balls, PLACES);
+    const float *pixels = shot_draw(&s, false);
+    REQUIRE(sum_of_alpha(pixels, 0, WIDTH / 2 - 1) == 0);
+    REQUIRE(sum_of_alpha(pixels, WIDTH / 2 + 1, WIDTH) > 1000);
+    shot_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_drop_bends_light_by_snell),
+        cmocka_unit_test(a_flat_film_does_not_bend),
+        cmocka_unit_test(water_reflects_by_fresnel),
+        cmocka_unit_test(a_film_on_metal_mirrors_a_lamp_widely),
+        cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
+        cmocka_unit_test(the_scene_hides_what_is_behind_it),
+        cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

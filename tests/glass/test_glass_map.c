@@ -1,0 +1,317 @@
+/* test_glass_map.c - the height map against the same sums in double precision, and what film adds to it. */
+#include "glass_ball_fixture.h"
+
+enum { DENSITIES = 5 };
+
+/* ---- the reference */
+
+/* Over the radius of influence, as the papers print them; Goto's and Blinn's end at two radii, faded from 4/3 on. */
+static double fade(double x)
+{
+    const double t = fmin(fmax((x * x / 4 - 4.0 / 9) * 9 / 5, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
+}
+
+static const double influence[DENSITIES] = {2, 2, 2.3660254037844386, 1.8477590650225735, 2};
+
+static double density_of(int kind, double x)
+{
+    const double y = x / influence[kind];
+    if (y >= 1)
+        return 0;
+    switch (kind) {
+    case VIRGA_GLASS_DENSITY_GOTO: return fade(x) / (1 + pow(x, 4));
+    case VIRGA_GLASS_DENSITY_BLINN: return fade(x) * exp(-log(2) * x * x);
+    case VIRGA_GLASS_DENSITY_MURAKAMI: return y <= 1.0 / 3 ? 1 - 3 * y * y : 1.5 * (1 - y) * (1 - y);
+    case VIRGA_GLASS_DENSITY_WYVILL: return pow(1 - y * y, 2);
+    default: return 1 - 22.0 / 9 * y * y + 17.0 / 9 * pow(y, 4) - 4.0 / 9 * pow(y, 6);
+    }
+}
+
+/* The x that has the density v, by bisection. */
+static double inverse_of(int kind, double v)
+{
+    double low = 0, high = influence[kind];
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (density_of(kind, middle) > v)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double window_of(int kind, double x)
+{
+    return fade(x * 2 / influence[kind]);
+}
+
+static double compress(const virga_glass_settings *s, double v)
+{
+    double from = (double)s->compress_from;
+    for (uint32_t i = 0; s->compress && i < s->compress_steps; i++, from += (double)s->compress_step)
+        v = v > from ? (double)s->compress_k * (v - from) + from : v;
+    return v;
+}
+
+static double smooth(double low, double high, double x)
+{
+    const double t = fmin(fmax((x - low) / (high - low), 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+/* Density and height at a place; see picture_gather.glsl. */
+static void reference(const shot *s, const ball *balls, int count, double u, double v, double *density, double *height)
+{
+    const int kind = s->settings.density;
+    const bool weighted = s->settings.blend == VIRGA_GLASS_BLEND_WEIGHTED;
+    double own = 0, weights = 0, kv = 0, kvz = 0, around = 0;
+    for (int i = 0; i < count; i++) {
+        const ball *b = &balls[i];
+        const double x = (u - b->middle[0]) / b->radius, y = (v - b->middle[1]) / b->radius, r = hypot(x, y);
+        if (r >= influence[kind])
+            continue;
+        const double z = b->height * fmax(1 + b->sag[0] * x + b->sag[1] * y, 0.2);
+        const double k = weighted ? b->radius * (influence[kind] - r) : z, d = density_of(kind, r);
+        own += d;
+        weights += k;
+        kv += k * d;
+        kvz += k * d * z;
+        around += k * window_of(kind, r) / pow(1 + r * r, 2);
+    }
+    *density = *height = 0;
+    if (!(kv > 0))
+        return;
+    const double sum = weighted ? kv / weights : own, mean = kvz / kv;
+    const double inner = 2 - 1 / sqrt(fmax(weighted ? around / weights : around / mean, 1e-4));
+    const double x = sum < 1 ? inverse_of(kind, sum) : 0;
+    const double t = smooth(0.55, 0.9, sum);
+    *density = compress(&s->settings, sum);
+    *height = mean * fmin(fmax((1 - x * x) * (1 - t) + inner * t, -1), 2);
+}
+
+static const float *texel(const shot *s, uint32_t column, uint32_t row)
+{
+    return s->map + 4 * ((size_t)row * s->columns + column);
+}
+
+static double texel_u(const shot *s, uint32_t column)
+{
+    return (column + 0.5) * (double)s->glass->def.width_m / s->columns;
+}
+
+static double texel_v(const shot *s, uint32_t row)
+{
+    return (row + 0.5) * (double)s->glass->def.height_m / s->rows;
+}
+
+/* ---- the map */
+
+static void compare_map(const shot *s, const ball *balls, int count)
+{
+    for (uint32_t row = 0; row < s->rows; row++)
+        for (uint32_t column = 0; column < s->columns; column++) {
+            double density, height;
+            reference(s, balls, count, texel_u(s, column), texel_v(s, row), &density, &height);
+            const float *found = texel(s, column, row);
+            if (fabs((double)found[0] - density) > 1e-4 || (density > 0.45 && fabs((double)found[1] - height) > 4e-6))
+                fail_msg("density %d blend %d at %u, %u: %g and %g m, expected %g and %g m", s->settings.density,
+                         s->settings.blend, column, row, (double)found[0], (double)found[1], density, height);
+        }
+}
+
+/* Every texel, to 1e-4 of density and 4 um of height: sums are in steps of 2^-23 of the largest. */
+static void the_map_is_that_of_the_reference(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        s.settings.compress = i % 3 != 0;
+        put_balls(&s, balls, PLACES);
+        shot_draw(&s, false);
+        REQUIRE(s.columns == 192 && s.rows == 128);
+        compare_map(&s, balls, PLACES);
+    }
+    shot_close(&s);
+}
+
+/* Its height is that of the parabola, to 2 um, and its density that of the formula, 0.5 at its rim. */
+static void a_drop_alone_is_a_cap(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.compress = false;
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        shot_forget(&s);
+        const ball b = ball_of(&s, shot_drop(&s, 0.048, 0.032, shot_water(&s, 8e-3)));
+        shot_draw(&s, false);
+        for (uint32_t column = 0; column < s.columns; column++) {
+            const double x = (texel_u(&s, column) - b.middle[0]) / b.radius;
+            const double y = (texel_v(&s, 60) - b.middle[1]) / b.radius, r2 = x * x + y * y;
+            const float *found = texel(&s, column, 60);
+            assert_float_equal(found[0], density_of(i / 2, sqrt(r2)), 2e-5);
+            if (r2 < 1)
+                assert_float_equal(found[1], b.height * (1 - r2) * (1 + b.sag[1] * y), 2e-6);
+        }
+        assert_float_equal(density_of(i / 2, 1), 0.5, 1e-9);
+    }
+    shot_close(&s);
+}
+
+/* Two in one place weigh one half each, so together they are as one (to 1e-5). */
+static void weights_sum_to_one(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    s.settings.blend = VIRGA_GLASS_BLEND_WEIGHTED;
+    shot_drop(&s, 0.05, 0.03, 20000);
+    shot_draw(&s, false);
+    const size_t size = 16ull * s.columns * s.rows;
+    float *alone = malloc(size);
+    memcpy(alone, s.map, size);
+    shot_drop(&s, 0.05, 0.03, 20000);
+    shot_draw(&s, false);
+    for (size_t i = 0; i < size / 16; i++) {
+        assert_float_equal(s.map[4 * i], alone[4 * i], 1e-5);
+        assert_float_equal(s.map[4 * i + 1], alone[4 * i + 1], 1e-6);
+    }
+    free(alone);
+    shot_close(&s);
+}
+
+/* The largest second difference of the height along the line through two drops that overlap, against that of the
+ * higher of the two, which has a crease: less than an eighth for sums, and 0.55 for weights. */
+static void merged_drops_have_no_crease(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    for (int i = 0; i < 2 * DENSITIES; i++) {
+        s.settings.density = (virga_glass_density)(i / 2);
+        s.settings.blend = (virga_glass_blend)(i % 2);
+        shot_forget(&s);
+        const ball a = ball_of(&s, shot_drop(&s, 0.041, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
+        const ball b = ball_of(&s, shot_drop(&s, 0.055, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
+        shot_draw(&s, false);
+        double worst = 0, crease = 0, last[3] = {0}, plain[3] = {0};
+        for (uint32_t column = 67; column < 130; column++) {
+            const double u = texel_u(&s, column), xa = (u - a.middle[0]) / a.radius, xb = (u - b.middle[0]) / b.radius;
+            memmove(last, last + 1, sizeof last - sizeof last[0]);
+            memmove(plain, plain + 1, sizeof plain - sizeof plain[0]);
+            last[2] = (double)texel(&s, column, 70)[1];
+            plain[2] = a.height * fmax(1 - xa * xa, 1 - xb * xb);
+            if (column < 69)
+                continue;
+            worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
+            crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
+        }
+        /* Weights end with a kink; a profile cut off at the rims' is above 1. */
+        const double limit = i % 2 ? 0.55 : 0.12;
+        if (worst > limit * crease)
+            fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
+    }
+    shot_close(&s);
+}
+
+/* Slopes that the draws read are central differences of the heights, texel by texel, over the borders of tiles too. */
+static void slopes_are_differences_of_heights(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    shot_draw(&s, false);
+    const double texel_m[2] = {0.096 / s.columns, 0.064 / s.rows};
+    for (uint32_t row = 1; row + 1 < s.rows; row++)
+        for (uint32_t column = 1; column + 1 < s.columns; column++) {
+            const float *found = s.relief + 4 * ((size_t)row * s.columns + column);
+            const double u = (double)texel(&s, column + 1, row)[1] - (double)texel(&s, column - 1, row)[1];
+            const double v = (double)texel(&s, column, row + 1)[1] - (double)texel(&s, column, row - 1)[1];
+            if (texel(&s, column, row)[0] < 0.5f)
+                continue;
+            assert_float_equal(found[1], 0.5 * u / texel_m[0], 2e-3);
+            assert_float_equal(found[2], 0.5 * v / texel_m[1], 2e-3);
+        }
+    shot_close(&s);
+}
+
+/* ---- film */
+
+/* Beads too small for a shape: two in a cell cover pi (w / c)^(2/3) (f^(2/3) + (1 - f)^(2/3)) of it, with the water w,
+ * that of a cap with a base of 1 m radius c, and a lot f from 0.55 to 1: 1 to 2^(1/3) of what one would. To a level of
+ * the map's bytes, and between cells to what lies between them. */
+static void fine_film_covers_what_its_beads_do(void **state)
+{
+    (void)state;
+    shot s;
+    open_small(&s);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++)
+        s.film[i] = 20;
+    shot_draw(&s, false);
+    const double cap = glass_cap_volume(glass_rest_deg(&s.settings)), cell = (double)s.glass->def.cell_m;
+    const double one = M_PI * pow(20e-12 / cap, 2.0 / 3) / (cell * cell);
+    double mean = 0, expected = 0;
+    for (int i = 0; i < 1000; i++) {
+        const double f = 0.55 + 0.45 * (i + 0.5) / 1000;
+        expected += one * (pow(f, 2.0 / 3) + pow(1 - f, 2.0 / 3)) / 1000;
+    }
+    for (uint32_t i = 0; i < s.columns * s.rows; i++) {
+        mean += (double)s.map[4 * i + 2] / (s.columns * s.rows);
+        if ((double)s.map[4 * i + 2] < one - 1.0 / 255 || (double)s.map[4 * i + 2] > cbrt(2) * one + 1.0 / 255)
+            fail_msg("texel %u: %g of it covered, expected %g to %g", i, (double)s.map[4 * i + 2], one, cbrt(2) * one);
+    }
+    assert_float_equal(mean, expected, 0.015 * expected); /* some 1,500 lots, in bytes */
+    shot_close(&s);
+}
+
+/* Beside a drop the height map goes on below the glass, for the drop's rim. Where a sheet of film ends there it ends on
+ * the glass, and does not fall down to that. */
+static void a_film_ends_on_the_glass_beside_drops(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    uint32_t ends = 0;
+    open_small(&s);
+    put_balls(&s, balls, PLACES);
+    for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
+        s.film[i] = i % s.glass->columns % 6 < 3 ? 20 : 0; /* in stripes, so that many end near drops */
+        s.passed[i] = s.glass->last_tick;
+    }
+    shot_draw(&s, false);
+    for (uint32_t row = 1; row + 1 < s.rows; row++)
+        for (uint32_t column = 1; column + 1 < s.columns; column++) {
+            const double left = (double)texel(&s, column - 1, row)[1], right = (double)texel(&s, column + 1, row)[1];
+            if (texel(&s, column, row)[3] < 2e-6f || texel(&s, column, row)[0] > 0.49f)
+                continue;
+            const float slope = s.relief[4 * ((size_t)row * s.columns + column) + 1];
+            ends += left < -1e-5 || right < -1e-5;
+            assert_float_equal(slope, 0.5 * (fmax(right, 0) - fmax(left, 0)) / (0.096 / s.columns), 2e-3);
+        }
+    assert_true(ends > 20);
+    shot_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_map_is_that_of_the_reference),
+        cmocka_unit_test(a_drop_alone_is_a_cap),
+        cmocka_unit_test(weights_sum_to_one),
+        cmocka_unit_test(merged_drops_have_no_crease),
+        cmocka_unit_test(fine_film_covers_what_its_beads_do),
+        cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
+        cmocka_unit_test(slopes_are_differences_of_heights),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
