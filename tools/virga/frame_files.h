@@ -37,7 +37,7 @@ const char *frame_points_name(const scene_file *scene, uint32_t system);
 /* Writes all of them to DIR. */
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
-/* Adds the frame's object to stats.jsonl. */
+/* Adds the frame's object to stats.jsonl: frame_stats.c. */
 bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_t error_size);
 
 #endif

@@ -78,6 +78,8 @@ void shot_panes_close(shot *s);
 /* Settings of a time: lit as the rain, whose settings are made before. */
 bool shot_panes_set(shot *s, double time_s, char *error, size_t error_size);
 
+/* ---- shot_glass_place.c: where they are */
+
 /* Where the panes are at a frame's time and how they move: an array that virga_scene_record reads, to free(). */
 virga_scene_pane *shot_panes_place(shot *s, double time_s);
 

@@ -1,6 +1,7 @@
 /* shot_points.c - drops, droplets and what is on panes, read back for point caches. */
 #include "shot_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -120,6 +121,89 @@ bool shot_droplets(shot *s, shot_droplet **droplets, uint32_t *count, char *erro
         to->index = VIRGA_DROPLET_NUMBER(from[i].kind);
         to->id = virga_hash2(to->parent, to->index);
         to->water_ul = (float)(from[i].water_nl * 1e-3);
+    }
+    return true;
+}
+
+/* ---- what is on panes */
+
+/* Radius of the base of a spherical cap, by its contact angle and water. */
+static double base_radius(const virga_glass_settings *settings, double water_m3)
+{
+    const double angle = 0.5 * ((double)settings->advancing_deg + (double)settings->receding_deg) * M_PI / 180;
+    const double c = cos(angle), sn = sin(angle);
+    return cbrt(water_m3 * 3 * sn * sn * sn / (M_PI * (2 - 3 * c + c * c * c)));
+}
+
+/* From the pane's own frame to the world. */
+static void turn_to_world(const virga_glass_pose *pose, const double local[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (double)pose->world_from_pane[i] * local[0] + (double)pose->world_from_pane[3 + i] * local[1] +
+                 (double)pose->world_from_pane[6 + i] * local[2];
+}
+
+/* Along the pane, and with it. */
+static void place_drop(const shot_pane *pane, const virga_glass_drop_gpu *from, shot_glass_drop *to)
+{
+    const double step = 1e-4;
+    const double u = (double)from->position[0], v = (double)from->position[1];
+    double at[3], along_u[3], along_v[3], normal[3], local[3], arm[3], slide[3];
+    shot_pane_point(pane, u, v, at, normal);
+    shot_pane_point(pane, u + step, v, along_u, normal);
+    shot_pane_point(pane, u, v + step, along_v, normal);
+    for (int i = 0; i < 3; i++)
+        local[i] =
+            ((along_u[i] - at[i]) * (double)from->velocity[0] + (along_v[i] - at[i]) * (double)from->velocity[1]) /
+            step;
+    turn_to_world(&pane->now.pose, at, arm);
+    turn_to_world(&pane->now.pose, local, slide);
+    for (int i = 0; i < 3; i++) {
+        const int y = (i + 1) % 3, z = (i + 2) % 3;
+        const double spin = (double)pane->now.turn_rad_s[y] * arm[z] - (double)pane->now.turn_rad_s[z] * arm[y];
+        to->position[i] = (float)(pane->now.pose.position_m[i] + arm[i]);
+        to->velocity[i] = (float)(slide[i] + (double)pane->now.velocity_m_s[i] + spin);
+    }
+}
+
+static uint32_t take_drops(const shot_pane *pane, uint32_t index, shot_glass_drop *to)
+{
+    const virga_glass_drop_gpu *from = pane->read.buffer.mapped;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pane->read.count; i++) {
+        const uint32_t kind = from[i].kind & VIRGA_GLASS_KIND;
+        if (kind == VIRGA_GLASS_FREE)
+            continue;
+        shot_glass_drop *drop = &to[count++];
+        place_drop(pane, &from[i], drop);
+        drop->radius_m = kind == VIRGA_GLASS_PARTICLE ? (float)(pane->from->particle_mm * 1e-3)
+                                                      : (float)base_radius(&pane->settings, from[i].water_nl * 1e-12);
+        drop->id = from[i].id;
+        drop->age_s = from[i].age_s;
+        drop->kind = kind;
+        drop->flags = from[i].kind & ~(uint32_t)VIRGA_GLASS_KIND;
+        drop->pane = index;
+        drop->water_ul = (float)(from[i].water_nl * 1e-3);
+    }
+    return count;
+}
+
+bool shot_glass_drops(shot *s, shot_glass_drop **drops, uint32_t *count, char *error, size_t error_size)
+{
+    size_t room = 1;
+    for (uint32_t i = 0; i < s->scene->pane_count; i++)
+        room += s->panes[i].read.count;
+    *count = 0;
+    *drops = malloc(room * sizeof **drops);
+    if (!*drops)
+        return host_fail(error, error_size, "no memory for %zu drops", room);
+    if (!host_wait(&s->device, error, error_size))
+        return false;
+    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+        if (!s->panes[i].read.buffer.buffer)
+            return host_fail(error, error_size, "no drops were read back");
+        host_buffer_invalidate(&s->device, &s->panes[i].read.buffer);
+        *count += take_drops(&s->panes[i], i, *drops + *count);
     }
     return true;
 }
