@@ -124,12 +124,32 @@ static void a_parallel_linkage_sweeps_what_its_upright_blade_passes_over(void **
     glass_fixture_close(&f);
 }
 
+/* The angle of a wiper has no jumps, and its speed none where it turns. */
+static void wipers_turn_back_smoothly(void **unused)
+{
+    (void)unused;
+    virga_glass_wiper wiper = virga_default_glass_wiper();
+    double before = virga_glass_wiper_deg(&wiper, 0), speed = 0;
+    for (int i = 1; i < 4000; i++) {
+        const double now = virga_glass_wiper_deg(&wiper, i * 1e-3);
+        assert_true(fabs(now - before - speed) < 2e-3);
+        speed = now - before;
+        before = now;
+    }
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 95) < 1e-9);
+    wiper.drive = VIRGA_GLASS_INTERMITTENT;
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 3.0) - 5) < 1e-9);
+    wiper.drive = VIRGA_GLASS_PARKED;
+    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 5) < 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(opposed_wipers_mirror_each_other),
         cmocka_unit_test(a_blade_turns_on_its_arm),
         cmocka_unit_test(a_parallel_linkage_sweeps_what_its_upright_blade_passes_over),
+        cmocka_unit_test(wipers_turn_back_smoothly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,29 +1,13 @@
 /* test_glass_force.c - what pulls at drops: the motion of the car, the slope of a bent pane, a mesh's, the structure
  * of a surface. Each against its closed form: a drop of base radius a runs when the field along the pane exceeds
  * hold a / mass, and then in the field's direction. */
-#include "glass_fixture.h"
+#include "glass_even_fixture.h"
 
-#include <math.h>
+#define CREEP 60 /* times the resistance: a drop comes to its direction and hardly moves */
 
-#define NL_OF_M3 1e12
-#define CREEP    60 /* times the resistance: a drop comes to its direction and hardly moves */
-
-static glass_fixture f;
-
-static uint32_t water_of(double radius_m)
+static void open_creeping(const virga_glass_shape *shape)
 {
-    return (uint32_t)(glass_cap_volume(glass_rest_deg(&f.settings)) * radius_m * radius_m * radius_m * NL_OF_M3);
-}
-
-/* Even glass on which drops leave nothing behind. */
-static void open_even(const virga_glass_shape *shape)
-{
-    glass_fixture_open(&f, NULL);
-    f.settings.affinity = 0;
-    f.settings.tail_mm = 0;
-    f.settings.film_um = 0;
-    f.settings.evaporation_mm_h = 0;
-    f.settings.mist_mm = 0;
+    open_even(NULL);
     f.settings.drag = CREEP;
     if (shape)
         REQUIRE(virga_glass_shape_set(f.glass, shape) == VIRGA_OK);
@@ -67,7 +51,7 @@ static void acceleration_of_the_car_sets_drops_in_motion(void **unused)
 {
     (void)unused;
     for (int pushed = 0; pushed < 2; pushed++) {
-        open_even(NULL);
+        open_creeping(NULL);
         f.info.acceleration_m_s2[0] = pushed ? 8 : 0;
         const double critical = running_radius(hypot(8, VIRGA_GRAVITY));
         const uint32_t less = glass_fixture_land(&f, 0.04, 0.08, water_of(critical * 0.98))->id;
@@ -85,7 +69,7 @@ static void acceleration_of_the_car_sets_drops_in_motion(void **unused)
 static void a_turning_pane_throws_drops_outwards(void **unused)
 {
     (void)unused;
-    open_even(NULL);
+    open_creeping(NULL);
     const double w = 7, radius = 3e-3;
     const double field = glass_hold(&f.settings) * radius / (water_of(radius) * 0.9982e-9), at = field / (w * w);
     REQUIRE(at > 0.07 && at < 0.12);
@@ -127,7 +111,7 @@ static void a_bent_pane_holds_drops_by_its_slope_where_they_are(void **unused)
     float positions[POINTS * 2 * 3];
     const double bend = 0.12 / (M_PI / 2), radius = 2.6e-3;
     const virga_glass_shape shape = quarter(positions, bend);
-    open_even(&shape);
+    open_creeping(&shape);
     const double ratio = running_radius(VIRGA_GRAVITY) / radius, height = bend * acos(ratio * ratio);
     const uint32_t above = glass_fixture_land(&f, 0.04, height + 2e-3, water_of(radius))->id;
     const uint32_t below = glass_fixture_land(&f, 0.12, height - 2e-3, water_of(radius))->id;
@@ -147,7 +131,7 @@ static void drops_on_a_windshields_side_run_outwards(void **unused)
     virga_glass_windshield(0.16f, 0.12f, 50, (float)bend, POINTS, POINTS, positions);
     shape.positions = positions;
     shape.columns = shape.rows = POINTS;
-    open_even(&shape);
+    open_creeping(&shape);
     const uint32_t id = glass_fixture_land(&f, 0.125, 0.09, water_of(4e-3))->id;
     glass_fixture_step(&f, 30, true);
     const double p = ((double)drop_of(id)->position[0] - 0.08) / bend;
@@ -165,7 +149,7 @@ static void a_blade_follows_a_bent_pane(void **unused)
     uint32_t gone = 0;
     for (int bent = 0; bent < 2; bent++) {
         uint32_t ids[80];
-        open_even(bent ? &shape : NULL);
+        open_creeping(bent ? &shape : NULL);
         f.settings.wiper_count = 1;
         f.settings.wipers[0] = virga_default_glass_wiper();
         f.settings.wipers[0].pivot_m[0] = 0.08f;
@@ -206,7 +190,7 @@ static void drops_on_a_mesh_run_along_its_own_axes(void **unused)
     shape.columns = shape.rows = shape.mask_columns = shape.mask_rows = 9;
     shape.mask = mask;
     for (int turned = 0; turned < 2; turned++) {
-        open_even(&shape);
+        open_creeping(&shape);
         if (turned) { /* a quarter turn about z: its x points up, its y to the left */
             const float quarter_turn[9] = {0, 1, 0, -1, 0, 0, 0, 0, 1};
             memcpy(f.info.world_from_pane, quarter_turn, sizeof quarter_turn);
@@ -251,7 +235,7 @@ static void cells_know_the_bump_maps_normal(void **unused)
     for (int i = 0; i < BUMPS * BUMPS; i++)
         heights[i] = (float)(a * sin(2 * M_PI * (i % BUMPS) / BUMPS));
     const virga_glass_shape shape = bumpy(heights, size);
-    open_even(&shape);
+    open_creeping(&shape);
     for (uint32_t column = 0; column < f.glass->columns; column++) {
         const double slope = a * k * cos(k * (column + 0.5) * 2e-3) * sin(half) / half;
         const double expected = -slope / sqrt(1 + slope * slope);
@@ -272,7 +256,7 @@ static void low_places_have_more_affinity(void **unused)
     const double size = 0.016, pull = 0.7;
     for (int i = 0; i < BUMPS * BUMPS; i++)
         heights[i] = (float)(1e-3 * sin(2 * M_PI * (i % BUMPS) / BUMPS));
-    open_even(NULL);
+    open_creeping(NULL);
     for (uint32_t column = 0; column < 80; column++)
         even[column] = (uint8_t)cell_word(column, 7);
     virga_glass_shape shape = bumpy(heights, size);
@@ -297,7 +281,7 @@ static void a_slope_of_the_bump_map_turns_the_force(void **unused)
         heights[i] = (float)(k * size / BUMPS * (i % BUMPS + i / BUMPS));
     virga_glass_shape shape = bumpy(heights, size);
     shape.bump_pull = 0;
-    open_even(&shape);
+    open_creeping(&shape);
     const uint32_t id = glass_fixture_land(&f, 0.08, 0.06, water_of(4e-3))->id;
     glass_fixture_step(&f, 30, true);
     assert_direction(id, k * k, -1 - k * k, 8e-3); /* normals are kept in steps of 1/128 */
@@ -315,7 +299,7 @@ static double mean_way_from_groove(float pull)
         heights[i] = (float)(2e-5 * cos(2 * M_PI * (i % BUMPS) / BUMPS));
     virga_glass_shape shape = bumpy(heights, 0.04);
     shape.bump_pull = pull;
-    open_even(&shape);
+    open_creeping(&shape);
     f.settings.affinity = 0.5f;
     f.settings.meander = 1;
     f.settings.path_ease = 0;

@@ -1,18 +1,5 @@
-/* How drops move: what holds them, the way they meander, what they leave behind, and how blades and particles meet
- * them. */
-#include "glass_fixture.h"
-
-#include <math.h>
-
-#define NL_OF_M3 1e12
-
-static glass_fixture f;
-
-/* Water of a drop whose base has that radius, nl. */
-static uint32_t water_of(double radius_m)
-{
-    return (uint32_t)(glass_cap_volume(glass_rest_deg(&f.settings)) * radius_m * radius_m * radius_m * NL_OF_M3);
-}
+/* test_glass_motion.c - how drops move: what holds them, the way they meander, and what they become together. */
+#include "glass_even_fixture.h"
 
 static const virga_glass_drop_gpu *only_drop(void)
 {
@@ -21,17 +8,6 @@ static const virga_glass_drop_gpu *only_drop(void)
         if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_DROP && (!found || f.drops[i].water_nl > found->water_nl))
             found = &f.drops[i];
     return found;
-}
-
-/* Even glass on which drops leave nothing behind. */
-static void open_even(const virga_glass_def *def)
-{
-    glass_fixture_open(&f, def);
-    f.settings.affinity = 0;
-    f.settings.tail_mm = 0;
-    f.settings.film_um = 0;
-    f.settings.evaporation_mm_h = 0;
-    f.settings.mist_mm = 0;
 }
 
 /* ---- what holds drops */
@@ -428,148 +404,6 @@ static void drops_at_rest_do_not_touch(void **unused)
     glass_fixture_close(&f);
 }
 
-/* ---- blades and particles */
-
-/* Water of a particle, nl: a hemisphere. */
-static uint32_t particle_water(void)
-{
-    return (uint32_t)(2 * M_PI / 3 * pow((double)f.settings.particle_mm * 1e-3, 3) * NL_OF_M3);
-}
-
-/* One blade across a pane that is 0.16 m wide, which the host turns. */
-static void open_blade(float from_deg)
-{
-    open_even(NULL);
-    f.settings.wiper_count = 1;
-    virga_glass_wiper *wiper = &f.settings.wipers[0];
-    wiper->pivot_m[0] = 0.08f;
-    wiper->pivot_m[1] = -0.02f;
-    wiper->reach_m = 0.13f;
-    wiper->blade_m = 0.11f;
-    wiper->drive = VIRGA_GLASS_HOST;
-    wiper->host_deg = from_deg;
-    glass_fixture_step(&f, 1, false);
-}
-
-static void turn_to(float deg, uint32_t ticks)
-{
-    f.settings.wipers[0].host_deg = deg;
-    glass_fixture_step(&f, ticks, true);
-}
-
-static uint32_t count_of(uint32_t kind)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        count += glass_fixture_kind(&f.drops[i]) == kind;
-    return count;
-}
-
-/* Deepest overlap of two particles, in radii. */
-static double deepest_overlap(void)
-{
-    double deepest = 0;
-    const double radius = (double)f.settings.particle_mm * 1e-3;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        for (uint32_t k = 0; k < i; k++) {
-            const virga_glass_drop_gpu *a = &f.drops[i], *b = &f.drops[k];
-            if (glass_fixture_kind(a) != VIRGA_GLASS_PARTICLE || glass_fixture_kind(b) != VIRGA_GLASS_PARTICLE)
-                continue;
-            const double apart =
-                hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
-            deepest = fmax(deepest, 2 - apart / radius);
-        }
-    return deepest;
-}
-
-/* Section 4.4: a drop of the water of three particles becomes three. */
-static void a_drop_becomes_as_many_particles_as_its_water_gives(void **unused)
-{
-    (void)unused;
-    open_blade(60);
-    const uint32_t particle = particle_water();
-    glass_fixture_land(&f, 0.08, 0.06, 3 * particle);
-    turn_to(60, 1);
-    assert_int_equal(count_of(VIRGA_GLASS_DROP), 1);
-    turn_to(120, 20);
-    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 3);
-    assert_int_equal(count_of(VIRGA_GLASS_DROP), 0);
-    uint32_t least = UINT32_MAX, most = 0;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_PARTICLE) {
-            least = f.drops[i].water_nl < least ? f.drops[i].water_nl : least;
-            most = f.drops[i].water_nl > most ? f.drops[i].water_nl : most;
-        }
-    assert_true(most - least <= 1);
-    glass_fixture_close(&f);
-}
-
-static void particles_settle_apart_in_front_of_the_blade(void **unused)
-{
-    (void)unused;
-    open_blade(45);
-    f.info.world_from_pane[0] = 1; /* lying flat, so that nothing but the blade moves them */
-    f.info.world_from_pane[5] = -1;
-    f.info.world_from_pane[7] = 1;
-    for (uint32_t i = 0; i < 40; i++)
-        glass_fixture_land(&f, 0.06 + 0.04 * (double)virga_unit(virga_hash1(i)),
-                           0.03 + 0.06 * (double)virga_unit(virga_hash1(i + 100)), particle_water());
-    turn_to(45, 1);
-    turn_to(110, 24);
-    assert_in_range(count_of(VIRGA_GLASS_PARTICLE), 20, 40);
-    turn_to(110, 60);
-    print_message("%u particles, deepest overlap %.3f radii\n", count_of(VIRGA_GLASS_PARTICLE), deepest_overlap());
-    assert_true(deepest_overlap() < 0.05);
-    glass_fixture_close(&f);
-}
-
-/* Sections 4.5 and 4.6: particles that the blade left behind become drops, but not beside a large one; once that has
- * run away, within a second. */
-static void held_particles_become_drops_when_the_way_is_free(void **unused)
-{
-    (void)unused;
-    open_blade(45);
-    glass_fixture_land(&f, 0.08, 0.08, particle_water());
-    turn_to(45, 1);
-    turn_to(90, 12);
-    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 1);
-    const virga_glass_drop_gpu *particle = NULL;
-    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
-        if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_PARTICLE)
-            particle = &f.drops[i];
-    REQUIRE(particle);
-    f.settings.drag = 100; /* the large one creeps */
-    glass_fixture_land(&f, (double)particle->position[0] - 0.005, (double)particle->position[1], water_of(3e-3));
-    turn_to(45, 12);
-    turn_to(45, 30);
-    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 1);
-    f.settings.drag = 1;
-    turn_to(45, 20); /* it runs away */
-    turn_to(45, 60);
-    assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 0);
-    assert_true(glass_fixture_count(&f, VIRGA_GLASS_TO_DROPS) == 1);
-    glass_fixture_close(&f);
-}
-
-/* The angle of a wiper has no jumps, and its speed none where it turns. */
-static void wipers_turn_back_smoothly(void **unused)
-{
-    (void)unused;
-    virga_glass_wiper wiper = virga_default_glass_wiper();
-    double before = virga_glass_wiper_deg(&wiper, 0), speed = 0;
-    for (int i = 1; i < 4000; i++) {
-        const double now = virga_glass_wiper_deg(&wiper, i * 1e-3);
-        assert_true(fabs(now - before - speed) < 2e-3);
-        speed = now - before;
-        before = now;
-    }
-    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 95) < 1e-9);
-    wiper.drive = VIRGA_GLASS_INTERMITTENT;
-    assert_true(fabs(virga_glass_wiper_deg(&wiper, 3.0) - 5) < 1e-9);
-    wiper.drive = VIRGA_GLASS_PARKED;
-    assert_true(fabs(virga_glass_wiper_deg(&wiper, 0.6) - 5) < 1e-9);
-}
-
 static void the_surface_is_told_cell_by_cell(void **unused)
 {
     (void)unused;
@@ -602,10 +436,6 @@ int main(void)
         cmocka_unit_test(the_largest_drops_keep_their_direction_as_they_merge),
         cmocka_unit_test(a_drop_whose_captor_is_gone_looks_again),
         cmocka_unit_test(drops_at_rest_do_not_touch),
-        cmocka_unit_test(a_drop_becomes_as_many_particles_as_its_water_gives),
-        cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
-        cmocka_unit_test(held_particles_become_drops_when_the_way_is_free),
-        cmocka_unit_test(wipers_turn_back_smoothly),
         cmocka_unit_test(the_surface_is_told_cell_by_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,16 +1,6 @@
 /* test_scene_glass.c - panes in scene files: what is read, what is filled in, and one clear line for everything
  * wrong. */
-#include "check_io.h"
-
-#include <math.h>
-
-#include "scene_file.h"
-
-/* Four lines. */
-static const char smallest[] = "virga: 1\n"
-                               "camera:\n"
-                               "  keys:\n"
-                               "    - {position_m: [0, 2, 8], look_at_m: [0, 2, 0]}\n";
+#include "scene_text.h"
 
 static const char full[] =
     "glass:\n"
@@ -53,40 +43,29 @@ static const char full[] =
     "      - {pivot_m: [1, 0], reach_m: 0.6, blade_m: 0.6, low_deg: 5, high_deg: 95, drive: keys, blade_turn: 1,\n"
     "         keys: [{time_s: 1, angle_deg: 10}, {time_s: 2, angle_deg: 30}]}\n";
 
-static void put_text(const char *name, const char *text)
-{
-    put_file(in_folder(name), text, strlen(text));
-}
-
-static bool load(const char *more, const char *const *overrides, size_t count, scene_file **scene)
+/* The smallest scene, and more. */
+static bool load_after(const char *more, const char *const *overrides, size_t count, scene_file **scene)
 {
     char text[8192];
     snprintf(text, sizeof text, "%s%s", smallest, more);
-    put_text("s.yaml", text);
-    return scene_file_load(in_folder("s.yaml"), overrides, count, scene, error, sizeof error);
+    return load(text, overrides, count, scene);
 }
 
-static scene_file *loaded(const char *more, const char *const *overrides, size_t count)
+static scene_file *loaded_after(const char *more, const char *const *overrides, size_t count)
 {
     scene_file *scene;
-    if (!load(more, overrides, count, &scene))
+    if (!load_after(more, overrides, count, &scene))
         fail_msg("%s", error);
     return scene;
-}
-
-static void near(double value, double wanted)
-{
-    if (!(fabs(value - wanted) <= 1e-12 * fabs(wanted)))
-        fail_msg("got %.17g, expected %.17g", value, wanted);
 }
 
 static void scenes_have_no_panes_unless_told(void **state)
 {
     (void)state;
-    scene_file *scene = loaded("", NULL, 0);
+    scene_file *scene = loaded_after("", NULL, 0);
     assert_int_equal(scene->pane_count, 0);
     scene_file_free(scene);
-    scene = loaded("glass:\n", NULL, 0);
+    scene = loaded_after("glass:\n", NULL, 0);
     assert_int_equal(scene->pane_count, 0);
     scene_file_free(scene);
 }
@@ -95,7 +74,7 @@ static void scenes_have_no_panes_unless_told(void **state)
 static void a_pane_has_defaults(void **state)
 {
     (void)state;
-    scene_file *scene = loaded("glass: [{position_m: [0, 0, 0]}]\n", NULL, 0);
+    scene_file *scene = loaded_after("glass: [{position_m: [0, 0, 0]}]\n", NULL, 0);
     assert_int_equal(scene->pane_count, 1);
     const scene_pane *pane = &scene->panes[0];
     assert_string_equal(pane->name, "pane");
@@ -140,7 +119,7 @@ static void every_value_of_a_pane_arrives(void **state)
     (void)state;
     put_text("mask.png", "");
     put_text("bumps.png", "");
-    scene_file *scene = loaded(full, NULL, 0);
+    scene_file *scene = loaded_after(full, NULL, 0);
     assert_int_equal(scene->pane_count, 2);
     const scene_pane *pane = &scene->panes[1];
     assert_string_equal(pane->name, "shield");
@@ -185,9 +164,10 @@ static void overrides_reach_into_panes(void **state)
     (void)state;
     const char *overrides[] = {"glass.0.kind=dirty", "glass.0.wipers.0.sweep_s=1",
                                "glass.1={name: b, position_m: [0, 0, 0]}", "glass.0.opaque=false"};
-    scene_file *scene = loaded("glass: [{position_m: [0, 0, 0], wipers: [{pivot_m: [0, 0], reach_m: 1, blade_m: 1, "
-                               "low_deg: 0, high_deg: 90}]}]\n",
-                               overrides, COUNT(overrides));
+    scene_file *scene =
+        loaded_after("glass: [{position_m: [0, 0, 0], wipers: [{pivot_m: [0, 0], reach_m: 1, blade_m: 1, "
+                     "low_deg: 0, high_deg: 90}]}]\n",
+                     overrides, COUNT(overrides));
     assert_int_equal(scene->pane_count, 2);
     assert_string_equal(scene_pane_kind_name(scene->panes[0].kind), "dirty");
     near(scene->panes[0].wipers[0].sweep_s, 1);
@@ -199,7 +179,7 @@ static uint64_t hash_with(const char *mask, const char *bumps)
 {
     put_text("mask.png", mask);
     put_text("bumps.png", bumps);
-    scene_file *scene = loaded(full, NULL, 0);
+    scene_file *scene = loaded_after(full, NULL, 0);
     const uint64_t hash = scene_file_hash(scene);
     scene_file_free(scene);
     return hash;
@@ -270,7 +250,7 @@ static void mistakes_are_one_line_with_file_line_and_key(void **state)
     for (size_t i = 0; i < COUNT(mistakes); i++) {
         scene_file *scene;
         error[0] = 0;
-        if (load(mistakes[i].text, NULL, 0, &scene))
+        if (load_after(mistakes[i].text, NULL, 0, &scene))
             fail_msg("taken as right: %s", mistakes[i].text);
         assert_null(scene);
         assert_error(mistakes[i].said, folder);
@@ -286,7 +266,7 @@ static void more_panes_than_the_library_takes_are_refused(void **state)
         snprintf(text + used, sizeof text - used, "  - {name: p%d, position_m: [0, 0, 0]}\n", i);
     }
     scene_file *scene;
-    assert_false(load(text, NULL, 0, &scene));
+    assert_false(load_after(text, NULL, 0, &scene));
     assert_error("glass: expected 0 to 16 entries, got 17", folder);
 }
 
