@@ -7,7 +7,8 @@
 
 #include <virga/virga.h>
 
-#define BENCH_SIZES 3
+#define BENCH_SIZES       3
+#define BENCH_MOST_PASSES 20
 
 extern const uint32_t bench_sizes[BENCH_SIZES][2];
 
@@ -56,7 +57,9 @@ typedef struct bench_splash_choice {
 bool bench_rain(bench *b, uint32_t only);
 bool bench_ground(bench *b);
 bool bench_glass(bench *b, uint32_t only);
-bool bench_frames(bench *b, const char *device); /* opens *b anew several times */
+
+/* Opens *b anew several times; `passes`: whole runs of all frames, 1 to BENCH_MOST_PASSES. */
+bool bench_frames(bench *b, const char *device, uint32_t passes);
 bool bench_splash(bench *b, const bench_splash_choice *choice);
 
 #endif

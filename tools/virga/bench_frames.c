@@ -3,6 +3,7 @@
 #include "bench.h"
 #include "options.h"
 #include "progress.h"
+#include "spread.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -12,7 +13,6 @@
 #include <time.h>
 
 #define FRAMES  2000
-#define PASSES  3
 #define CONTROL 1000000 /* texels of 16 bytes that the control reads and writes */
 #define WARM_UP 240     /* frames: rings, splashes and drops have come to a level */
 
@@ -210,37 +210,81 @@ static bool measure_starts(bench *b, const char *device)
 
 /* ---- steady frames */
 
-static int by_size(const void *a, const void *b)
+typedef struct quantity {
+    const char *name;
+    size_t offset; /* in frame_times */
+} quantity;
+
+static const quantity recording = {"recording", offsetof(frame_times, record)};
+static const quantity recording_cpu = {"recording, of the processor", offsetof(frame_times, record_cpu)};
+static const quantity frame = {"frame", offsetof(frame_times, whole)};
+static const quantity frame_cpu = {"frame, of all processors", offsetof(frame_times, whole_cpu)};
+static const quantity bare = {"the same kernel every time", offsetof(frame_times, bare)};
+
+static double time_of(const frame_times *times, const quantity *q)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    return *(const double *)((const char *)times + q->offset);
 }
 
-static void print_spread(const char *name, const frame_times *frames, size_t field)
+static void print_spread(const quantity *q, const double *times)
 {
-    static double times[FRAMES];
-    for (uint32_t i = 0; i < FRAMES; i++)
-        times[i] = *(const double *)((const char *)&frames[i] + field);
-    qsort(times, FRAMES, sizeof *times, by_size);
-    const double median = times[FRAMES / 2];
-    printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", name, median,
-           times[FRAMES * 99 / 100], times[FRAMES * 999 / 1000], times[FRAMES - 1], times[FRAMES - 1] / median);
+    static double sorted[FRAMES];
+    const spread s = spread_of(times, FRAMES, sorted);
+    printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", q->name, s.median,
+           s.most_of_100, s.most_of_1000, s.worst, s.worst / s.median);
 }
 
-static void print_spreads(const frame_times *first, const frame_times *least)
+/* Of one run, or the least of several for each frame. */
+static void print_least(const quantity *q, const frame_times *runs, uint32_t count)
+{
+    static double least[FRAMES];
+    for (uint32_t i = 0; i < FRAMES; i++) {
+        least[i] = time_of(&runs[i], q);
+        for (uint32_t run = 1; run < count; run++)
+            least[i] = fmin(least[i], time_of(&runs[run * FRAMES + i], q));
+    }
+    print_spread(q, least);
+}
+
+static bool print_common(const quantity *q, const frame_times *runs, uint32_t count)
+{
+    const double *of[BENCH_MOST_PASSES];
+    spread_common common;
+    double *times = malloc((size_t)count * FRAMES * sizeof *times);
+    for (uint32_t i = 0; times && i < count * FRAMES; i++)
+        times[i] = time_of(&runs[i], q);
+    for (uint32_t run = 0; times && run < count; run++)
+        of[run] = times + (size_t)run * FRAMES;
+    const bool good = times && spread_in_common(of, count, FRAMES, &common);
+    if (good)
+        printf("  %-28s off those around it by %5.2f %%, of which all runs share %5.2f %% (%.2f %% could be chance)\n",
+               q->name, common.seen * 100, common.own * 100, common.least * 100);
+    free(times);
+    return good || options_complain("bench", "out of memory");
+}
+
+/* A machine that does other things as well only ever adds to a frame's time, and elsewhere in each run; what the frame
+ * itself asks for is in all of them. */
+static bool print_frames(const frame_times *runs, uint32_t count)
 {
     printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],
            WARM_UP);
-    print_spread("recording", first, offsetof(frame_times, record));
-    print_spread("frame", first, offsetof(frame_times, whole));
-    print_spread("frame, of all processors", first, offsetof(frame_times, whole_cpu));
-    print_spread("the same kernel every time", first, offsetof(frame_times, bare));
-    printf("each frame's least of %d such runs, which do the same frame by frame\n", PASSES);
-    print_spread("recording", least, offsetof(frame_times, record));
-    print_spread("recording, of the processor", least, offsetof(frame_times, record_cpu));
-    print_spread("frame", least, offsetof(frame_times, whole));
-    print_spread("frame, of all processors", least, offsetof(frame_times, whole_cpu));
-    print_spread("the same kernel every time", least, offsetof(frame_times, bare));
+    print_least(&recording, runs, 1);
+    print_least(&frame, runs, 1);
+    print_least(&frame_cpu, runs, 1);
+    print_least(&bare, runs, 1);
+    if (count == 1)
+        return true;
+    printf("each frame's least of %u such runs, which do the same frame by frame\n", count);
+    print_least(&recording, runs, count);
+    print_least(&recording_cpu, runs, count);
+    print_least(&frame, runs, count);
+    print_least(&frame_cpu, runs, count);
+    print_least(&bare, runs, count);
+    printf("a frame's own: what it has in all runs more or less than the %d around it (standard deviations)\n",
+           SPREAD_AROUND);
+    return print_common(&frame, runs, count) && print_common(&frame_cpu, runs, count) &&
+           print_common(&bare, runs, count);
 }
 
 /* All frames from the first, on a device opened anew. */
@@ -270,35 +314,18 @@ static bool run_frames(bench *b, const char *device, frame_times *frames)
     return good && !interrupt_asked();
 }
 
-static void keep_least(frame_times *least, const frame_times *other)
+static bool measure_frames(bench *b, const char *device, uint32_t passes)
 {
-    for (uint32_t i = 0; i < FRAMES; i++) {
-        least[i].record = fmin(least[i].record, other[i].record);
-        least[i].whole = fmin(least[i].whole, other[i].whole);
-        least[i].record_cpu = fmin(least[i].record_cpu, other[i].record_cpu);
-        least[i].whole_cpu = fmin(least[i].whole_cpu, other[i].whole_cpu);
-        least[i].bare = fmin(least[i].bare, other[i].bare);
-    }
+    frame_times *runs = calloc((size_t)passes * FRAMES, sizeof *runs);
+    bool good = runs || options_complain("bench", "out of memory");
+    for (uint32_t pass = 0; pass < passes && good; pass++)
+        good = run_frames(b, device, runs + (size_t)pass * FRAMES);
+    good = good ? print_frames(runs, passes) : interrupt_asked();
+    free(runs);
+    return good;
 }
 
-/* A machine that does other things as well only ever adds to a frame's time, and elsewhere in each run; what the frame
- * itself asks for is in all of them. */
-static bool measure_frames(bench *b, const char *device)
+bool bench_frames(bench *b, const char *device, uint32_t passes)
 {
-    static frame_times first[FRAMES], least[FRAMES], frames[FRAMES];
-    if (!run_frames(b, device, first))
-        return interrupt_asked();
-    memcpy(least, first, sizeof least);
-    for (int pass = 1; pass < PASSES; pass++) {
-        if (!run_frames(b, device, frames))
-            return interrupt_asked();
-        keep_least(least, frames);
-    }
-    print_spreads(first, least);
-    return true;
-}
-
-bool bench_frames(bench *b, const char *device)
-{
-    return measure_starts(b, device) && measure_frames(b, device);
+    return measure_starts(b, device) && measure_frames(b, device, passes);
 }

@@ -15,6 +15,7 @@ static const option_row rows[] = {
     {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
     {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
+    {"--passes", 0, "N", "frames: whole runs of them, of which each frame's least is shown. Default: 3", false},
     {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
 };
 
@@ -176,11 +177,12 @@ static bool is_bench(const char *what)
 int bench_run(int argc, char **argv)
 {
     options parsed;
-    uint32_t only = 0, balls = 0;
+    uint32_t only = 0, balls = 0, passes = 3;
     bench_splash_choice splashes;
     if (!options_parse(&parsed, "bench", rows, sizeof rows / sizeof rows[0], argc, argv) ||
         !options_uint(&parsed, "--drops", 1024, 4194304, &only) ||
-        !options_uint(&parsed, "--balls", 3000, 100000, &balls) || !parse_splash(&parsed, &splashes))
+        !options_uint(&parsed, "--balls", 3000, 100000, &balls) ||
+        !options_uint(&parsed, "--passes", 1, BENCH_MOST_PASSES, &passes) || !parse_splash(&parsed, &splashes))
         return EXIT_USAGE;
     if (balls && balls != 3000 && balls != 10000 && balls != 100000) {
         options_complain("bench", "--balls: expected 3000, 10000 or 100000, got %u", balls);
@@ -201,7 +203,7 @@ int bench_run(int argc, char **argv)
         good = !strcmp(what, "rain")     ? bench_rain(b, only)
                : !strcmp(what, "ground") ? bench_ground(b)
                : !strcmp(what, "glass")  ? bench_glass(b, balls)
-               : !strcmp(what, "frames") ? bench_frames(b, options_value(&parsed, "--device"))
+               : !strcmp(what, "frames") ? bench_frames(b, options_value(&parsed, "--device"), passes)
                                          : bench_splash(b, &splashes);
     if (b->instance.messages)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
