@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "scene_lists.h"
 #include "scene_schema.h"
 #include "scene_settings.h"
 
@@ -216,31 +217,136 @@ static void a_tuned_scene_comes_back_from_its_file(void **state)
     rmdir(folder);
 }
 
-static void keys_of_the_rain_can_be_dropped(void **state)
+/* Saves a scene, loads it again, and compares: all that was done to it must be in the file. */
+static void assert_comes_back(scene_file *scene, const char *source)
 {
-    (void)state;
-    char folder[] = "/tmp/virga-settings-XXXXXX", source[64], path[64];
-    static const char text[] = "virga: 1\ncamera: {keys: [{position_m: [0, 2, 8], look_at_m: [0, 2, 0]}]}\n"
-                               "rain: {keys: [{time_s: 0, rate_mm_h: 3}]}\n";
+    char folder[] = "/tmp/virga-settings-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    snprintf(source, sizeof source, "%s/source.yaml", folder);
     snprintf(path, sizeof path, "%s/saved.yaml", folder);
-    FILE *file = fopen(source, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    scene_file *scene = load(source);
-    const uint32_t keys = scene->rain.key_count;
-    scene->rain.key_count = 0;
     save(scene, source, path);
-    scene->rain.key_count = keys;
-    scene_file_free(scene);
     scene_file *saved = load(path);
-    assert_int_equal(saved->rain.key_count, 0);
+    assert_same_settings(scene, saved);
     scene_file_free(saved);
-    unlink(source);
     unlink(path);
     rmdir(folder);
+}
+
+static void grow(scene_file *scene, const char *path)
+{
+    char error[256];
+    if (!scene_list_add(scene, path, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static void shrink(scene_file *scene, const char *path)
+{
+    char error[256];
+    if (!scene_list_drop(scene, path, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static void keys_of_the_rain_come_and_go(void **state)
+{
+    (void)state;
+    scene_file *scene = load(STREET);
+    assert_int_equal(scene->rain.key_count, 0);
+    assigns(scene, "rain.rate_mm_h=12");
+    grow(scene, "rain.keys");
+    assert_prints(scene, "rain.keys.0.rate_mm_h", "12");
+    assigns(scene, "rain.keys.0.rate_mm_h=3");
+    grow(scene, "rain.keys");
+    assert_prints(scene, "rain.keys.1.time_s", "1");
+    assert_prints(scene, "rain.keys.1.rate_mm_h", "3");
+    assert_comes_back(scene, STREET);
+    shrink(scene, "rain.keys");
+    shrink(scene, "rain.keys");
+    assert_comes_back(scene, STREET);
+    scene_file_free(scene);
+}
+
+static void a_lamp_more_is_the_last_again(void **state)
+{
+    (void)state;
+    char last[64], added[64], text[512], expected[512];
+    scene_file *scene = load(STREET);
+    const uint32_t before = scene->light_count;
+    assert_true(before > 0 && before < SCENE_FILE_MAX_LIGHTS);
+    snprintf(last, sizeof last, "lights.%u.position_m", before - 1);
+    snprintf(added, sizeof added, "lights.%u.position_m", before);
+    const scene_setting of_last = setting_of(scene, last);
+    scene_setting_print(&of_last, expected, sizeof expected);
+    grow(scene, "lights");
+    const scene_setting of_added = setting_of(scene, added);
+    scene_setting_print(&of_added, text, sizeof text);
+    assert_string_equal(text, expected);
+    assert_comes_back(scene, STREET);
+    while (scene->light_count)
+        shrink(scene, "lights");
+    assert_comes_back(scene, STREET);
+    grow(scene, "lights"); /* the first has the defaults */
+    assert_prints(scene, "lights.0.color", "[1, 1, 1]");
+    assert_comes_back(scene, STREET);
+    scene_file_free(scene);
+}
+
+static void a_wiper_more_has_keys_of_its_own(void **state)
+{
+    (void)state;
+    scene_file *scene = load(WINDSHIELD);
+    const uint32_t before = scene->panes[0].wiper_count;
+    assigns(scene, "glass.0.wipers.1.drive=keys");
+    grow(scene, "glass.0.wipers.1.keys");
+    assigns(scene, "glass.0.wipers.1.keys.0.angle_deg=90");
+    grow(scene, "glass.0.wipers");
+    assert_int_equal(scene->panes[0].wiper_count, before + 1);
+    assigns(scene, "glass.0.wipers.2.keys.0.angle_deg=45");
+    assert_prints(scene, "glass.0.wipers.1.keys.0.angle_deg", "90");
+    assert_comes_back(scene, WINDSHIELD);
+    assigns(scene, "glass.0.wipers.1.drive=continuous"); /* a file must not have keys of such a wiper */
+    assigns(scene, "glass.0.wipers.2.drive=parked");
+    shrink(scene, "glass.0.wipers.1.keys");
+    shrink(scene, "glass.0.wipers.2.keys");
+    assert_comes_back(scene, WINDSHIELD);
+    scene_file_free(scene);
+}
+
+/* What another drive has no use for is kept as long as the scene is open, and left out of the file. */
+static void keys_that_no_drive_uses_are_not_saved(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/virga-settings-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/saved.yaml", folder);
+    scene_file *scene = load(WINDSHIELD);
+    grow(scene, "glass.0.wipers.1.keys");
+    grow(scene, "glass.0.wipers");
+    save(scene, WINDSHIELD, path);
+    scene_file *saved = load(path);
+    assert_int_equal(saved->panes[0].wiper_count, scene->panes[0].wiper_count);
+    assert_int_equal(saved->panes[0].wipers[1].key_count, 0);
+    assert_int_equal(saved->panes[0].wipers[2].key_count, 0);
+    scene_file_free(saved);
+    scene_file_free(scene);
+    unlink(path);
+    rmdir(folder);
+}
+
+static void lists_keep_their_bounds(void **state)
+{
+    (void)state;
+    char error[256];
+    scene_file *scene = load(STREET);
+    while (scene->light_count < SCENE_FILE_MAX_LIGHTS)
+        grow(scene, "lights");
+    assert_false(scene_list_add(scene, "lights", error, sizeof error));
+    assert_string_equal(error, "lights: a scene has 16 at most");
+    while (scene->camera.key_count > 1)
+        shrink(scene, "camera.keys");
+    assert_false(scene_list_drop(scene, "camera.keys", error, sizeof error));
+    assert_string_equal(error, "camera.keys: a scene has 1 at least");
+    assert_false(scene_list_add(scene, "meshes", error, sizeof error)); /* whose names only the file can say */
+    assert_string_equal(error, "meshes: the scene has no list of this name that could grow or shrink");
+    scene_file_free(scene);
 }
 
 static void a_scene_that_would_be_wrong_is_not_saved(void **state)
@@ -264,7 +370,11 @@ int main(void)
         cmocka_unit_test(what_is_left_to_its_kind_can_be_given_and_taken_back),
         cmocka_unit_test(a_reset_gives_the_default),
         cmocka_unit_test(a_tuned_scene_comes_back_from_its_file),
-        cmocka_unit_test(keys_of_the_rain_can_be_dropped),
+        cmocka_unit_test(keys_of_the_rain_come_and_go),
+        cmocka_unit_test(a_lamp_more_is_the_last_again),
+        cmocka_unit_test(a_wiper_more_has_keys_of_its_own),
+        cmocka_unit_test(keys_that_no_drive_uses_are_not_saved),
+        cmocka_unit_test(lists_keep_their_bounds),
         cmocka_unit_test(a_scene_that_would_be_wrong_is_not_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -176,6 +176,31 @@ render "$work/scene.yaml" by_hand --set rain.rate_mm_h=90 --set glass.0.kind=coa
 oiiotool "$work/by_view/frame.0002.exr" "$work/by_hand/frame.0002.exr" --fail 0 --diff >"$work/diff" 2>&1 ||
     { cat "$work/diff"; fail "the saved scene renders another picture"; }
 
+# ---- lists grow and shrink, while it rains and in the saved scene
+
+view lists <<'END' || { cat "$work/lists.err"; fail "lists"; }
+divide 4
+add lights
+set lights.1.position_m [2, 3, -1]
+add glass.0.wipers
+set glass.0.wipers.1.phase_s 0.4
+add rain.keys
+add camera.keys
+unfold Lamps on
+unfold Camera on
+wait 3
+window lists.png
+drop camera.keys
+drop rain.keys
+wait 2
+save grown.yaml
+quit
+END
+"$virga" check "$work/grown.yaml" >"$work/check" 2>&1 || { cat "$work/check"; fail "virga check of grown lists"; }
+has 'lights       2' "$work/check"
+has '2 wipers' "$work/check"
+has 'phase_s: 0.4' "$work/grown.yaml"
+
 # ---- real keys
 
 if command -v xdotool >/dev/null; then
@@ -220,6 +245,13 @@ resize 3
 END
 refuses 'script, line 1: rain.rate_mm_h: expected a number from 0 to 200' <<'END'
 set rain.rate_mm_h 900
+END
+refuses 'camera.keys: a scene has 1 at least' <<'END'
+drop camera.keys
+drop camera.keys
+END
+refuses 'snow: the scene has no list of this name' <<'END'
+add snow
 END
 refuses "no preset 'hail'" <<'END'
 preset hail

@@ -11,6 +11,7 @@
 #include "file.h"
 #include "scene_check.h"
 #include "scene_document.h"
+#include "scene_lists.h"
 #include "scene_schema.h"
 #include "suggest.h"
 
@@ -435,38 +436,21 @@ static bool append_change(FILE *out, const char *path, const char *value)
     return fprintf(out, "%s=%s", path, value) > 0 && fputc(0, out) != EOF;
 }
 
-/* Texts of settings that differ. Both lists go by the schema, so what both have comes in the same order. */
-static size_t write_changes(FILE *out, const scene_setting *now, size_t now_count, scene_setting *before,
-                            size_t before_count)
+/* Texts of settings that differ; those of lists that have other entries now go with their lists. */
+static size_t write_changes(FILE *out, scene_file *now_scene, scene_file *before_scene, const scene_setting *now,
+                            size_t now_count, scene_setting *before, size_t before_count)
 {
     size_t changes = 0;
     for (size_t i = 0; i < now_count; i++) {
         char value[TEXT_ROOM], old[TEXT_ROOM];
         const scene_setting *was = scene_settings_find(before, before_count, now[i].path);
+        if (!was || now[i].kind == SCENE_SETTING_TEXT) /* of such a list; or not to be changed at all */
+            continue;
         scene_setting_print(&now[i], value, sizeof value);
-        if (was)
-            scene_setting_print(was, old, sizeof old);
-        const bool dropped = strstr(now[i].rule, "wipers[].keys[]"); /* of such a list; or not to be changed at all */
-        if (now[i].kind != SCENE_SETTING_TEXT && !dropped && was && strcmp(value, old))
+        scene_setting_print(was, old, sizeof old);
+        if (strcmp(value, old) && !scene_list_has(now[i].path, now_scene, before_scene))
             changes += append_change(out, now[i].path, value);
     }
-    return changes;
-}
-
-/* Lists that have become empty, or that a wiper's drive has no use for any more, which a file must not have then. */
-static size_t write_empty_lists(FILE *out, const scene_file *now, const scene_file *before)
-{
-    size_t changes = 0;
-    char path[96];
-    if (before->rain.key_count && !now->rain.key_count)
-        changes += append_change(out, "rain.keys", "[]");
-    for (uint32_t p = 0; p < now->pane_count && p < before->pane_count; p++)
-        for (uint32_t w = 0; w < now->panes[p].wiper_count && w < before->panes[p].wiper_count; w++) {
-            const bool unused = now->panes[p].wipers[w].drive != SCENE_WIPER_KEYS;
-            snprintf(path, sizeof path, "glass.%u.wipers.%u.keys", p, w);
-            if (unused && before->panes[p].wipers[w].key_count)
-                changes += append_change(out, path, "[]");
-        }
     return changes;
 }
 
@@ -496,8 +480,8 @@ char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count
     scene_setting *old_settings = scene_settings_list(before, &before_count);
     FILE *out = open_memstream(&found.memory, &found.size);
     if (out && new_settings && old_settings) {
-        found.count = write_changes(out, new_settings, now_count, old_settings, before_count);
-        found.count += write_empty_lists(out, now, before);
+        found.count = scene_lists_write_changes(out, now, before);
+        found.count += write_changes(out, now, before, new_settings, now_count, old_settings, before_count);
     }
     if (out && !fclose(out) && new_settings && old_settings)
         changes = gather_texts(&found);

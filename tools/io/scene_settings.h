@@ -60,8 +60,7 @@ bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t coun
 bool scene_settings_assign(scene_file *scene, const char *assignment, bool *restarts, char *error, size_t error_size);
 
 /* What has to be overridden in `before` for it to become `now`: `*count` texts "path=value" in one piece of memory, to
- * be given to free(). Of lists, only that they have become empty is seen; keys of wipers
- * stay as they were, or go where another drive has no use for them. NULL without memory. */
+ * be given to free(). Lists that have more or fewer entries (see scene_lists.h) come whole. NULL without memory. */
 char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count);
 
 /* Writes the scene of the file `source` with overrides (as scene_file_load takes them) as a scene file, which must come

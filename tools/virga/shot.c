@@ -100,10 +100,8 @@ static bool open_plate_buffer(shot *s, char *error, size_t error_size)
 
 static bool open_all(shot *s, char *error, size_t error_size)
 {
-    s->camera_keys = calloc(s->scene->camera.key_count, sizeof *s->camera_keys);
-    if (!s->camera_keys)
+    if (!shot_load_camera(s))
         return host_fail(error, error_size, "no memory for the camera's path");
-    shot_load_camera(s);
     if (!shot_blame_input(s, host_camera_path_check(&s->path, error, error_size) &&
                                  shot_check_materials(s->scene, error, error_size) &&
                                  shot_check_panes(s->scene, error, error_size) && open_plate(s, error, error_size)) ||

@@ -64,6 +64,7 @@ typedef struct shot {
     host_image material_image;           /* of ground.material_map; none: all 0 */
     virga_ground_material_map materials; /* likewise */
     host_camera_key *camera_keys;
+    uint32_t camera_key_room;
     host_camera_path path;
     host_accumulator frame; /* the newest drawn frame */
 

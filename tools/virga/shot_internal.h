@@ -36,8 +36,8 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size);
 bool shot_load_material_map(shot *s, char *error, size_t error_size);
 bool shot_load_environment(shot *s, char *error, size_t error_size);
 
-/* The path, into s->camera_keys and s->path. */
-void shot_load_camera(shot *s);
+/* The path, into s->camera_keys and s->path. False: no memory. */
+bool shot_load_camera(shot *s);
 
 /* ---- shot_rain.c: the rain and what it does */
 

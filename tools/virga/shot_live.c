@@ -18,7 +18,8 @@ host_camera_path shot_eye(const shot *s)
 /* What may have changed in the scene since the last frame, beside what every step takes from it. */
 static bool take_settings(shot *s, char *error, size_t error_size)
 {
-    shot_load_camera(s);
+    if (!shot_load_camera(s))
+        return host_fail(error, error_size, "no memory for the camera's path");
     if (s->path.far_m <= s->path.near_m)
         s->path.far_m = 2 * s->path.near_m; /* until the other of the two has been changed as well */
     shot_fill_lights(s);

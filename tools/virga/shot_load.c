@@ -204,9 +204,16 @@ bool shot_load_environment(shot *s, char *error, size_t error_size)
     return made && (!s->renderer || host_renderer_set_environment(s->renderer, &s->environment, error, error_size));
 }
 
-void shot_load_camera(shot *s)
+bool shot_load_camera(shot *s)
 {
     const scene_camera *from = &s->scene->camera;
+    if (from->key_count > s->camera_key_room) {
+        host_camera_key *grown = realloc(s->camera_keys, from->key_count * sizeof *grown);
+        if (!grown)
+            return false;
+        s->camera_keys = grown;
+        s->camera_key_room = from->key_count;
+    }
     for (uint32_t i = 0; i < from->key_count; i++) {
         host_camera_key *key = &s->camera_keys[i];
         key->time_s = from->keys[i].time_s;
@@ -220,4 +227,5 @@ void shot_load_camera(shot *s)
                                  .fov_deg = from->fov_deg,
                                  .near_m = from->near_m,
                                  .far_m = from->far_m};
+    return true;
 }

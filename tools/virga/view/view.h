@@ -20,6 +20,7 @@ extern "C" {
 #endif
 
 #include "../shot.h"
+#include "scene_lists.h"
 #include "scene_settings.h"
 #include "view_picture.h"
 #include "view_presets.h"
@@ -123,6 +124,11 @@ scene_file *view_load_tuned(viewer *v, char *error, size_t error_size);
 
 /* Whether what was tuned is a scene that a file could hold; says why not. */
 bool view_check(viewer *v);
+
+/* One entry more or fewer at the end of a list, where the scene stays one that a file could hold. */
+bool view_list_add(viewer *v, const char *path);
+bool view_list_drop(viewer *v, const char *path);
+
 bool view_preset_take(viewer *v, const char *name);
 bool view_show(viewer *v, const char *mode, uint32_t layer);
 void view_show_next(viewer *v, int step);

@@ -79,6 +79,40 @@ bool view_check(viewer *v)
     return good;
 }
 
+/* Tried on a copy first. Panes start anew with other wipers, whose arms are made then. */
+static bool change_list(viewer *v, const char *path,
+                        bool (*change)(scene_file *scene, const char *path, char *error, size_t error_size))
+{
+    char error[400];
+    scene_file *scene = v->scene, *tried = view_load_tuned(v, error, sizeof error);
+    bool good = tried && change(tried, path, error, sizeof error);
+    if (!good) {
+        view_say(v, "%s", error);
+    } else {
+        v->scene = tried;
+        good = view_check(v);
+        v->scene = scene;
+    }
+    scene_file_free(tried);
+    if (!good)
+        return false;
+    good = change(scene, path, error, sizeof error) && view_list_settings(v);
+    if (!good)
+        view_say(v, "%s", error);
+    v->restart = v->restart || !strncmp(path, "glass.", strlen("glass."));
+    return good;
+}
+
+bool view_list_add(viewer *v, const char *path)
+{
+    return change_list(v, path, scene_list_add);
+}
+
+bool view_list_drop(viewer *v, const char *path)
+{
+    return change_list(v, path, scene_list_drop);
+}
+
 /* Rate and wind are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
 bool view_preset_take(viewer *v, const char *name)
 {

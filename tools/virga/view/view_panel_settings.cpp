@@ -229,7 +229,50 @@ static std::string branch_of(const char *path, size_t prefix)
     return rest.substr(0, list ? second : dot);
 }
 
-static void edit_branch(viewer *v, const std::string &prefix)
+/* The lists that can grow, and what was asked for in this frame: done behind all controls, whose settings it moves. */
+struct growing {
+    scene_list *lists;
+    size_t count;
+    std::string add, drop;
+};
+
+static bool is_list(const growing &g, const std::string &prefix)
+{
+    return std::any_of(g.lists, g.lists + g.count,
+                       [&](const scene_list &l) { return l.path + std::string(".") == prefix; });
+}
+
+static void edit_length(growing *g, const scene_list &list)
+{
+    const char *dot = std::strrchr(list.path, '.');
+    ImGui::PushID(list.path);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(COLOR_HINT, "%s: %u", dot ? dot + 1 : list.path, list.count);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(list.count >= list.most);
+    if (ImGui::Button("add"))
+        g->add = list.path;
+    ImGui::EndDisabled();
+    tooltip("one more, like the last");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(list.count <= list.least);
+    if (ImGui::Button("remove the last"))
+        g->drop = list.path;
+    ImGui::EndDisabled();
+    ImGui::PopID();
+}
+
+/* Of the lists at a prefix, or of the one that it is. */
+static void edit_lengths(growing *g, const std::string &prefix)
+{
+    for (size_t i = 0; i < g->count; i++) {
+        const std::string path(g->lists[i].path), above = path.substr(0, path.rfind('.') + 1);
+        if (path + "." == prefix || (path.find('.') != std::string::npos && above == prefix))
+            edit_length(g, g->lists[i]);
+    }
+}
+
+static void edit_branch(viewer *v, growing *g, const std::string &prefix)
 {
     size_t at = begin_of(v, prefix.c_str());
     const size_t end = end_of(v, at, prefix.c_str());
@@ -243,11 +286,12 @@ static void edit_branch(viewer *v, const std::string &prefix)
         }
         const std::string inner = prefix + branch + ".";
         if (ImGui::TreeNode(inner.c_str(), "%s", title_of(branch).c_str())) {
-            edit_branch(v, inner);
+            edit_branch(v, g, inner);
             ImGui::TreePop();
         }
         at = end_of(v, at, inner.c_str());
     }
+    edit_lengths(g, prefix);
 }
 
 static bool has_any(const viewer *v, const char *prefix)
@@ -255,29 +299,38 @@ static bool has_any(const viewer *v, const char *prefix)
     return begin_of(v, prefix) < v->setting_count;
 }
 
-static void section(viewer *v, const char *title, const char *prefix)
+static void section(viewer *v, growing *g, const char *title, const char *prefix)
 {
-    if (has_any(v, prefix) && part(v, title, false))
-        edit_branch(v, prefix);
+    if ((has_any(v, prefix) || is_list(*g, prefix)) && part(v, title, false))
+        edit_branch(v, g, prefix);
 }
 
 void sections(viewer *v)
 {
-    section(v, "Rain", "rain.");
-    section(v, "Ground", "ground.");
-    section(v, "Splashes", "splash.");
+    growing g = {};
+    g.lists = scene_lists(v->scene, &g.count);
+    if (!g.lists)
+        g.count = 0;
+    section(v, &g, "Rain", "rain.");
+    section(v, &g, "Ground", "ground.");
+    section(v, &g, "Splashes", "splash.");
     for (uint32_t i = 0; i < v->scene->pane_count; i++) {
         char title[80], prefix[24];
         std::snprintf(title, sizeof title, "Pane: %.40s", v->scene->panes[i].name);
         std::snprintf(prefix, sizeof prefix, "glass.%u.", i);
-        section(v, title, prefix);
+        section(v, &g, title, prefix);
     }
-    section(v, "Lamps", "lights.");
-    section(v, "Sky", "environment.");
-    section(v, "Camera", "camera.");
-    section(v, "Frames", "frames.");
-    section(v, "Preview", "preview.");
-    section(v, "Meshes", "meshes.");
+    section(v, &g, "Lamps", "lights.");
+    section(v, &g, "Sky", "environment.");
+    section(v, &g, "Camera", "camera.");
+    section(v, &g, "Frames", "frames.");
+    section(v, &g, "Preview", "preview.");
+    section(v, &g, "Meshes", "meshes.");
+    std::free(g.lists);
+    if (!g.add.empty())
+        view_list_add(v, g.add.c_str());
+    if (!g.drop.empty())
+        view_list_drop(v, g.drop.c_str());
 }
 
 } // namespace view_panel

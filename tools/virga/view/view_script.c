@@ -77,6 +77,16 @@ static bool do_set(viewer *v, const script_line *line)
     return view_assign(v, assignment);
 }
 
+static bool do_add(viewer *v, const script_line *line)
+{
+    return view_list_add(v, line->words[0]);
+}
+
+static bool do_drop(viewer *v, const script_line *line)
+{
+    return view_list_drop(v, line->words[0]);
+}
+
 static bool do_preset(viewer *v, const script_line *line)
 {
     return view_preset_take(v, line->words[0]);
@@ -239,6 +249,8 @@ static const struct {
 } commands[] = {
     {"wait", "N", "draw N frames", 1, 1, do_wait},
     {"set", "KEY VALUE", "a setting, as --set takes it: set rain.rate_mm_h 50", 2, MOST_WORDS, do_set},
+    {"add", "LIST", "an entry more, like the last: add lights, add glass.0.wipers", 1, 1, do_add},
+    {"drop", "LIST", "the last entry away", 1, 1, do_drop},
     {"preset", "NAME", "drizzle, shower, storm, carwash or window", 1, 1, do_preset},
     {"view", "NAME [N]", "what is shown, and which of its layers", 1, 2, do_view},
     {"shot", "FILE", "the scene as .exr with all layers, or as .png", 1, 1, do_shot},

@@ -1,0 +1,44 @@
+/* scene_lists.h - the lists of a loaded scene that may grow and shrink: lamps, wipers, keys of camera and weather.
+ *
+ * Lists whose entries have names in them (meshes, panes, rules of materials) are the scene file's own. */
+#ifndef VIRGA_IO_SCENE_LISTS_H
+#define VIRGA_IO_SCENE_LISTS_H
+
+#include "scene_settings.h"
+
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct scene_list {
+    char path[96];        /* "glass.0.wipers" */
+    uint32_t count;       /* entries now */
+    uint32_t least, most; /* that a file may have */
+    const void *field;    /* internal */
+    void *owner;
+} scene_list;
+
+/* All of them, also empty ones, in the order of the schema: an array to free(), NULL without memory. Counts are those of
+ * now. */
+scene_list *scene_lists(scene_file *scene, size_t *count);
+
+/* Adds an entry at the end: the last one again, later or larger where entries have to rise; the first has defaults.
+ * Settings and lists have to be listed anew. False with one line in `error`: no such list, full, or no memory. */
+bool scene_list_add(scene_file *scene, const char *path, char *error, size_t error_size);
+
+/* Takes the last entry away; likewise. */
+bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t error_size);
+
+/* Whether a setting is part of a list of which `now` has more or fewer entries than `before`, or that a wiper's drive
+ * has no use for: then it is no change of its own. */
+bool scene_list_has(const char *setting_path, scene_file *now, scene_file *before);
+
+/* Writes "path=[{...}, ...]" and a zero for each such list, and tells how many. */
+size_t scene_lists_write_changes(FILE *out, scene_file *now, scene_file *before);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
