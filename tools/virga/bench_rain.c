@@ -6,11 +6,20 @@
 #include <stdio.h>
 #include <string.h>
 
+/* How long the shutter is open: streaks are as long as drops fall in that time. */
+enum { SHUTTER_DEFAULT, SHUTTER_FILM, SHUTTERS };
+static const double film_shutter_s = 1.0 / 48; /* 24 frames a second, half of each open */
+
+typedef struct draw_result {
+    double prepare_ms, draw_ms[SHUTTERS], fill_ms;
+    uint32_t streaks[SHUTTERS];
+} draw_result;
+
 /* What one count of drops costs, in milliseconds. */
 typedef struct bench_result {
     uint32_t slots;
-    double copy, bare, dispatch, step, impacts, occlusion, prepare[3], draw[3], fill[3];
-    uint32_t streaks[3];
+    double copy, bare, dispatch, step, impacts, occlusion, shutter_s[SHUTTERS];
+    draw_result draws[BENCH_SIZES];
 } bench_result;
 
 static bool open_rain(bench *b, uint32_t drops)
@@ -50,44 +59,62 @@ static bool measure_step(bench *b, bench_result *result)
     return true;
 }
 
+/* A frame of a prepare, the clear of the picture and, where `drawn`, the draw. */
+static bool run_picture(bench *b, uint32_t size, const virga_view *view, bool drawn, double *ms)
+{
+    VkCommandBuffer cmd;
+    if (!bench_begin(b, &cmd) || virga_rain_prepare(b->rain, cmd, view, virga_rain_time(b->rain)))
+        return options_complain("bench", "a prepare failed");
+    host_target_begin_layer(&b->targets[size], cmd);
+    if (drawn && virga_rain_draw(b->rain, cmd, b->layer))
+        return options_complain("bench", "a draw failed");
+    host_target_end_layer(&b->targets[size], cmd);
+    return bench_submit(b, ms);
+}
+
 /* Drawing is timed by whole submissions, with and without the draw: timestamps inside rendering mean little on
  * software Vulkan. */
-static bool measure_draw(bench *b, uint32_t size, bench_result *result)
+static bool measure_draw(bench *b, uint32_t size, const virga_view *view, double *prepare_ms, double *draw_ms,
+                         uint32_t *streaks)
 {
-    double draw[BENCH_RUNS], prepare[BENCH_RUNS];
-    virga_view view;
-    bench_view(&view, size);
+    double draw[BENCH_RUNS], prepare[BENCH_RUNS], with, without;
     for (int i = -1; i < BENCH_RUNS; i++) {
-        double with[2];
-        for (int pass = 0; pass < 2; pass++) {
-            VkCommandBuffer cmd;
-            if (!bench_begin(b, &cmd) || virga_rain_prepare(b->rain, cmd, &view, virga_rain_time(b->rain)))
-                return options_complain("bench", "a prepare failed");
-            host_target_begin_layer(&b->targets[size], cmd);
-            if (pass && virga_rain_draw(b->rain, cmd, b->layer))
-                return options_complain("bench", "a draw failed");
-            host_target_end_layer(&b->targets[size], cmd);
-            if (!bench_submit(b, &with[pass]))
-                return false;
-        }
-        draw[i < 0 ? 0 : i] = with[1] - with[0];
-        prepare[i < 0 ? 0 : i] = bench_pass_ms(b, "rain.prepare");
+        const int at = i < 0 ? 0 : i;
+        if (!run_picture(b, size, view, false, &without) || !run_picture(b, size, view, true, &with))
+            return false;
+        draw[at] = with - without;
+        prepare[at] = bench_pass_ms(b, "rain.prepare");
     }
     virga_rain_stats stats;
     virga_rain_stats_get(b->rain, &stats);
-    result->draw[size] = bench_median(draw, BENCH_RUNS);
-    result->prepare[size] = bench_median(prepare, BENCH_RUNS);
-    result->streaks[size] = stats.streaks;
-    result->slots = stats.slots;
+    *draw_ms = bench_median(draw, BENCH_RUNS);
+    *prepare_ms = bench_median(prepare, BENCH_RUNS);
+    *streaks = stats.streaks;
     return true;
+}
+
+static bool measure_draws(bench *b, bench_result *result)
+{
+    bool good = true;
+    for (uint32_t size = 0; size < BENCH_SIZES && good; size++)
+        for (uint32_t shutter = 0; shutter < SHUTTERS && good; shutter++) {
+            draw_result *to = &result->draws[size];
+            virga_view view;
+            bench_view(&view, size);
+            view.shutter_s = shutter == SHUTTER_FILM ? film_shutter_s : virga_default_view().shutter_s;
+            result->shutter_s[shutter] = view.shutter_s;
+            good = measure_draw(b, size, &view, &to->prepare_ms, &to->draw_ms[shutter], &to->streaks[shutter]);
+        }
+    virga_rain_stats stats;
+    virga_rain_stats_get(b->rain, &stats);
+    result->slots = stats.slots;
+    return good;
 }
 
 static bool measure(bench *b, uint32_t drops, bench_result *result)
 {
     limits *machine = NULL;
-    bool good = open_rain(b, drops) && measure_step(b, result);
-    for (uint32_t size = 0; size < 3 && good; size++)
-        good = measure_draw(b, size, result);
+    bool good = open_rain(b, drops) && measure_step(b, result) && measure_draws(b, result);
     if (good && !limits_create(&b->device, &b->targets[0], result->slots, &machine, b->error, sizeof b->error))
         good = bench_fail(b, "limits");
     if (good) {
@@ -96,10 +123,10 @@ static bool measure(bench *b, uint32_t drops, bench_result *result)
         result->dispatch = limits_dispatch_ms(&b->device, machine);
     }
     limits_destroy(&b->device, &machine);
-    for (uint32_t size = 0; size < 3 && good; size++) {
+    for (uint32_t size = 0; size < BENCH_SIZES && good; size++) {
         good = limits_create(&b->device, &b->targets[size], 256, &machine, b->error, sizeof b->error);
         if (good)
-            result->fill[size] = limits_fill_ms(&b->device, machine, &b->targets[size]);
+            result->draws[size].fill_ms = limits_fill_ms(&b->device, machine, &b->targets[size]);
         limits_destroy(&b->device, &machine);
     }
     virga_target_destroy(&b->layer);
@@ -118,17 +145,20 @@ static void print_result(const bench_result *r)
     printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
            r->impacts * 1e6 / r->slots);
     printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)\n", r->occlusion);
-    for (int i = 0; i < 3; i++)
-        printf("  %4u x %-4u prepare %8.3f ms %6.2f ns a drop;  draw %8.3f ms, %u streaks, %.0f ns a streak;  fill of "
-               "the picture %.3f ms\n",
-               bench_sizes[i][0], bench_sizes[i][1], r->prepare[i], r->prepare[i] * 1e6 / r->slots, r->draw[i],
-               r->streaks[i], r->streaks[i] ? r->draw[i] * 1e6 / r->streaks[i] : 0, r->fill[i]);
+    for (int i = 0; i < BENCH_SIZES; i++) {
+        const draw_result *d = &r->draws[i];
+        printf("  %4u x %-4u prepare %8.3f ms %6.2f ns a drop;  fill of the picture %.3f ms\n", bench_sizes[i][0],
+               bench_sizes[i][1], d->prepare_ms, d->prepare_ms * 1e6 / r->slots, d->fill_ms);
+        for (int k = 0; k < SHUTTERS; k++)
+            printf("      draw, shutter 1/%.0f s %8.3f ms, %u streaks, %.0f ns a streak\n", 1 / r->shutter_s[k],
+                   d->draw_ms[k], d->streaks[k], d->streaks[k] ? d->draw_ms[k] * 1e6 / d->streaks[k] : 0);
+    }
     fflush(stdout);
 }
 
 bool bench_rain(bench *b, uint32_t only)
 {
-    static const uint32_t usual[] = {1000, 10000, 100000, 1000000};
+    static const uint32_t usual[] = {1000, 10000, 100000, 576000, 1000000}; /* 576,000: 25,000 of 1280 x 720 */
     bool good = true;
     for (size_t i = 0; good && !interrupt_asked() && i < (only ? 1 : sizeof usual / sizeof usual[0]); i++) {
         bench_result result;

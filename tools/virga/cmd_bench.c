@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const option_row rows[] = {
-    {"--drops", 0, "N", "rain: measure this many drops only. Default: 1000, 10000, 100000 and 1000000", false},
+    {"--drops", 0, "N", "rain: measure this many drops only. Default: 1000 to 1000000", false},
     {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
     {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
     {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
@@ -22,7 +22,8 @@ static const option_row rows[] = {
 void bench_help(void)
 {
     printf("virga bench rain|ground|splash|glass|frames [options]\n\n"
-           "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops and three picture sizes\n"
+           "rain    step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops, in three picture sizes\n"
+           "        and with the shutter open for 1/96 s (the library's default) and 1/48 s (film)\n"
            "ground  landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n"
            "splash  step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the\n"
            "        paper's\n"
