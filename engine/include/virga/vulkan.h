@@ -314,9 +314,10 @@ typedef struct virga_view {
     double open_position_m[3];    /* the same at the start of the shutter time (a game: the previous frame's camera) */
     float open_view_from_world[16];
     float open_clip_from_view[16]; /* with this frame's jitter, so that jitter does not show as motion */
-    double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn. Default 1/96: 24
-                                   * frames a second, half of it open. With a previous frame's camera as the open one,
-                                   * give its time distance here and scale the rain's look with streak settings */
+    double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn: streaks are as long
+                                   * as drops fall in it. Default 1/96; half of a frame is 1/48 in film and 1/120 in a
+                                   * game of 60 frames a second. With a previous frame's camera as the open one, give
+                                   * its time distance here and scale the rain's look with streak settings */
     double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s */
     float viewport[4];            /* x, y, width, height in pixels, within what the device allows */
     bool reversed_depth;          /* must match the target's. Default false */
