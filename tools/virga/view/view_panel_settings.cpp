@@ -208,13 +208,15 @@ static size_t begin_of(const viewer *v, const char *prefix)
     return first;
 }
 
-/* Title of a branch: "wipers 1" for "wipers.0". */
-static std::string title_of(const std::string &branch)
+/* Title of a branch: "wipers 1" for "wipers.0"; "lights 1" for "0" behind "lights.". */
+static std::string title_of(const std::string &prefix, const std::string &branch)
 {
-    const size_t dot = branch.find('.');
+    const bool number = std::isdigit((unsigned char)branch[0]);
+    const std::string name = number ? prefix.substr(0, prefix.size() - 1) + "." + branch : branch;
+    const size_t dot = name.rfind('.');
     if (dot == std::string::npos)
-        return branch;
-    return branch.substr(0, dot) + " " + std::to_string(std::atoi(branch.c_str() + dot + 1) + 1);
+        return name;
+    return name.substr(0, dot) + " " + std::to_string(std::atoi(name.c_str() + dot + 1) + 1);
 }
 
 /* What of a path behind a prefix leads to a branch: "wipers.0" of "wipers.0.sweep_s"; empty for a leaf. */
@@ -285,7 +287,7 @@ static void edit_branch(viewer *v, growing *g, const std::string &prefix)
             continue;
         }
         const std::string inner = prefix + branch + ".";
-        if (ImGui::TreeNode(inner.c_str(), "%s", title_of(branch).c_str())) {
+        if (ImGui::TreeNode(inner.c_str(), "%s", title_of(prefix, branch).c_str())) {
             edit_branch(v, g, inner);
             ImGui::TreePop();
         }
