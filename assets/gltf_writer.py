@@ -181,8 +181,9 @@ class Group:
 class Scene:
     """Groups, where they stand, materials and images; write() makes the file."""
 
-    def __init__(self, materials, images):
+    def __init__(self, materials, images, name="street", generator="make_street.py"):
         self.materials, self.images, self.placements = materials, images, []
+        self.name, self.generator = name, generator
 
     def place(self, group, position=(0.0, 0.0, 0.0), yaw_deg=0.0, quaternion=None, scale=1.0):
         self.placements.append((group, position, yaw_deg, quaternion, scale))
@@ -211,9 +212,9 @@ class _Glb:
         images = [{"name": n, "mimeType": "image/png", "bufferView": self._view(scene.images[n])} for n in used]
         roots = [self._node(names, *p) for p in scene.placements]
         self.document = {
-            "asset": {"version": "2.0", "generator": "make_street.py"}, "scene": 0,
+            "asset": {"version": "2.0", "generator": scene.generator}, "scene": 0,
             "extensionsUsed": ["KHR_materials_emissive_strength"],
-            "scenes": [{"name": "street", "nodes": roots}], "nodes": self.nodes, "meshes": self.meshes,
+            "scenes": [{"name": scene.name, "nodes": roots}], "nodes": self.nodes, "meshes": self.meshes,
             "materials": [self._material(m, used) for m in scene.materials],
             "textures": [{"source": i, "sampler": 0} for i in range(len(used))], "images": images,
             "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
@@ -273,7 +274,7 @@ class _Glb:
 
     @staticmethod
     def _material(m, used):
-        pbr = {"baseColorFactor": list(m.get("colour", (1, 1, 1))) + [1], "metallicFactor": m.get("metal", 0),
+        pbr = {"baseColorFactor": list(m.get("colour", (1, 1, 1))) + [m.get("alpha", 1)], "metallicFactor": m.get("metal", 0),
                "roughnessFactor": m["rough"]}
         out = {"name": m["name"], "pbrMetallicRoughness": pbr}
         if "image" in m:
@@ -285,6 +286,8 @@ class _Glb:
             out["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": m.get("strength", 1)}}
             if "image" in m:
                 out["emissiveTexture"] = {"index": used.index(m["image"])}
+        if "alpha" in m:
+            out["alphaMode"] = "BLEND"
         if m.get("two_sided"):
             out["doubleSided"] = True
         return out

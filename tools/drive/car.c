@@ -1,4 +1,4 @@
-/* car.c - the track, how the car drives on it, and its body of boxes. */
+/* car.c - the track, how the car drives on it, and where its parts are. */
 #include "car.h"
 
 #include <math.h>
@@ -6,10 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WHEELBASE_M 2.6
-#define STEER_MOST  0.75 /* rad */
-#define STEP_M      0.5  /* between points of the track once it is read */
-#define POINTS_MOST 65536
+#define WHEELBASE_M    2.7
+#define FRONT_AXLE_M   (-1.38)
+#define REAR_AXLE_M    1.32
+#define WHEEL_X_M      0.735
+#define WHEEL_RADIUS_M 0.315
+#define STEER_MOST     0.75 /* rad */
+#define STEP_M         0.5  /* between points of the track once it is read */
+#define POINTS_MOST    65536
 
 /* ---- the track */
 
@@ -219,6 +223,7 @@ void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
         steer_by_keys(c, keys, &gas, &steer);
     c->steer += (fmin(fmax(steer, -STEER_MOST), STEER_MOST) - c->steer) * fmin(10 * dt_s, 1);
     c->speed_m_s = fmin(fmax(c->speed_m_s + gas * dt_s, 0), 60);
+    c->rolled = turned(c->rolled + c->speed_m_s / WHEEL_RADIUS_M * dt_s);
     c->heading = turned(c->heading + c->speed_m_s / WHEELBASE_M * tan(c->steer) * dt_s);
     c->position_m[0] -= sin(c->heading) * c->speed_m_s * dt_s;
     c->position_m[2] -= cos(c->heading) * c->speed_m_s * dt_s;
@@ -308,162 +313,43 @@ void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float
 
 const double car_windshield_m[3] = {0, 0.86, -1.2};
 const double car_eye_m[3] = {-0.36, 1.2, 0.08};
-const double car_head_lamps_m[2][3] = {{-0.62, 0.66, -2.2}, {0.62, 0.66, -2.2}};
+const double car_head_lamps_m[2][3] = {{-0.58, 0.61, -2.15}, {0.58, 0.61, -2.15}};
+const double car_tail_lamps_m[2][3] = {{-0.58, 0.79, 2.0}, {0.58, 0.79, 2.0}};
 
-/* A box whose cross-section changes along z: half width, low and high at its front and at its back. */
-typedef struct taper {
-    float front_z, front_half, front_low, front_high, back_z, back_half, back_low, back_high;
-} taper;
-
-static void put_taper(boxes *b, float middle_x, const taper *t)
+car_part car_part_of(const char *material)
 {
-    const float corners[8][3] = {
-        {middle_x - t->back_half, t->back_low, t->back_z},     {middle_x + t->back_half, t->back_low, t->back_z},
-        {middle_x + t->front_half, t->front_low, t->front_z},  {middle_x - t->front_half, t->front_low, t->front_z},
-        {middle_x - t->back_half, t->back_high, t->back_z},    {middle_x + t->back_half, t->back_high, t->back_z},
-        {middle_x + t->front_half, t->front_high, t->front_z}, {middle_x - t->front_half, t->front_high, t->front_z}};
-    boxes_put(b, corners);
+    static const struct {
+        const char *begins;
+        car_part part;
+    } names[] = {{"cabin_", CAR_CABIN},
+                 {"glass_side", CAR_WINDOWS},
+                 {"wheel_", CAR_WHEEL},
+                 {"rain_cover", CAR_COVER},
+                 {"rain_screen", CAR_SCREEN}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(material, names[i].begins, strlen(names[i].begins)) == 0)
+            return names[i].part;
+    return CAR_BODY;
 }
 
-static void put_both(boxes *b, float x, const taper *t)
+/* The columns of `axes` as the car has them, in the world. */
+static void turn_out(const car *c, double local[9], float axes[9])
 {
-    put_taper(b, -x, t);
-    put_taper(b, x, t);
+    for (int column = 0; column < 3; column++)
+        for (int i = 0; i < 3; i++)
+            axes[3 * column + i] =
+                (float)(local[3 * column] * (double)c->axes[i] + local[3 * column + 1] * (double)c->axes[3 + i] +
+                        local[3 * column + 2] * (double)c->axes[6 + i]);
 }
 
-/* `in_m`: how far inside the outline. */
-static void put_pillars(boxes *b, float thick, float deep, float in_m)
+void car_wheel(const car *c, int wheel, double position_m[3], float axes[9])
 {
-    const float feet[3][3] = {{0.755f, 0.84f, -1.18f}, {0.79f, 0.82f, 0.28f}, {0.77f, 0.84f, 1.42f}};
-    const float heads[3][3] = {{0.735f, 1.42f, -0.40f}, {0.735f, 1.42f, 0.30f}, {0.70f, 1.42f, 0.98f}};
-    const float up[3] = {1, 0, 0};
-    for (int i = 0; i < 3; i++)
-        for (int side = -1; side <= 1; side += 2) {
-            const float from[3] = {(float)side * (feet[i][0] - 0.3f * in_m), feet[i][1] - 0.5f * in_m,
-                                   feet[i][2] + in_m};
-            const float to[3] = {(float)side * (heads[i][0] - 0.3f * in_m), heads[i][1] - 0.5f * in_m,
-                                 heads[i][2] + in_m};
-            boxes_put_bar(b, from, to, up, i == 2 ? 0.2f : thick, deep);
-        }
-}
-
-static void put_paint(boxes *b)
-{
-    put_taper(b, 0, &(taper){-2.05f, 0.78f, 0.34f, 0.66f, -1.25f, 0.84f, 0.30f, 0.72f});   /* around the engine */
-    put_taper(b, 0, &(taper){-2.02f, 0.74f, 0.66f, 0.71f, -1.18f, 0.80f, 0.72f, 0.86f});   /* bonnet */
-    put_both(b, 0.81f, &(taper){-1.25f, 0.03f, 0.30f, 0.85f, 1.40f, 0.03f, 0.30f, 0.85f}); /* doors */
-    put_taper(b, 0, &(taper){1.38f, 0.84f, 0.30f, 0.86f, 2.05f, 0.78f, 0.36f, 0.84f});     /* boot */
-    put_taper(b, 0, &(taper){-0.42f, 0.75f, 1.40f, 1.43f, 0.10f, 0.73f, 1.43f, 1.48f});    /* roof */
-    put_taper(b, 0, &(taper){0.10f, 0.73f, 1.43f, 1.48f, 1.02f, 0.71f, 1.39f, 1.43f});
-    put_pillars(b, 0.07f, 0.04f, 0);
-}
-
-static void put_trim(boxes *b)
-{
-    put_taper(b, 0, &(taper){-2.16f, 0.74f, 0.24f, 0.48f, -2.02f, 0.80f, 0.24f, 0.52f}); /* bumpers */
-    put_taper(b, 0, &(taper){2.02f, 0.80f, 0.26f, 0.56f, 2.16f, 0.74f, 0.28f, 0.50f});
-    put_taper(b, 0, &(taper){-1.9f, 0.72f, 0.20f, 0.32f, 1.9f, 0.72f, 0.20f, 0.32f});       /* floor */
-    put_taper(b, 0, &(taper){-2.09f, 0.42f, 0.54f, 0.66f, -2.03f, 0.42f, 0.54f, 0.66f});    /* grille */
-    put_both(b, 0.94f, &(taper){-0.92f, 0.06f, 0.89f, 0.97f, -0.84f, 0.07f, 0.88f, 0.98f}); /* mirrors */
-}
-
-static void put_cabin(boxes *b)
-{
-    const float up[3] = {0, 0, 1}, hub[3] = {-0.36f, 0.83f, -0.46f};
-    put_taper(b, 0, &(taper){-1.16f, 0.77f, 0.70f, 0.85f, -0.80f, 0.78f, 0.60f, 0.865f});      /* dashboard */
-    put_taper(b, -0.36f, &(taper){-0.98f, 0.15f, 0.80f, 0.88f, -0.74f, 0.17f, 0.76f, 0.915f}); /* over the dials */
-    put_both(b, 0.77f, &(taper){-1.1f, 0.015f, 0.40f, 0.86f, 1.4f, 0.015f, 0.40f, 0.86f});
-    put_taper(b, 0, &(taper){-0.40f, 0.73f, 1.37f, 1.405f, 1.0f, 0.70f, 1.36f, 1.39f}); /* lining of the roof */
-    put_taper(b, 0, &(taper){-0.43f, 0.73f, 1.375f, 1.40f, -0.36f, 0.73f, 1.365f, 1.40f});
-    put_taper(b, 0.0f, &(taper){-0.60f, 0.09f, 1.335f, 1.38f, -0.57f, 0.09f, 1.335f, 1.38f}); /* mirror */
-    put_taper(b, 0, &(taper){-0.59f, 0.012f, 1.37f, 1.42f, -0.57f, 0.012f, 1.37f, 1.42f});
-    put_both(b, 0.36f, &(taper){0.30f, 0.25f, 0.35f, 0.55f, 0.45f, 0.25f, 0.35f, 1.0f}); /* seats */
-    put_both(b, 0.36f, &(taper){0.38f, 0.12f, 1.02f, 1.2f, 0.48f, 0.12f, 1.02f, 1.2f});
-    put_pillars(b, 0.095f, 0.05f, 0.12f); /* over the paint, seen from within */
-    for (int i = 0; i < 24; i++) {        /* the wheel, leaning to the driver */
-        float ends[2][3];
-        for (int end = 0; end < 2; end++) {
-            const double angle = 2 * M_PI * (i + end) / 24, lean = 0.42;
-            ends[end][0] = hub[0] + (float)(0.19 * cos(angle));
-            ends[end][1] = hub[1] + (float)(0.19 * sin(angle) * cos(lean));
-            ends[end][2] = hub[2] - (float)(0.19 * sin(angle) * sin(lean));
-        }
-        boxes_put_bar(b, ends[0], ends[1], up, 0.026f, 0.026f);
-    }
-    boxes_put_bar(b, (const float[3]){-0.55f, 0.83f, -0.46f}, (const float[3]){-0.17f, 0.83f, -0.46f}, up, 0.05f,
-                  0.02f);
-    boxes_put_bar(b, hub, (const float[3]){-0.36f, 0.76f, -0.75f}, (const float[3]){1, 0, 0}, 0.06f, 0.06f);
-}
-
-/* Four wheels of bars: tyres, or rims within them. */
-static void put_wheels(boxes *b, float radius, float half)
-{
-    const float places[4][2] = {{-0.72f, -1.38f}, {0.72f, -1.38f}, {-0.72f, 1.32f}, {0.72f, 1.32f}};
-    for (int wheel = 0; wheel < 4; wheel++)
-        for (int i = 0; i < 10; i++) {
-            const double angle = M_PI * i / 10;
-            const float y = (float)cos(angle) * radius, z = (float)sin(angle) * radius, x = places[wheel][0];
-            const float from[3] = {x, 0.31f - y, places[wheel][1] - z}, to[3] = {x, 0.31f + y, places[wheel][1] + z};
-            boxes_put_bar(b, from, to, (const float[3]){1, 0, 0}, 0.32f * radius, 2 * half);
-        }
-}
-
-static void put_windows(boxes *b)
-{
-    const float sides[3][2] = {{-0.80f, 0.22f}, {0.34f, 1.0f}, {0, 0}};
-    for (int i = 0; i < 2; i++)
-        put_both(b, 0.765f, &(taper){sides[i][0], 0.006f, 0.84f, i ? 1.41f : 1.12f, sides[i][1], 0.006f, 0.84f, 1.41f});
-    put_taper(b, 0, &(taper){1.0f, 0.68f, 1.37f, 1.40f, 1.44f, 0.72f, 0.84f, 0.87f}); /* behind */
-}
-
-/* Just under the windshield. */
-static void put_screen(boxes *b)
-{
-    put_taper(b, 0, &(taper){-1.12f, 0.74f, 0.80f, 0.82f, -0.38f, 0.74f, 1.34f, 1.36f});
-}
-
-static void put_cover(boxes *b)
-{
-    put_taper(b, 0, &(taper){-0.42f, 0.76f, 1.40f, 1.46f, 1.02f, 0.74f, 1.40f, 1.46f});
-    put_taper(b, 0, &(taper){1.0f, 0.74f, 1.38f, 1.42f, 1.45f, 0.74f, 0.84f, 0.88f});
-    put_taper(b, 0, &(taper){-2.02f, 0.78f, 0.5f, 0.71f, -1.15f, 0.82f, 0.5f, 0.86f});
-    put_taper(b, 0, &(taper){1.38f, 0.8f, 0.5f, 0.86f, 2.05f, 0.78f, 0.5f, 0.84f});
-}
-
-void car_build(car_part part, boxes *b, host_material *material)
-{
-    static const host_material materials[CAR_PARTS] = {
-        [CAR_PAINT] = {.name = "paint", .base_color = {0.30f, 0.012f, 0.014f, 1}, .roughness = 0.22f, .metallic = 0.3f},
-        [CAR_TRIM] = {.name = "trim", .base_color = {0.015f, 0.015f, 0.016f, 1}, .roughness = 0.55f},
-        [CAR_RUBBER] = {.name = "rubber", .base_color = {0.012f, 0.012f, 0.013f, 1}, .roughness = 0.8f},
-        [CAR_RIM] = {.name = "rim", .base_color = {0.45f, 0.46f, 0.47f, 1}, .roughness = 0.35f, .metallic = 0.8f},
-        [CAR_WINDOWS] = {.name = "windows", .base_color = {0.008f, 0.009f, 0.010f, 1}, .roughness = 0.08f},
-        [CAR_CABIN] = {.name = "cabin", .base_color = {0.035f, 0.034f, 0.033f, 1}, .roughness = 0.85f},
-        [CAR_HEAD_LAMPS] = {.name = "head",
-                            .base_color = {0.5f, 0.5f, 0.5f, 1},
-                            .emissive = {9, 8, 6.5f},
-                            .roughness = 0.2f},
-        [CAR_TAIL_LAMPS] = {.name = "tail",
-                            .base_color = {0.2f, 0.01f, 0.01f, 1},
-                            .emissive = {1.6f, 0.05f, 0.03f},
-                            .roughness = 0.2f},
-        [CAR_SCREEN] = {.name = "screen", .base_color = {0, 0, 0, 1}, .roughness = 1},
-        [CAR_COVER] = {.name = "cover", .base_color = {0, 0, 0, 1}, .roughness = 1},
-    };
-    *material = materials[part];
-    material->two_sided = true;
-    material->base_texture = material->emissive_texture = -1;
-    b->count = 0;
-    switch (part) {
-    case CAR_PAINT: put_paint(b); break;
-    case CAR_TRIM: put_trim(b); break;
-    case CAR_RUBBER: put_wheels(b, 0.31f, 0.1f); break;
-    case CAR_RIM: put_wheels(b, 0.19f, 0.108f); break;
-    case CAR_WINDOWS: put_windows(b); break;
-    case CAR_CABIN: put_cabin(b); break;
-    case CAR_HEAD_LAMPS: put_both(b, 0.60f, &(taper){-2.09f, 0.13f, 0.58f, 0.67f, -2.03f, 0.15f, 0.58f, 0.69f}); break;
-    case CAR_TAIL_LAMPS: put_both(b, 0.62f, &(taper){2.0f, 0.15f, 0.64f, 0.78f, 2.07f, 0.13f, 0.64f, 0.76f}); break;
-    case CAR_SCREEN: put_screen(b); break;
-    default: put_cover(b); break;
-    }
+    const bool right = wheel % 2, front = wheel < 2;
+    const double place[3] = {right ? WHEEL_X_M : -WHEEL_X_M, WHEEL_RADIUS_M, front ? FRONT_AXLE_M : REAR_AXLE_M};
+    /* First it rolls about its axle; on the left it is turned around; then it is steered about the vertical. */
+    const double roll = right ? c->rolled : -c->rolled, turn = (front ? c->steer : 0) + (right ? 0 : M_PI);
+    const double cr = cos(roll), sr = -sin(roll), ct = cos(turn), st = sin(turn);
+    double local[9] = {ct, 0, -st, st * sr, cr, ct * sr, st * cr, -sr, ct * cr};
+    car_point(c, place, position_m);
+    turn_out(c, local, axes);
 }

@@ -40,6 +40,7 @@ typedef struct car {
     double heading;          /* rad about +y; 0 looks along -z */
     double slope;            /* of the road, rise over run */
     double speed_m_s, steer; /* rad at the wheels */
+    double rolled;           /* rad, of the wheels */
     bool autopilot;
     uint32_t nearest; /* point of the track */
     float axes[9];    /* columns: right, up, back in the world */
@@ -57,19 +58,20 @@ void car_point(const car *c, const double local[3], double world[3]);
 
 /* ---- its body */
 
+/* What a part of car.glb is to the game, by the name of its material; assets/make_car.py makes it. */
 typedef enum car_part {
-    CAR_PAINT,
-    CAR_TRIM, /* black plastic outside */
-    CAR_RUBBER,
-    CAR_RIM,
+    CAR_BODY,
+    CAR_CABIN,   /* seen from within: little sky comes to it */
     CAR_WINDOWS, /* not drawn from within */
-    CAR_CABIN,   /* seen from within */
-    CAR_HEAD_LAMPS,
-    CAR_TAIL_LAMPS,
-    CAR_COVER,  /* from here on never drawn, what keeps rain off: roof, bonnet, boot */
-    CAR_SCREEN, /* and what the windshield does */
-    CAR_PARTS,
+    CAR_WHEEL,   /* one, about the origin, its outside towards +x */
+    CAR_COVER,   /* never drawn, what keeps rain off: roof, bonnet, boot */
+    CAR_SCREEN,  /* and what the windshield does */
 } car_part;
+
+car_part car_part_of(const char *material);
+
+/* Where wheel 0 to 3 is, how it is steered and how far it has rolled: its place and axes in the world. */
+void car_wheel(const car *c, int wheel, double position_m[3], float axes[9]);
 
 /* Boxes with flat sides, in memory. */
 #define BOXES_MAX 512
@@ -86,16 +88,19 @@ void boxes_put_cuboid(boxes *b, const float low[3], const float high[3]);
 /* A bar from a place to another, so wide and so high along `up`. */
 void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float up[3], float width, float height);
 
-void car_build(car_part part, boxes *b, host_material *material);
-
-/* The windshield: the middle of its lower edge and its size; the driver's eye. */
+/* The windshield: the middle of its lower edge and its size, as assets/make_car.py has them; the driver's eye. */
 extern const double car_windshield_m[3], car_eye_m[3];
 #define CAR_GLASS_WIDTH_M  1.45f
 #define CAR_GLASS_HEIGHT_M 0.95f
 #define CAR_GLASS_RAKE_DEG 55.0f
 #define CAR_GLASS_BEND_M   4.0f
+#define CAR_GLASS_TOP_M    1.23f /* it is so wide at its upper edge: its corners are cut off */
 
-/* Brightness of the head lamps as they look, and where they are. */
-extern const double car_head_lamps_m[2][3];
+/* Half its width and length. */
+#define CAR_HALF_WIDTH_M  0.87f
+#define CAR_HALF_LENGTH_M 2.05f
+
+/* Where its lamps shine from. */
+extern const double car_head_lamps_m[2][3], car_tail_lamps_m[2][3];
 
 #endif

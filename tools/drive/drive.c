@@ -24,10 +24,12 @@
 #include <string.h>
 
 #define MOST_WINDOW_EXTENSIONS 8
-#define PANE_POINTS    33 /* along each side of the windshield's grid */
-#define MOST_OCCLUDERS 4096
-#define NEAR_ENOUGH_M  60 /* what is farther keeps no rain off that could be seen */
-#define WIPERS         2
+#define PANE_POINTS            33  /* along each side of the windshield's grid */
+#define PANE_TEXELS            256 /* and of its mask */
+#define MOST_OCCLUDERS         4096
+#define NEAR_ENOUGH_M          60 /* what is farther keeps no rain off that could be seen */
+#define WIPERS                 2
+#define MOST_PARTS             64 /* primitives of the car */
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 static const char *const wiper_names[WIPER_SPEEDS] = {"off", "intermittent", "slow", "fast"};
@@ -50,7 +52,7 @@ typedef struct drive {
     VkSurfaceKHR surface;
     stage stage;
     host_environment environment;
-    host_mesh street, blocks, parts[CAR_PARTS], wipers;
+    host_mesh street, blocks, body, wipers;
     track track;
     car car;
     car_keys keys;
@@ -66,6 +68,7 @@ typedef struct drive {
     virga_lighting lighting;
     virga_glass_settings glass;
     float pane[PANE_POINTS * PANE_POINTS * 3];
+    uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
     virga_occluder occluders[MOST_OCCLUDERS];
     float rate_mm_h;
     int wiper_speed;
@@ -148,6 +151,7 @@ static bool create_frames(drive *d, const host_device_info *chosen)
     device->instance = &d->listed;
     device->physical = chosen->physical;
     device->queue_family = chosen->queue_family;
+    device->independent_blend = true; /* glass is blended: one attachment needs no feature for it */
     vkGetPhysicalDeviceProperties(device->physical, &device->properties);
     vkGetPhysicalDeviceMemoryProperties(device->physical, &device->memory);
     vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
@@ -274,6 +278,18 @@ static virga_glass_wiper wiper(float pivot_u_m, float reach_m, float blade_m)
     return w;
 }
 
+/* The pillars lean in: above, the pane is narrower than below. */
+static const uint8_t *mask_pane(drive *d)
+{
+    for (int row = 0; row < PANE_TEXELS; row++) {
+        const float up = ((float)row + 0.5f) / PANE_TEXELS,
+                    half = 0.5f - 0.5f * up * (1 - CAR_GLASS_TOP_M / CAR_GLASS_WIDTH_M);
+        for (int column = 0; column < PANE_TEXELS; column++)
+            d->glass_at[row * PANE_TEXELS + column] = fabsf(((float)column + 0.5f) / PANE_TEXELS - 0.5f) < half;
+    }
+    return d->glass_at;
+}
+
 /* Shapes and settings: at the start, and any time later. */
 static bool set_rain(drive *d)
 {
@@ -283,6 +299,8 @@ static bool set_rain(drive *d)
                            PANE_POINTS, d->pane);
     shape.positions = d->pane;
     shape.columns = shape.rows = PANE_POINTS;
+    shape.mask = mask_pane(d);
+    shape.mask_columns = shape.mask_rows = PANE_TEXELS;
     if (!fine(d, virga_glass_shape_set(glass, &shape), "windshield"))
         return false;
     d->glass = virga_default_glass_settings();
@@ -342,15 +360,17 @@ static void light_up(drive *d)
         memcpy(lamp->intensity, d->track.lamps[i].intensity, sizeof lamp->intensity);
         lamp->range_m = 30;
     }
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 4; i++) {
+        const bool head = i < 2;
         virga_light *lamp = &d->lighting.lights[d->lighting.light_count++];
-        car_point(&d->car, car_head_lamps_m[i], lamp->position_m);
-        memcpy(lamp->intensity, (float[3]){16, 14, 11.5f}, sizeof lamp->intensity);
+        car_point(&d->car, head ? car_head_lamps_m[i] : car_tail_lamps_m[i - 2], lamp->position_m);
+        memcpy(lamp->intensity, head ? (float[3]){16, 14, 11.5f} : (float[3]){0.5f, 0.02f, 0.01f},
+               sizeof lamp->intensity);
         for (int axis = 0; axis < 3; axis++)
-            lamp->direction[axis] = -d->car.axes[6 + axis] - 0.07f * d->car.axes[3 + axis];
-        lamp->range_m = 45;
-        lamp->cos_inner = 0.985f;
-        lamp->cos_outer = 0.87f;
+            lamp->direction[axis] = (head ? -1 : 1) * d->car.axes[6 + axis] - 0.07f * d->car.axes[3 + axis];
+        lamp->range_m = head ? 45 : 8;
+        lamp->cos_inner = head ? 0.985f : 0.5f;
+        lamp->cos_outer = head ? 0.87f : 0;
     }
 }
 
@@ -371,9 +391,14 @@ static uint32_t fill_occluders(drive *d)
     }
     /* Splashes stay where they were made: a car that moves would drive into its own. */
     const bool still = d->car.speed_m_s < 1;
-    for (int part = CAR_COVER; part <= CAR_SCREEN; part++) {
+    virga_occluder of_car[MOST_PARTS];
+    count = host_mesh_occluders(&d->body, of_car, MOST_PARTS);
+    for (uint32_t i = 0; i < count && i < MOST_PARTS && kept < MOST_OCCLUDERS; i++) {
+        const car_part part = car_part_of(d->body.materials[d->body.primitives[i].material].name);
+        if (part != CAR_COVER && part != CAR_SCREEN)
+            continue;
         virga_occluder *cover = &d->occluders[kept++];
-        host_mesh_occluders(&d->parts[part], cover, 1);
+        *cover = of_car[i];
         cover->material = part == CAR_COVER && still ? VIRGA_MATERIAL_STEEL : VIRGA_MATERIAL_GLASS;
         cover->ground = false;
         for (int row = 0; row < 3; row++) {
@@ -431,6 +456,31 @@ static virga_view look(const drive *d, double dt_s)
     return view;
 }
 
+static void draw_car(drive *d, VkCommandBuffer cmd)
+{
+    float skies[MOST_PARTS], of_wheel[MOST_PARTS];
+    stage_draw draw = {.mesh = &d->body, .skies = of_wheel};
+    for (uint32_t i = 0; i < d->body.primitive_count; i++) {
+        const car_part part = car_part_of(d->body.materials[d->body.primitives[i].material].name);
+        const bool drawn = part == CAR_BODY || part == CAR_CABIN || (part == CAR_WINDOWS && d->outside);
+        skies[i] = drawn ? part == CAR_CABIN ? 0.45f : 1 : -1;
+        of_wheel[i] = part == CAR_WHEEL ? 1 : -1;
+    }
+    for (int wheel = 0; wheel < 4; wheel++) {
+        car_wheel(&d->car, wheel, draw.position_m, draw.axes);
+        stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
+    }
+    memcpy(draw.axes, d->car.axes, sizeof draw.axes);
+    memcpy(draw.position_m, d->car.position_m, sizeof draw.position_m);
+    draw.mesh = &d->wipers;
+    draw.skies = NULL;
+    draw.sky = 0.5f;
+    stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
+    draw.mesh = &d->body;
+    draw.skies = skies;
+    stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
+}
+
 static void draw_world(drive *d, VkCommandBuffer cmd)
 {
     const float upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -438,22 +488,15 @@ static void draw_world(drive *d, VkCommandBuffer cmd)
     virga_ground_maps maps;
     virga_ground_maps_get(virga_scene_ground(d->rain), &maps); /* what the street's material samples */
     memcpy(draw.axes, upright, sizeof upright);
+    d->stage.shade = (stage_shade){.half_m = {CAR_HALF_WIDTH_M, CAR_HALF_LENGTH_M}};
+    memcpy(d->stage.shade.position_m, d->car.position_m, sizeof d->car.position_m);
+    memcpy(d->stage.shade.axes, d->car.axes, sizeof d->car.axes);
     stage_world_begin(&d->stage, cmd, &d->camera, &maps, &d->lighting);
     stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
     draw.mesh = &d->blocks;
     if (d->track.box_count)
         stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
-    memcpy(draw.axes, d->car.axes, sizeof draw.axes);
-    memcpy(draw.position_m, d->car.position_m, sizeof draw.position_m);
-    for (int part = 0; part < CAR_COVER; part++) {
-        draw.mesh = &d->parts[part];
-        draw.sky = part == CAR_CABIN ? 0.12f : 1;
-        if (d->outside || part != CAR_WINDOWS)
-            stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
-    }
-    draw.mesh = &d->wipers;
-    draw.sky = 0.5f;
-    stage_draw_mesh(&d->stage, cmd, &d->camera, &draw);
+    draw_car(d, cmd);
     stage_world_end(&d->stage, cmd);
 }
 
@@ -541,11 +584,11 @@ static void put_wipers(const drive *d, boxes *b)
         float from[3], to[3];
         pane_point(d, w, 0, 0.03, angle, from);
         pane_point(d, w, first + 0.5 * (double)w->blade_m, 0.03, angle, to);
-        boxes_put_bar(b, from, to, up, 0.014f, 0.008f);
+        boxes_put_bar(b, from, to, up, 0.012f, 0.007f);
         for (int k = 0; k < 5; k++) {
             pane_point(d, w, first + (double)w->blade_m * k / 5, 0.012, angle, from);
             pane_point(d, w, first + (double)w->blade_m * (k + 1) / 5, 0.012, angle, to);
-            boxes_put_bar(b, from, to, up, 0.009f, 0.02f);
+            boxes_put_bar(b, from, to, up, 0.007f, 0.013f);
         }
     }
 }
@@ -626,13 +669,13 @@ static bool load_world(drive *d, boxes *b)
     material = (host_material){.name = "wall", .base_color = {0.16f, 0.14f, 0.13f, 1}, .roughness = 0.9f};
     if (b->count && !add_boxes(d, b, &material, &d->blocks))
         return false;
-    for (int part = 0; part < CAR_PARTS; part++) {
-        car_build(part, b, &material);
-        if (!add_boxes(d, b, &material, &d->parts[part]))
-            return false;
-    }
+    if (!host_mesh_load(&d->device, DRIVE_ASSETS "/scenes/car.glb", NULL, &d->body, error, error_size) ||
+        !stage_add(&d->stage, &d->body, error, error_size))
+        return false;
+    if (d->body.primitive_count > MOST_PARTS)
+        return host_fail(error, error_size, "car.glb has more than %d parts", MOST_PARTS);
     put_wipers(d, b);
-    car_build(CAR_TRIM, &(boxes){.count = 0}, &material);
+    material = (host_material){.name = "wiper", .base_color = {0.015f, 0.015f, 0.016f, 1}, .roughness = 0.55f};
     return add_boxes(d, b, &material, &d->wipers);
 }
 
@@ -773,8 +816,7 @@ static void close_device(drive *d)
     host_mesh_destroy(&d->device, &d->street);
     host_mesh_destroy(&d->device, &d->blocks);
     host_mesh_destroy(&d->device, &d->wipers);
-    for (int i = 0; i < CAR_PARTS; i++)
-        host_mesh_destroy(&d->device, &d->parts[i]);
+    host_mesh_destroy(&d->device, &d->body);
     if (d->environment.sky.image)
         host_environment_destroy(&d->device, &d->environment);
     track_free(&d->track);

@@ -108,6 +108,20 @@ static void tell_sky(const float sh[9][3], struct drive_frame_gpu *to)
             to->irradiance[i][c] = sh[i][c] * factors[i];
 }
 
+/* Rows that give a place in the shade's own axes: 1 at its ends, and metres above the ground. */
+static void tell_shade(const stage_camera *camera, const stage_shade *shade, struct drive_frame_gpu *to)
+{
+    const float scales[3] = {shade->half_m[0], 1, shade->half_m[1]};
+    for (int row = 0; row < 3; row++) {
+        double at = 0;
+        for (int i = 0; i < 3 && scales[row] > 0; i++) {
+            to->shade[row][i] = shade->axes[3 * row + i] / scales[row];
+            at += (double)to->shade[row][i] * (camera->position_m[i] - shade->position_m[i]);
+        }
+        to->shade[row][3] = scales[row] > 0 ? (float)at : 1e3f;
+    }
+}
+
 /* ---- a frame */
 
 static uint32_t slot(const stage *s)
@@ -166,6 +180,7 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
     tell_ground(camera, maps, to);
     tell_lights(camera, lighting, to);
     tell_sky(lighting->environment_sh, to);
+    tell_shade(camera, &s->shade, to);
     if (!s->has_last)
         clear_behind(s, cmd);
     begin_pass(cmd, s->world_pass, s->world_framebuffer, s);
@@ -185,6 +200,38 @@ static void place(const stage_camera *camera, const stage_draw *draw, struct dri
     }
 }
 
+static void tell_material(const host_material *material, float sky, struct drive_surface_gpu *surface)
+{
+    memcpy(surface->base_color, material->base_color, sizeof surface->base_color);
+    memcpy(surface->emissive, material->emissive, sizeof material->emissive);
+    surface->emissive[3] = material->roughness;
+    surface->traits[0] = material->metallic;
+    surface->traits[1] = material->alpha == HOST_ALPHA_MASK ? material->cutoff : -1;
+    surface->traits[2] = sky;
+    surface->traits[3] = 0;
+}
+
+/* The primitives that are glass, or those that are not. */
+static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_draw *draw, const VkDescriptorSet *sets,
+                            bool glass, struct drive_surface_gpu *surface)
+{
+    for (uint32_t i = 0; i < draw->mesh->primitive_count; i++) {
+        const host_primitive *primitive = &draw->mesh->primitives[i];
+        const host_material *material = &draw->mesh->materials[primitive->material];
+        const float sky = draw->skies ? draw->skies[i] : draw->sky, through = 1 - material->base_color[3];
+        if (sky < 0 || (material->alpha == HOST_ALPHA_GLASS) != glass)
+            continue;
+        tell_material(material, sky, surface);
+        if (glass)
+            vkCmdSetBlendConstants(cmd, (const float[4]){through, through, through, 0});
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 1, 1, &sets[primitive->material],
+                                0, NULL);
+        vkCmdPushConstants(cmd, s->world_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof *surface, surface);
+        vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+    }
+}
+
 void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const stage_draw *draw)
 {
     const host_mesh *mesh = draw->mesh;
@@ -192,26 +239,16 @@ void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, 
     const VkDeviceSize zero = 0;
     for (uint32_t i = 0; i < s->mesh_count; i++)
         sets = s->meshes[i].mesh == mesh ? s->meshes[i].sets : sets;
+    if (!sets)
+        return;
     struct drive_surface_gpu surface;
     place(camera, draw, &surface);
     vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &zero);
     vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    for (uint32_t i = 0; sets && i < mesh->primitive_count; i++) {
-        const host_primitive *primitive = &mesh->primitives[i];
-        const host_material *material = &mesh->materials[primitive->material];
-        memcpy(surface.base_color, material->base_color, sizeof surface.base_color);
-        memcpy(surface.emissive, material->emissive, sizeof material->emissive);
-        surface.emissive[3] = material->roughness;
-        surface.traits[0] = material->metallic;
-        surface.traits[1] = material->alpha == HOST_ALPHA_OPAQUE ? -1 : material->cutoff;
-        surface.traits[2] = draw->sky;
-        surface.traits[3] = 0;
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 1, 1, &sets[primitive->material],
-                                0, NULL);
-        vkCmdPushConstants(cmd, s->world_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                           sizeof surface, &surface);
-        vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
-    }
+    draw_primitives(s, cmd, draw, sets, false, &surface);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->glass_pipeline);
+    draw_primitives(s, cmd, draw, sets, true, &surface);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_pipeline);
 }
 
 /* The pass has left `color` ready to be copied from. */

@@ -29,13 +29,21 @@ typedef struct stage_camera {
     float view_from_world[16], clip_from_view[16]; /* made by stage_camera_set */
 } stage_camera;
 
-/* What is drawn: a mesh at a place, as 3 x 4 row-major; and how much of the sky it sees. */
+/* What is drawn: a mesh at a place, and how much of the sky it sees. Its glass comes after the rest of it. */
 typedef struct stage_draw {
     const host_mesh *mesh;
     double position_m[3];
-    float axes[9]; /* columns: the mesh's axes in the world */
-    float sky;     /* [0; 1]: 0.1 within a car */
+    float axes[9];      /* columns: the mesh's axes in the world */
+    float sky;          /* [0; 1]: 0.3 within a car */
+    const float *skies; /* (optional) in place of `sky`, one for each primitive; below 0: it is not drawn */
 } stage_draw;
+
+/* What stands on the ground and keeps light from it: a car. All 0: nothing. */
+typedef struct stage_shade {
+    double position_m[3]; /* on the ground, in the middle */
+    float axes[9];
+    float half_m[2]; /* along the first and the third axis */
+} stage_shade;
 
 typedef struct stage {
     host_device *device;
@@ -58,7 +66,7 @@ typedef struct stage {
 
     VkDescriptorSetLayout frame_layout, material_layout, show_layout;
     VkPipelineLayout world_layout, show_pipeline_layout;
-    VkPipeline world_pipeline, sky_pipeline, show_pipeline;
+    VkPipeline world_pipeline, glass_pipeline, sky_pipeline, show_pipeline;
     VkDescriptorPool pool;
     VkDescriptorSet frame_sets[HOST_FRAMES], show_set;
     VkSampler smooth, nearest, repeat;
@@ -69,6 +77,7 @@ typedef struct stage {
         VkDescriptorSet sets[64];
     } meshes[STAGE_MESHES];
     uint32_t mesh_count;
+    stage_shade shade;
     stage_camera last; /* camera of the frame before */
     bool has_last;
 } stage;

@@ -111,6 +111,7 @@ typedef struct pipeline_def {
     size_t vertex_size, fragment_size;
     bool mesh;  /* reads vertices, writes depth; else one triangle that covers all */
     bool depth; /* the pass has depth */
+    bool glass; /* what is behind shines through, times the blend constants */
     VkPipelineLayout layout;
     VkRenderPass pass;
 } pipeline_def;
@@ -134,9 +135,19 @@ static const VkPipelineRasterizationStateCreateInfo raster = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
 static const VkPipelineMultisampleStateCreateInfo samples = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO, .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-static const VkDynamicState states[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-static const VkPipelineDynamicStateCreateInfo dynamic = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO, .dynamicStateCount = 2, .pDynamicStates = states};
+static const VkDynamicState states[3] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                         VK_DYNAMIC_STATE_BLEND_CONSTANTS};
+
+/* Alpha holds a distance and is not blended. */
+static const VkPipelineColorBlendAttachmentState plain = {.colorWriteMask = 0xf};
+static const VkPipelineColorBlendAttachmentState through = {
+    .blendEnable = VK_TRUE,
+    .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+    .dstColorBlendFactor = VK_BLEND_FACTOR_CONSTANT_COLOR,
+    .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+    .dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO,
+    .colorWriteMask = 0xf,
+};
 
 static VkResult build(stage *s, const pipeline_def *def, const VkShaderModule modules[2], VkPipeline *pipeline)
 {
@@ -164,11 +175,13 @@ static VkResult build(stage *s, const pipeline_def *def, const VkShaderModule mo
                                                          .depthTestEnable = def->mesh,
                                                          .depthWriteEnable = def->mesh,
                                                          .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
-    const VkPipelineColorBlendAttachmentState plain = {.colorWriteMask = 0xf};
     const VkPipelineColorBlendStateCreateInfo blend = {.sType =
                                                            VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                        .attachmentCount = 1,
-                                                       .pAttachments = &plain};
+                                                       .pAttachments = def->glass ? &through : &plain};
+    const VkPipelineDynamicStateCreateInfo dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                      .dynamicStateCount = def->glass ? 3 : 2,
+                                                      .pDynamicStates = states};
     VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                          .stageCount = 2,
                                          .pStages = stages,
@@ -200,13 +213,31 @@ static bool create_pipeline(stage *s, const pipeline_def *def, VkPipeline *pipel
 
 static bool create_pipelines(stage *s, char *error, size_t error_size)
 {
-    const pipeline_def world = {world_vert_spv, world_frag_spv, sizeof world_vert_spv, sizeof world_frag_spv,
-                                true,           true,           s->world_layout,       s->world_pass};
-    const pipeline_def sky = {full_vert_spv, sky_frag_spv, sizeof full_vert_spv, sizeof sky_frag_spv,
-                              false,         true,         s->world_layout,      s->world_pass};
-    const pipeline_def shown = {full_vert_spv, show_frag_spv, sizeof full_vert_spv,    sizeof show_frag_spv,
-                                false,         false,         s->show_pipeline_layout, s->show_pass};
+    const pipeline_def world = {.vertex = world_vert_spv,
+                                .fragment = world_frag_spv,
+                                .vertex_size = sizeof world_vert_spv,
+                                .fragment_size = sizeof world_frag_spv,
+                                .mesh = true,
+                                .depth = true,
+                                .layout = s->world_layout,
+                                .pass = s->world_pass};
+    const pipeline_def sky = {.vertex = full_vert_spv,
+                              .fragment = sky_frag_spv,
+                              .vertex_size = sizeof full_vert_spv,
+                              .fragment_size = sizeof sky_frag_spv,
+                              .depth = true,
+                              .layout = s->world_layout,
+                              .pass = s->world_pass};
+    const pipeline_def shown = {.vertex = full_vert_spv,
+                                .fragment = show_frag_spv,
+                                .vertex_size = sizeof full_vert_spv,
+                                .fragment_size = sizeof show_frag_spv,
+                                .layout = s->show_pipeline_layout,
+                                .pass = s->show_pass};
+    pipeline_def glass = world;
+    glass.glass = true;
     return create_pipeline(s, &world, &s->world_pipeline, error, error_size) &&
+           create_pipeline(s, &glass, &s->glass_pipeline, error, error_size) &&
            create_pipeline(s, &sky, &s->sky_pipeline, error, error_size) &&
            create_pipeline(s, &shown, &s->show_pipeline, error, error_size);
 }
@@ -261,6 +292,7 @@ void stage_destroy(stage *s)
     const VkDescriptorSetLayout sets[] = {s->frame_layout, s->material_layout, s->show_layout};
     const VkRenderPass passes[] = {s->world_pass, s->over_pass, s->show_pass};
     const VkSampler samplers[] = {s->smooth, s->nearest, s->repeat};
+    vkDestroyPipeline(device, s->glass_pipeline, NULL);
     for (int i = 0; i < 3; i++) {
         vkDestroyPipeline(device, pipelines[i], NULL);
         vkDestroyDescriptorSetLayout(device, sets[i], NULL);

@@ -34,6 +34,7 @@ struct drive_frame_gpu {
     DRIVE_VEC4 ground_wrap; /* number of the corner's cell modulo cells; z: cells */
     DRIVE_VEC4 ripples;     /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
     DRIVE_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
+    DRIVE_VEC4 shade[3];      /* rows: a place relative to the camera as the car has it, 1 at its ends; y in metres */
     DRIVE_LIGHT lights[DRIVE_LIGHTS];
 };
 

@@ -77,6 +77,16 @@ vec3 mirrored(vec3 from, vec3 d, float roughness)
     return mix(away, seen.rgb, edge);
 }
 
+// How much of the sky a car leaves to the ground under it and beside it.
+float beside_car(vec3 place, float up)
+{
+    vec3 at = vec3(dot(frame.shade[0], vec4(place, 1.0)), dot(frame.shade[1], vec4(place, 1.0)),
+                   dot(frame.shade[2], vec4(place, 1.0)));
+    vec2 off = max(abs(at.xz) - vec2(0.55, 0.8), 0.0) * vec2(0.9, 2.1); // in metres or so
+    float under = 1.0 - smoothstep(0.0, 0.9, length(off));
+    return 1.0 - 0.88 * under * under * smoothstep(0.5, 0.8, up) * (1.0 - smoothstep(0.05, 0.16, abs(at.y)));
+}
+
 // Lamps: Lambert, and GGX with the visibility of Hammon 2017.
 vec3 lamps(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v)
 {
@@ -133,11 +143,14 @@ void main()
     albedo *= mix(1.0, mix(1.0, 0.2, clamp((roughness - 0.5) / 0.4, 0.0, 1.0)), damp);
     roughness = mix(roughness, max(0.3 * roughness, 0.12), max(film, 0.35 * damp));
 
+    sky *= beside_car(in_relative, n.y);
     float open = sky * mix(0.55, 1.0, 0.5 + 0.5 * n.y), n_v = clamp(abs(dot(n, v)), 1e-3, 1.0);
-    vec3 color = albedo * sky_on(n) * open + surface.emissive.rgb * texture(emissive_texture, in_uv).rgb;
-    color += lamps(albedo, f0, roughness, n, v) * min(4.0 * sky, 1.0);
+    // Light in a cabin comes from around more than from above.
+    vec3 lit_from = surface.traits.z < 0.6 ? normalize(vec3(n.x, 0.35 + 0.35 * n.y, n.z)) : n;
+    vec3 color = albedo * sky_on(lit_from) * open + surface.emissive.rgb * texture(emissive_texture, in_uv).rgb;
+    color += lamps(albedo, f0, roughness, n, v) * min(2.0 * sky, 1.0);
     vec3 r = reflect(-v, n);
-    bool mirror = max(film, metallic) > 0.02 && sky > 0.5; // worth to be looked up
+    bool mirror = max(film, metallic - 0.6) > 0.02 && sky > 0.5; // worth to be looked up
     vec3 around = mirror ? mirrored(in_relative, r, roughness) : far_light(r, roughness);
     color += share_mirrored(f0, roughness, n_v) * around * sky * (1.0 - puddle);
     if (puddle > 0.0) {
@@ -151,7 +164,7 @@ void main()
         float c = 1.0 - clamp(dot(up, v), 0.0, 1.0), fresnel = 0.0204 + 0.9796 * c * c * c * c * c;
         vec3 d = reflect(-v, up);
         d.y = abs(d.y);
-        vec3 surface_light = fresnel * mirrored(in_relative, d, rough);
+        vec3 surface_light = fresnel * sky * mirrored(in_relative, d, rough);
         surface_light += lamps(vec3(0.0), vec3(0.0204), max(rough, 0.1), up, v);
         color = mix(color, color * (1.0 - fresnel) + surface_light, puddle);
     }
