@@ -243,8 +243,9 @@ class _Glb:
     def _mesh(self, name, mesh, material):
         wide = len(mesh.positions) > 65535
         attributes = {"POSITION": self._accessor(mesh.positions, "VEC3", 5126, "f", 34962, True),
-                      "NORMAL": self._accessor(mesh.normals, "VEC3", 5126, "f", 34962),
-                      "TEXCOORD_0": self._accessor(mesh.uvs, "VEC2", 5126, "f", 34962)}
+                      "NORMAL": self._accessor(mesh.normals, "VEC3", 5126, "f", 34962)}
+        if mesh.uvs:
+            attributes["TEXCOORD_0"] = self._accessor(mesh.uvs, "VEC2", 5126, "f", 34962)
         indices = self._accessor(mesh.indices, "SCALAR", 5125 if wide else 5123, "I" if wide else "H", 34963)
         self.meshes.append({"name": name, "primitives": [
             {"attributes": attributes, "indices": indices, "material": material}]})

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Writes scenes/car.glb: the car of tools/drive, a red hatchback 4.1 m long with a cabin. Python 3 standard library only.
+"""Writes scenes/car.glb: the car of tools/drive, a red hatchback 4.1 m long with a cabin. Python 3 standard library
+only.
 
 Metres, Y up, its front at -Z, wheels on y = 0, as tools/drive/car.h has it. The windshield leaves room for the pane of
-car.h (PANE); both are changed together. The game tells parts by the beginnings of their materials' names: cabin_ is seen
-from within and gets little sky, glass_side is not drawn from within, wheel_ is one wheel about the origin, and what
-begins with rain_ is never drawn: it keeps rain off. The same source always gives the same bytes.
+car.h (PANE); both are changed together. The game tells parts by the beginnings of their materials' names: cabin_ is
+seen from within and gets little sky, glass_side is not drawn from within, wheel_ is one wheel about the origin, and
+what begins with rain_ is never drawn: it keeps rain off. The same source always gives the same bytes.
 
 The body is one loft of cross-sections along Z, like the parked car of street_parts.py, but finer, with curved ends and
 the glass on the pane's own surface. Half sections run from the sill up over belt and roof rail to the middle.
@@ -25,6 +26,7 @@ MATERIALS = [
     {"name": "plastic", "colour": (0.022, 0.022, 0.023), "rough": 0.62},
     {"name": "pit", "colour": (0.004, 0.004, 0.004), "rough": 1.0},
     {"name": "chrome", "colour": (0.55, 0.56, 0.57), "rough": 0.18, "metal": 1.0},
+    {"name": "mirror", "colour": (0.62, 0.66, 0.70), "rough": 0.25, "metal": 0.9},
     {"name": "plate", "colour": (0.70, 0.70, 0.66), "rough": 0.5, "emit": (0.1, 0.095, 0.085)},
     {"name": "letters", "colour": (0.02, 0.02, 0.025), "rough": 0.5},
     {"name": "lamp_red", "colour": (0.20, 0.004, 0.004), "rough": 0.08, "emit": (0.05, 0.001, 0.0006)},
@@ -183,7 +185,7 @@ def stations():
           1.72, 1.76, 1.80, 1.815, 1.86, REAR - 0.10, REAR - 0.05, REAR - 0.022, REAR - 0.006, REAR}
     for wheel in WHEELS:
         at |= {round(wheel + ARCH * math.sin(math.radians(a)), 4)
-               for a in (-89.9, -80, -65, -50, -33, -16, 0, 16, 33, 50, 65, 80, 89.9)}
+               for a in (-89.9, -75, -55, -32, 0, 32, 55, 75, 89.9)}
     return sorted(at)
 
 
@@ -225,7 +227,6 @@ def grid_patches(g, rows, material_of):
             number[material, i, j] = len(mesh.positions)
             mesh.positions.append(rows[i][j])
             mesh.normals.append(tuple(-c for c in unit(sums[i][j])))
-            mesh.uvs.append((0.98, 0.5))
         return number[material, i, j]
 
     for i in range(len(rows) - 1):
@@ -320,11 +321,12 @@ def make_rear(g):
         inner = min(abs(x0), abs(x1))
         s = 1 if x0 > 0 else -1
         for y in (0.742, 0.835):
-            line = on_end([(s * (inner + (outer - inner) * (0.10 + 0.82 * k / 8) - 0.03 * s * s * (y - 0.715) / 0.15), y)
-                           for k in range(9)], REAR, 0.018)
-            g.tube("lamp_red_lit", line, 0.011, 6)
+            lean = 0.03 * (y - 0.715) / 0.15
+            line = on_end([(s * (inner + (outer - inner) * (0.10 + 0.82 * k / 8) - lean), y) for k in range(9)], REAR,
+                          0.018)
+            g.tube("lamp_red_lit", line, 0.011, 4)
         line = on_end([(s * (outer - 0.035), 0.742 + 0.093 * k / 4) for k in range(5)], REAR, 0.018)
-        g.tube("lamp_red_lit", line, 0.011, 6)
+        g.tube("lamp_red_lit", line, 0.011, 4)
     end_patch(g, "trim", REAR, -0.44, 0.44, 0.775, 0.80, 0.010, 0.0, 10, 1)
     end_patch(g, "trim", REAR, -0.33, 0.33, 0.605, 0.752, 0.004, 0.0, 8, 2)
     end_patch(g, "plate", REAR, -0.26, 0.26, 0.622, 0.733, 0.012, 0.0, 8, 2)
@@ -386,7 +388,7 @@ def make_sides(g):
             outer.append(ring)
         g.surface("paint", outer if s < 0 else [r[::-1] for r in outer])
         glass = [(x, y, z + 0.002) for x, y, z in outer[-1][:-1]]
-        g.poly("chrome", glass if s < 0 else glass[::-1])
+        g.poly("mirror", glass if s < 0 else glass[::-1])
         g.tube("trim", [(s * 0.80, 0.885, -0.90), (s * 0.93, 0.925, -0.89)], 0.02, 6)
         for z in (0.08, 0.93):
             y = 0.79
@@ -394,9 +396,10 @@ def make_sides(g):
             g.tube("paint", [(s * (x - 0.004), y, z), (s * (x + 0.022), y + 0.004, z + 0.03),
                              (s * (x + 0.022), y + 0.006, z + 0.13), (s * (x - 0.004), y + 0.008, z + 0.16)], 0.011, 6)
         for z0, low in ((-0.98, 0.32), (0.25, 0.32), (1.10, 0.62)):
-            line = [(low + (smooth(BELT, z0) - 0.01 - low) * k / 8) for k in range(9)]
-            g.tube("pit", [(s * (side_x(z0, y) - 0.001), y, z0) for y in line], 0.005, 4)
-        g.tube("plastic", [(s * (side_x(z, 0.27) - 0.01), 0.27, z) for z in (-1.0, -0.6, -0.2, 0.2, 0.6, 0.94)], 0.035, 6)
+            line = [(low + (smooth(BELT, z0) - 0.01 - low) * k / 5) for k in range(6)]
+            g.tube("pit", [(s * (side_x(z0, y) - 0.001), y, z0) for y in line], 0.005, 3)
+        skirt = [(s * (side_x(z, 0.27) - 0.01), 0.27, z) for z in (-1.0, -0.6, -0.2, 0.2, 0.6, 0.94)]
+        g.tube("plastic", skirt, 0.035, 6)
 
 
 def make_wheel():
@@ -433,18 +436,9 @@ def make_wheel():
 # ---- the cabin
 
 
-def shaded(g, openness):
-    """What the ramp of the texture `open` darkens: each vertex by how much light comes to it."""
-    for name, mesh in g.meshes.items():
-        if any(m["name"] == name and m.get("image") == "open" for m in MATERIALS):
-            mesh.uvs = [(0.02 + 0.96 * min(1.0, max(0.0, openness(p, n))), 0.5)
-                        for p, n in zip(mesh.positions, mesh.normals)]
-    return g
-
-
-def in_cabin(p, _normal):
-    """The lower, the darker, and under the roof, too; the top of the dashboard lies open."""
-    x, y, z = p
+def in_cabin(p):
+    """How much light comes to a place: the lower, the less, and under the roof, too."""
+    _, y, z = p
     low = 0.10 + 0.90 * ease(0.50, 0.90, y)
     roof = 1.0 - 0.20 * ease(1.15, 1.40, y)
     return low * roof * (1.0 - 0.35 * ease(-0.3, 0.6, z))
@@ -470,6 +464,8 @@ def make_dash(g):
     g.surface("cabin_dash", rows[cut:])
     line = [dash_point(x, -0.703, 0.803) for x in xs if x > -0.12]
     g.tube("cabin_silver", line, 0.007, 6)
+    for x0, x1 in ((-0.62, -0.12), (0.10, 0.62)):
+        g.tube("cabin_dial", [dash_point(x0 + (x1 - x0) * k / 8, -1.04, 0.8735) for k in range(9)], 0.006, 4)
     make_hood(g)
     shield(g, -0.045, 0.145)
     for x in (-0.66, 0.66):
@@ -518,7 +514,7 @@ def dial(g, centre, radius, needle_deg, ticks):
         a = math.radians(deg)
         return panel_point(cx + r * math.cos(a), cy + r * math.sin(a))
 
-    g.tube("cabin_silver", [at(radius, 15 * k) for k in range(25)], 0.0035, 5)
+    g.tube("cabin_silver", [at(radius, 20 * k) for k in range(19)], 0.0035, 4)
     for k in range(ticks + 1):
         deg, wide = 225.0 - 270.0 * k / ticks, 2.0 if k % 2 else 3.2
         inner = radius * (0.78 if k % 2 else 0.70)
@@ -540,8 +536,10 @@ def shield(g, x0, x1):
     for k in range(5):
         t = (k + 0.5) / 5
         y = low + (high - low) * t
-        g.poly("cabin_lit_blue", [(x0 + 0.012, y - 0.0012, z + 0.002), (x1 - 0.012, y - 0.0012 + 0.02 * (t - 0.5), z + 0.002),
-                                  (x1 - 0.012, y + 0.0012 + 0.02 * (t - 0.5), z + 0.002), (x0 + 0.012, y + 0.0012, z + 0.002)])
+        far = y + 0.02 * (t - 0.5)
+        street = [(x0 + 0.012, y - 0.0012), (x1 - 0.012, far - 0.0012), (x1 - 0.012, far + 0.0012),
+                  (x0 + 0.012, y + 0.0012)]
+        g.poly("cabin_lit_blue", [(a, b, z + 0.002) for a, b in street])
     xm = x0 + 0.62 * (x1 - x0)
     g.poly("cabin_lit_amber", [(xm - 0.004, low + 0.008, z + 0.003), (xm + 0.004, low + 0.008, z + 0.003),
                                (xm - 0.016, high - 0.03, z + 0.003), (xm - 0.024, high - 0.03, z + 0.003)])
@@ -549,8 +547,9 @@ def shield(g, x0, x1):
 
 def vent(g, x):
     centre = dash_point(x, -0.704, 0.778)
-    rows = [[(centre[0] + r * math.cos(2 * math.pi * k / 18), centre[1] + 0.003 + r * math.sin(2 * math.pi * k / 18),
-              centre[2] + z) for k in range(19)] for r, z in ((0.05, -0.02), (0.05, 0.012), (0.043, 0.016), (0.040, 0.0))]
+    turns = [2 * math.pi * k / 18 for k in range(19)]
+    rows = [[(centre[0] + r * math.cos(a), centre[1] + 0.003 + r * math.sin(a), centre[2] + z) for a in turns]
+            for r, z in ((0.05, -0.02), (0.05, 0.012), (0.043, 0.016), (0.040, 0.0))]
     g.surface("cabin_silver", rows[1:])
     g.surface("cabin_grip", rows[:2])
     disc(g, "cabin_dial", (centre[0], centre[1] + 0.003, centre[2] + 0.001), 0.041, 16)
@@ -566,10 +565,10 @@ def make_wheel_of_driver(g):
         return (hub[0] + u, hub[1] + v * co + w * si, hub[2] - v * si + w * co)
 
     rings = []
-    for k in range(45):
-        a, row = 2 * math.pi * k / 44, []
-        for m in range(9):
-            b = 2 * math.pi * m / 8
+    for k in range(33):
+        a, row = 2 * math.pi * k / 32, []
+        for m in range(8):
+            b = 2 * math.pi * m / 7
             r = 0.182 + 0.0145 * math.cos(b)
             row.append(at(r * math.cos(a), r * math.sin(a), 0.016 * math.sin(b)))
         rings.append(row)
@@ -611,17 +610,19 @@ def make_frame(g):
         for k in range(9):
             z = -1.15 + 0.735 * k / 8
             x_in, x_out = smooth(RAIL_IN, z) - 0.004, smooth(RAIL_OUT, z) - 0.006
-            y = screen_y(x_in, z) - 0.018
-            pillar.append([(s * x_in, y, z), (s * (x_in - 0.012), y - 0.022, z + 0.012),
-                           (s * (x_in - 0.004), y - 0.052, z + 0.035), (s * (x_out - 0.012), y - 0.066, z + 0.050),
-                           (s * x_out, y - 0.050, z + 0.045), (s * x_out, y - 0.03, z + 0.02)])
+            y, deep = screen_y(x_in, z) - 0.018, 1 - 0.6 * ease(-0.62, -0.42, z)
+            pillar.append([(s * x, y + dy * deep, z + dz * deep)
+                           for x, dy, dz in ((x_in, 0, 0), (x_in - 0.012, -0.022, 0.012), (x_in - 0.004, -0.052, 0.035),
+                                             (x_out - 0.012, -0.066, 0.050), (x_out, -0.050, 0.045),
+                                             (x_out, -0.03, 0.02))])
         g.surface("cabin_lining", pillar if s > 0 else [r[::-1] for r in pillar])
         rail = []
-        for z in (-0.40, -0.2, 0.1, 0.5, 0.9, 1.3):
+        for z in (-0.54, -0.47, -0.40, -0.2, 0.1, 0.5, 0.9, 1.3):
             x_in, x_out = smooth(RAIL_IN, z), smooth(RAIL_OUT, z)
-            y = crown(max(z, -0.41))[0] - 0.152 * x_in * x_in
-            rail.append([(s * (x_in - 0.02), y - 0.045, z), (s * x_in, y - 0.068, z), (s * (x_out - 0.02), y - 0.078, z),
-                         (s * (x_out - 0.004), y - 0.06, z)])
+            y = screen_y(x_in, z) + 0.02 if z < -0.42 else crown(z)[0] - 0.152 * x_in * x_in
+            deep = 0.3 + 0.7 * ease(-0.54, -0.36, z)
+            rail.append([(s * (x_in - 0.02 * deep), y - 0.045, z), (s * x_in, y - 0.045 - 0.023 * deep, z),
+                         (s * (x_out - 0.02), y - 0.045 - 0.033 * deep, z), (s * (x_out - 0.004), y - 0.06, z)])
         g.surface("cabin_lining", rail if s > 0 else [r[::-1] for r in rail])
         post = []
         for k in range(6):
@@ -661,13 +662,13 @@ def make_mirror(g):
     def at(u, v, w):
         return (centre[0] + u * co - w * si, centre[1] + v, centre[2] + u * si * 0.6 + w * co)
 
-    def ring(scale, w, lift=0.0):
+    def ring(scale, w):
         out = []
         for k in range(25):
             a = 2 * math.pi * k / 24
             c, s = math.cos(a), math.sin(a)
-            out.append(at(0.108 * scale * math.copysign(abs(c) ** 0.5, c), 0.031 * scale * math.copysign(abs(s) ** 0.6, s)
-                          + lift, w))
+            out.append(at(0.108 * scale * math.copysign(abs(c) ** 0.5, c),
+                          0.031 * scale * math.copysign(abs(s) ** 0.6, s), w))
         return out
 
     g.surface("cabin_grip", [ring(0.55, -0.040), ring(0.92, -0.026), ring(1.0, 0.0), ring(0.97, 0.005),
@@ -712,7 +713,7 @@ def make_cabin():
     make_wheel_of_driver(g)
     make_frame(g)
     make_seats(g)
-    return shaded(g, in_cabin)
+    return g
 
 
 # ---- what keeps rain off
@@ -751,6 +752,13 @@ def ramp(size=256):
     return png(size, 1, [(encode(k / (size - 1)),) * 3 for k in range(size)], 256)
 
 
+def set_uvs(g):
+    """Into the ramp of the texture `open`, where a material has it; others have no need of any."""
+    for name, mesh in g.meshes.items():
+        textured = next("image" in m for m in MATERIALS if m["name"] == name)
+        mesh.uvs = [(0.02 + 0.96 * in_cabin(p), 0.5) for p in mesh.positions] if textured else []
+
+
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     scene = Scene(MATERIALS, {"open": ramp()}, "car", "make_car.py")
@@ -759,6 +767,7 @@ def main():
     make_front(body)
     make_sides(body)
     for group in (body, make_cabin(), make_wheel(), make_occluders()):
+        set_uvs(group)
         scene.place(group)
     path = os.path.join(here, "scenes", "car.glb")
     scene.write(path)

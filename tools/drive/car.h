@@ -73,21 +73,6 @@ car_part car_part_of(const char *material);
 /* Where wheel 0 to 3 is, how it is steered and how far it has rolled: its place and axes in the world. */
 void car_wheel(const car *c, int wheel, double position_m[3], float axes[9]);
 
-/* Boxes with flat sides, in memory. */
-#define BOXES_MAX 512
-typedef struct boxes {
-    host_vertex vertices[BOXES_MAX * 24];
-    uint32_t indices[BOXES_MAX * 36];
-    uint32_t count;
-} boxes;
-
-/* Corners 0 to 3 around the bottom, 4 to 7 above them. */
-void boxes_put(boxes *b, const float corners[8][3]);
-void boxes_put_cuboid(boxes *b, const float low[3], const float high[3]);
-
-/* A bar from a place to another, so wide and so high along `up`. */
-void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float up[3], float width, float height);
-
 /* The windshield: the middle of its lower edge and its size, as assets/make_car.py has them; the driver's eye. */
 extern const double car_windshield_m[3], car_eye_m[3];
 #define CAR_GLASS_WIDTH_M  1.45f

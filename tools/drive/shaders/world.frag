@@ -150,7 +150,7 @@ void main()
     vec3 color = albedo * sky_on(lit_from) * open + surface.emissive.rgb * texture(emissive_texture, in_uv).rgb;
     color += lamps(albedo, f0, roughness, n, v) * min(2.0 * sky, 1.0);
     vec3 r = reflect(-v, n);
-    bool mirror = max(film, metallic - 0.6) > 0.02 && sky > 0.5; // worth to be looked up
+    bool mirror = film > 0.02 && sky > 0.5; // worth to be looked up
     vec3 around = mirror ? mirrored(in_relative, r, roughness) : far_light(r, roughness);
     color += share_mirrored(f0, roughness, n_v) * around * sky * (1.0 - puddle);
     if (puddle > 0.0) {

@@ -1,0 +1,22 @@
+/* boxes.h - boxes with flat sides: what is simple, or moves within itself. */
+#ifndef DRIVE_BOXES_H
+#define DRIVE_BOXES_H
+
+#include "mesh.h"
+
+/* Boxes with flat sides, in memory. */
+#define BOXES_MAX 64
+typedef struct boxes {
+    host_vertex vertices[BOXES_MAX * 24];
+    uint32_t indices[BOXES_MAX * 36];
+    uint32_t count;
+} boxes;
+
+/* Corners 0 to 3 around the bottom, 4 to 7 above them. */
+void boxes_put(boxes *b, const float corners[8][3]);
+void boxes_put_cuboid(boxes *b, const float low[3], const float high[3]);
+
+/* A bar from a place to another, so wide and so high along `up`. */
+void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float up[3], float width, float height);
+
+#endif

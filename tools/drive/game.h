@@ -1,0 +1,95 @@
+/* game.h - what the game has, and what its files do for each other. All calls of Virga are in drive.c. */
+#ifndef DRIVE_GAME_H
+#define DRIVE_GAME_H
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+
+#include <virga/virga.h>
+
+#include "boxes.h"
+#include "car.h"
+#include "stage.h"
+
+#define PANE_POINTS    33  /* along each side of the windshield's grid */
+#define PANE_TEXELS    256 /* and of its mask */
+#define MOST_OCCLUDERS 4096
+#define MOST_PARTS     64 /* primitives of the car */
+#define WIPERS         2
+
+enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
+extern const char *const wiper_names[WIPER_SPEEDS];
+
+/* What the command line asks for; options.c. */
+typedef struct choices {
+    const char *model, *track, *out, *device, *pipelines;
+    uint32_t frames, fps, width, height;
+    double start_m;
+} choices;
+
+/* All that the program has. */
+typedef struct drive {
+    choices chosen;
+    char error[1024];
+
+    /* The host's own: Vulkan, a renderer, a street, a car. */
+    VkInstance instance;
+    host_instance listed; /* `instance`, as the list of devices takes it */
+    host_device device;
+    GLFWwindow *window;
+    VkSurfaceKHR surface;
+    stage stage;
+    host_environment environment;
+    host_mesh street, blocks, body, wipers;
+    boxes boxes; /* of the wipers, where they are now */
+    track track;
+    car car;
+    car_keys keys;
+    bool outside;
+    double eye_m[3]; /* of the camera outside, which lags behind */
+    stage_camera camera, last_camera;
+    bool has_last_camera;
+
+    /* Virga's. */
+    virga_context *context;
+    virga_scene *rain;
+    virga_target *target;
+    virga_lighting lighting;
+    virga_glass_settings glass;
+    float pane[PANE_POINTS * PANE_POINTS * 3];
+    uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
+    virga_occluder occluders[MOST_OCCLUDERS];
+    float rate_mm_h;
+    int wiper_speed;
+    double wiper_s; /* into the wipers' cycle */
+} drive;
+
+/* drive.c: a frame, dt_s after the one before; `keep`: its picture can be had afterwards. Another rate of the rain. */
+bool run_frame(drive *d, double dt_s, bool keep);
+bool set_rate(drive *d, float rate_mm_h);
+
+/* options.c: false after a line on stderr. */
+bool take_command_line(drive *d, int argc, char **argv);
+void print_help(void);
+
+/* window.c: an instance, and a window where one is wanted; two frames in flight; and the end of them. */
+bool open_window(drive *d);
+bool create_frames(drive *d, const host_device_info *chosen);
+void close_window(drive *d);
+
+/* world.c: street, car and light of the sky; draws them into the stage's color and depth. */
+bool load_world(drive *d);
+void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps);
+void unload_world(drive *d);
+
+/* windshield.c: where the pane has glass; arms and blades as they stand, and on by dt_s. */
+void mask_pane(drive *d);
+void put_wipers(drive *d);
+void move_wipers(drive *d, double dt_s);
+
+/* game.c: keys and title of a window until it is closed; or frames at even times, the last as a file. */
+bool run_window(drive *d);
+bool run_file(drive *d);
+void move_camera(drive *d, double dt_s);
+
+#endif
