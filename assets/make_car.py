@@ -13,7 +13,7 @@ the glass on the pane's own surface. Half sections run from the sill up over bel
 import math
 import os
 
-from gltf_writer import Group, Scene, cross, sub, unit
+from gltf_writer import Group, Scene, unit
 from street_textures import png
 
 # CAR_GLASS_* and car_windshield_m of tools/drive: lower middle (y, z), size, rake and radius of the bend; and half the
@@ -56,7 +56,7 @@ MATERIALS = [
 TILES = {m["name"]: 1.0 for m in MATERIALS}
 
 FRONT, REAR = -2.08, 2.02
-WHEELS, HUB, ARCH, TYRE = (-1.38, 1.32), 0.315, 0.345, 0.315
+WHEELS, HUB, ARCH, TYRE = (-1.33, 1.27), 0.315, 0.345, 0.315
 
 WIDE = [(-2.08, 0.72), (-1.95, 0.765), (-1.7, 0.82), (-1.38, 0.855), (-0.8, 0.862), (0.0, 0.868), (0.9, 0.878),
         (1.35, 0.878), (1.7, 0.85), (1.9, 0.815), (2.02, 0.79)]
@@ -298,7 +298,7 @@ def end_patch(g, material, z, left, right, low, high, lift, lean=0.0, steps=8, u
     g.surface(material, rows)
 
 
-# Strokes of the plate's letters in a unit square: V R, 2 0 6 4.
+# Strokes of the plate's letters in a unit square: V A 2 0 6 4.
 LETTERS = [[(0.0, 0.2, 0.4, 1.0), (0.8, 1.0, 0.4, 1.0), (0.15, 0.85, 0.0, 0.4)],
            [(0.0, 0.22, 0.0, 1.0), (0.22, 1.0, 0.82, 1.0), (0.78, 1.0, 0.5, 0.82), (0.22, 1.0, 0.38, 0.54),
             (0.7, 0.95, 0.0, 0.38)],
@@ -358,7 +358,7 @@ def spoiler(g):
              for z, out, lift in ((1.22, 0.0, 0.004), (1.34, 0.0, 0.012), (1.34, 0.12, -0.015))]
     lower = [[(x, y - 0.022, z) for x, y, z in upper[2]], [(x, y - 0.03, z - 0.10) for x, y, z in upper[2]]]
     g.surface("paint", list(reversed(upper)))
-    g.surface("trim", [lower[1], lower[0], upper[2]][:2])
+    g.surface("trim", [lower[1], lower[0]])
     g.surface("paint", [lower[0], upper[2]])
     edge = [(x, y - 0.011, z + 0.003) for x, y, z in upper[2] if abs(x) < 0.2]
     g.tube("lamp_red_lit", edge, 0.007, 5)
@@ -395,10 +395,10 @@ def make_sides(g):
             x = side_x(z, y)
             g.tube("paint", [(s * (x - 0.004), y, z), (s * (x + 0.022), y + 0.004, z + 0.03),
                              (s * (x + 0.022), y + 0.006, z + 0.13), (s * (x - 0.004), y + 0.008, z + 0.16)], 0.011, 6)
-        for z0, low in ((-0.98, 0.32), (0.25, 0.32), (1.10, 0.62)):
+        for z0, low in ((-0.96, 0.32), (0.25, 0.32), (1.10, 0.62)):
             line = [(low + (smooth(BELT, z0) - 0.01 - low) * k / 5) for k in range(6)]
             g.tube("pit", [(s * (side_x(z0, y) - 0.001), y, z0) for y in line], 0.005, 3)
-        skirt = [(s * (side_x(z, 0.27) - 0.01), 0.27, z) for z in (-1.0, -0.6, -0.2, 0.2, 0.6, 0.94)]
+        skirt = [(s * (side_x(z, 0.27) - 0.01), 0.27, z) for z in (-0.96, -0.6, -0.2, 0.2, 0.6, 0.90)]
         g.tube("plastic", skirt, 0.035, 6)
 
 
@@ -656,7 +656,7 @@ def make_door(g, s):
 
 def make_mirror(g):
     """The mirror inside, on its stalk, turned to the driver."""
-    centre, turn = (0.0, 1.312, -0.53), 0.30
+    centre, turn = (-0.045, 1.298, -0.465), 0.30
     co, si = math.cos(turn), math.sin(turn)
 
     def at(u, v, w):
@@ -667,15 +667,15 @@ def make_mirror(g):
         for k in range(25):
             a = 2 * math.pi * k / 24
             c, s = math.cos(a), math.sin(a)
-            out.append(at(0.108 * scale * math.copysign(abs(c) ** 0.5, c),
-                          0.031 * scale * math.copysign(abs(s) ** 0.6, s), w))
+            out.append(at(0.096 * scale * math.copysign(abs(c) ** 0.5, c),
+                          0.028 * scale * math.copysign(abs(s) ** 0.6, s), w))
         return out
 
-    g.surface("cabin_grip", [ring(0.55, -0.040), ring(0.92, -0.026), ring(1.0, 0.0), ring(0.97, 0.005),
+    g.surface("cabin_grip", [ring(0.55, -0.030), ring(0.92, -0.020), ring(1.0, 0.0), ring(0.97, 0.005),
                              ring(0.93, 0.005)])
     g.poly("cabin_mirror", ring(0.93, 0.0045)[:-1])
-    g.tube("cabin_grip", [(0.0, 1.315, -0.555), (0.0, 1.35, -0.545), (0.0, 1.380, -0.50)], 0.010, 6)
-    g.tube("cabin_grip", [(0.0, 1.378, -0.50), (0.0, 1.395, -0.46)], 0.024, 8)
+    g.tube("cabin_grip", [(-0.045, 1.302, -0.485), (-0.03, 1.335, -0.47), (-0.01, 1.368, -0.43)], 0.009, 6)
+    g.tube("cabin_grip", [(-0.01, 1.362, -0.435), (-0.01, 1.385, -0.42)], 0.022, 8)
 
 
 def cushion(g, material, profile, half, middle):

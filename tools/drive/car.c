@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WHEELBASE_M    2.7
-#define FRONT_AXLE_M   (-1.38)
-#define REAR_AXLE_M    1.32
+#define WHEELBASE_M    2.6
+#define FRONT_AXLE_M   (-1.33)
+#define REAR_AXLE_M    1.27
 #define WHEEL_X_M      0.735
 #define WHEEL_RADIUS_M 0.315
 #define STEER_MOST     0.75 /* rad */
