@@ -61,7 +61,8 @@ virga_rain_settings virga_default_rain_settings(void)
                                  .near_m = 0.15f,
                                  .oscillation = 1,
                                  .haze = 1,
-                                 .bodies_min_mm = 0.4f};
+                                 .bodies_min_mm = 0.4f,
+                                 .occlusion_turns = 1};
 }
 
 /* ---- the sizes that follow from a definition */
@@ -402,6 +403,7 @@ static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
         *ranges[i].value =
             virga_clamp_setting_float(log, ranges[i].name, *ranges[i].value, ranges[i].lo, ranges[i].hi, &changed);
     s->default_material = virga_clamp_setting_u32(log, "rain.default_material", s->default_material, 0, 255, &changed);
+    s->occlusion_turns = virga_clamp_setting_u32(log, "rain.occlusion_turns", s->occlusion_turns, 1, 16, &changed);
     return changed;
 }
 

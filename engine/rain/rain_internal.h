@@ -137,6 +137,8 @@ struct virga_rain {
 
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
     uint32_t map_count; /* drawn and in use */
+    bool maps_drawn;    /* the rain's own images hold what `maps` says */
+    uint32_t map_turn;  /* counts calls: whose turn it is to be drawn */
     bool host_maps;
     virga_image host_map_image;
 

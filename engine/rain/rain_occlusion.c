@@ -14,6 +14,8 @@
 #define MAP_MARGIN     1.3   /* of the range that drops have, so that leaning lines stay inside */
 #define MAP_TOP_M      256.0 /* above the camera: what is higher shelters nothing */
 #define MAP_HEIGHT_M   512.0
+#define MAP_LEFT       0.2 /* of half a map: less than its margin, 0.3 / 1.3 */
+#define MAP_CLIMB_M    32.0
 #define SLANT_TIME_S   0.5 /* a drop has come along its line for about this long when it passes cover */
 #define MOST_SLANT     8.0 /* horizontal metres a metre of fall: nearly flat, in a storm */
 
@@ -58,25 +60,52 @@ void rain_occlusion_tick(virga_rain *rain)
     }
 }
 
-/* Places the maps around a camera, on multiples of their texels so that they stay still while it moves a little. */
-static void plan_maps(virga_rain *rain, const double camera_m[3])
+/* Places a map around a camera, on multiples of its texels so that it stays still while the camera moves a little. */
+static void plan_map(virga_rain *rain, uint32_t index, const double camera_m[3], double top_m)
 {
-    if (!rain->ticks)
-        rain_occlusion_tick(rain);
-    for (uint32_t cascade = 0; cascade < rain->def.occlusion_cascades; cascade++)
-        for (uint32_t slant = 0; slant < rain->def.occlusion_slants; slant++) {
-            rain_map *map = &rain->maps[cascade * rain->def.occlusion_slants + slant];
-            const uint32_t inwards = rain->def.occlusion_cascades - 1 - cascade;
-            map->half_m = 0.5 * rain->classes->side_m * MAP_MARGIN / pow(CASCADE_FACTOR, inwards);
-            const double texel = 2 * map->half_m / rain->def.occlusion_size;
-            for (int axis = 0; axis < 2; axis++) {
-                map->slant[axis] = rain->slant_smooth[slant][axis];
-                const double centre = camera_m[axis * 2] + map->slant[axis] * camera_m[1];
-                map->centre[axis] = floor(centre / texel) * texel;
-            }
-            map->top_m = floor(camera_m[1]) + MAP_TOP_M;
-            map->height_m = MAP_HEIGHT_M;
-        }
+    rain_map *map = &rain->maps[index];
+    const uint32_t inwards = rain->def.occlusion_cascades - 1 - index / rain->def.occlusion_slants;
+    map->half_m = 0.5 * rain->classes->side_m * MAP_MARGIN / pow(CASCADE_FACTOR, inwards);
+    const double texel = 2 * map->half_m / rain->def.occlusion_size;
+    for (int axis = 0; axis < 2; axis++) {
+        map->slant[axis] = rain->slant_smooth[index % rain->def.occlusion_slants][axis];
+        const double centre = camera_m[axis * 2] + map->slant[axis] * camera_m[1];
+        map->centre[axis] = floor(centre / texel) * texel;
+    }
+    map->top_m = top_m;
+    map->height_m = MAP_HEIGHT_M;
+}
+
+static double top_of(const double camera_m[3])
+{
+    return floor(camera_m[1]) + MAP_TOP_M;
+}
+
+static uint32_t planned_count(const virga_rain *rain)
+{
+    return rain->def.occlusion_cascades * rain->def.occlusion_slants;
+}
+
+/* ---- by turns: a map that is not drawn keeps the place and the slant that it was drawn with */
+
+/* Whether a camera has come so far from a map's middle that the map may not reach what is seen on its other side. */
+static bool is_left(const rain_map *map, const double camera_m[3])
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const double off = camera_m[axis * 2] + map->slant[axis] * camera_m[1] - map->centre[axis];
+        if (fabs(off) > MAP_LEFT * map->half_m)
+            return true;
+    }
+    return fabs(camera_m[1] + MAP_TOP_M - map->top_m) > MAP_CLIMB_M;
+}
+
+/* All maps have one top, so where one has to be drawn for it, all have. */
+static bool all_are_due(const virga_rain *rain, const double camera_m[3])
+{
+    bool due = rain->settings.occlusion_turns <= 1 || !rain->maps_drawn;
+    for (uint32_t i = 0; i < planned_count(rain) && !due; i++)
+        due = is_left(&rain->maps[i], camera_m);
+    return due;
 }
 
 /* A map's numbers seen from an origin near the camera, in double until they are small. */
@@ -158,12 +187,20 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
     if (result)
         return result;
     rain_begin_frame(rain, cmd);
-    plan_maps(rain, camera_m);
-    rain->map_count = rain->def.occlusion_cascades * rain->def.occlusion_slants;
+    if (!rain->ticks)
+        rain_occlusion_tick(rain);
+    const bool all = all_are_due(rain, camera_m);
+    const double top_m = all ? top_of(camera_m) : rain->maps[0].top_m;
+    rain->map_count = planned_count(rain);
     rain->host_maps = false;
+    rain->maps_drawn = true;
+    rain->map_turn++;
     const virga_pass_scope scope = virga_pass_begin(rain->context, cmd, "rain.occlusion");
     for (uint32_t i = 0; i < rain->map_count; i++)
-        draw_map(rain, cmd, i, camera_m, occluders, count);
+        if (all || (i + rain->map_turn) % rain->settings.occlusion_turns == 0) {
+            plan_map(rain, i, camera_m, top_m);
+            draw_map(rain, cmd, i, camera_m, occluders, count);
+        }
     virga_pass_end(rain->context, cmd, scope);
     return VIRGA_OK;
 }
@@ -174,9 +211,12 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
 {
     if (!camera_m || !views || check_call(rain, camera_m))
         return 0;
-    plan_maps(rain, camera_m);
-    const uint32_t count = rain->def.occlusion_cascades * rain->def.occlusion_slants;
+    if (!rain->ticks)
+        rain_occlusion_tick(rain);
+    const uint32_t count = planned_count(rain);
+    rain->maps_drawn = false;
     for (uint32_t i = 0; i < count; i++) {
+        plan_map(rain, i, camera_m, top_of(camera_m));
         const rain_map *map = &rain->maps[i];
         double centre[2];
         centre_from(map, camera_m, centre);
@@ -210,7 +250,7 @@ virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, 
     const virga_result result = check_recording(rain, NULL);
     if (result)
         return result;
-    const uint32_t count = rain->def.occlusion_cascades * rain->def.occlusion_slants;
+    const uint32_t count = planned_count(rain);
     if (!cmd || !depth || !depth->view || depth->extent.width != depth->extent.height || depth->layers < count)
         return virga_wrong_argument(&rain->context->log,
                                     "virga_rain_occlusion_import: expected a square image with %u layers", count);

@@ -134,6 +134,7 @@ static void set_rain(bytes *b, virga_scene *scene)
     s.haze = take_float(b, 0, 4);
     s.oscillation = take_float(b, 0, 4);
     s.bodies_min_mm = take_float(b, 0.2, 2);
+    s.occlusion_turns = take_uint(b) % 20;
     s.sizes.kind = (virga_sizes_kind)(take_uint(b) % 4);
     s.sizes.table_diameter_m = diameters;
     s.sizes.table_number = numbers;

@@ -2,6 +2,7 @@
 #include "rain_fixture.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A floor, a roof at 3 m over x, z in [-2; 2], and a table at 1 m under it and beyond it, x in [0; 4]. */
 static void open_roof(rain_fixture *f, float wind_x)
@@ -152,6 +153,64 @@ static void maps_are_told_once_they_are_drawn(void **state)
     rain_fixture_close(&f);
 }
 
+/* What landed on the floor, the roof and the table in a step. */
+static void count_landed(rain_fixture *f, uint32_t on[4])
+{
+    const virga_impact_gpu *list;
+    memset(on, 0, 4 * sizeof on[0]);
+    rain_fixture_step(f, 1.0 / 12);
+    const virga_impacts_gpu *head = rain_fixture_impacts(f, &list);
+    for (uint32_t i = 0; i < head->count; i++)
+        on[list[i].material & 3]++;
+}
+
+/* Eight maps by turns in eight calls: a roof that is taken away keeps rain off in fewer of them from call to call, and
+ * is gone after the eighth. */
+static void maps_by_turns_are_all_drawn_once_a_round(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    uint32_t on[4], first, still;
+    open_roof(&f, 0);
+    f.settings.occlusion_turns = 8;
+    assert_int_equal(virga_rain_set(f.rain, &f.settings), VIRGA_OK);
+    count_landed(&f, on); /* the first call draws all */
+    assert_true(on[1] > 10 && on[2] > 10);
+    f.occluder_count = 1;
+    count_landed(&f, on);
+    first = on[2];
+    assert_true(first > 5);
+    for (int call = 2; call <= 7; call++)
+        count_landed(&f, on);
+    still = on[2];
+    assert_true(still < first);
+    count_landed(&f, on);
+    assert_int_equal(on[2] + on[3], 0);
+    rain_fixture_close(&f);
+}
+
+static void a_camera_that_jumps_has_all_maps_at_once(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    uint32_t on[4];
+    open_roof(&f, 0);
+    f.settings.occlusion_turns = 16;
+    assert_int_equal(virga_rain_set(f.rain, &f.settings), VIRGA_OK);
+    f.camera[0] = 50;
+    count_landed(&f, on);
+    assert_true(on[1] > 100 && on[2] == 0);
+    f.camera[0] = 0;
+    count_landed(&f, on);
+    assert_true(on[1] > 10 && on[2] > 10);
+    f.camera[1] = 60; /* the roof is out of reach of what falls around it, the floor too */
+    count_landed(&f, on);
+    f.camera[1] = 1.7;
+    count_landed(&f, on);
+    assert_true(on[1] > 10 && on[2] > 10);
+    rain_fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -159,6 +218,8 @@ int main(void)
         cmocka_unit_test(slanted_rain_does_not_come_through_the_roof),
         cmocka_unit_test(no_drop_is_shown_under_the_roof),
         cmocka_unit_test(maps_are_told_once_they_are_drawn),
+        cmocka_unit_test(maps_by_turns_are_all_drawn_once_a_round),
+        cmocka_unit_test(a_camera_that_jumps_has_all_maps_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,6 +128,7 @@ static const cyaml_schema_field_t rain_fields[] = {
     WHOLE(scene_rain, occlusion_size),
     WHOLE(scene_rain, occlusion_cascades),
     WHOLE(scene_rain, occlusion_slants),
+    WHOLE(scene_rain, occlusion_turns),
     LIST("keys", scene_rain, keys, key_count, &rain_key, 0, 100000),
     CYAML_FIELD_END,
 };
@@ -422,6 +423,7 @@ static const scene_rule rules[] = {
      "texels along a side of the maps of where no rain falls; 0: it falls through roofs"},
     {"rain.occlusion_cascades", 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"},
     {"rain.occlusion_slants", 1, 4, "2", RESTARTS, "maps for drops of different slant"},
+    {"rain.occlusion_turns", 1, 16, "1", LIVE, "frames in which the maps are drawn by turns; more is quicker, and late"},
     {"rain.keys", 0, 0, "[]", RESTARTS, "rate and wind by time, in place of the two settings"},
     {"rain.keys[].time_s", -ANY_M, ANY_M, NULL, RESTARTS, "when they are so"},
     {"rain.keys[].rate_mm_h", 0, 200, "@rain.rate_mm_h", LIVE, "rain that lands on level ground then"},

@@ -70,6 +70,7 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     s->settings.oscillation = (float)from->oscillation;
     s->settings.haze = (float)from->haze;
     s->settings.bodies_min_mm = (float)from->bodies_min_mm;
+    s->settings.occlusion_turns = from->occlusion_turns;
     memcpy(s->settings.lighting.environment_sh, s->environment.sh, sizeof s->settings.lighting.environment_sh);
     if (!fill_sizes(s, diameters, numbers, error, error_size))
         return false;

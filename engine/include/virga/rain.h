@@ -91,6 +91,10 @@ typedef struct virga_rain_settings {
     float bodies_min_mm;   /* [0.2; 2] smaller drops are never drawn one by one, only as haze. They land all the same.
                             * Default 0.4 */
     uint32_t default_material; /* of surfaces that come without (host depth). [0; 255] default 0 */
+    uint32_t occlusion_turns; /* [1; 16] the occlusion maps are drawn by turns: each call draws an equal part of them,
+                            * and as many calls all of them. Costs as much less; what moves, and wind, changes where
+                            * rain falls as many calls late. All at once where a map would no longer reach around the
+                            * camera. Default 1: all in each call */
 } virga_rain_settings;
 
 VIRGA_API virga_rain_settings virga_default_rain_settings(void);
@@ -122,7 +126,7 @@ VIRGA_API VkDeviceSize virga_rain_estimate(const virga_rain_def *def);
 
 /* Draws the meshes into the occlusion maps around the camera position. Outside rendering. Every frame for moving
  * things, or when the camera has moved; without a call the last maps stay in use, where they reach.
- * Costs a depth-only draw of each mesh per map. VIRGA_NOT_READY if the rain was made without occlusion. */
+ * Costs a depth-only draw of each mesh per map; settings.occlusion_turns shares that among calls. VIRGA_NOT_READY if the rain was made without occlusion. */
 VIRGA_API virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
                                             const virga_occluder *occluders, uint32_t count);
 
