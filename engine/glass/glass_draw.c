@@ -161,7 +161,6 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->compress_step = s->compress_step;
     look->compress_k = s->compress_k;
     look->threshold = s->threshold;
-    look->style = (uint32_t)s->style;
     look->paper_shift = s->paper_shift;
     look->thickness_m = s->thickness_mm * 1e-3f;
     memcpy(look->tint, s->tint, sizeof look->tint);
@@ -193,7 +192,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
 
 /* ---- prepare */
 
-/* Images get the layout that they keep; the map's tiles have all to be written once. */
+/* Images get the layout that they keep. */
 static void record_first(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->context;
@@ -207,13 +206,21 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
                                       VK_ACCESS_TRANSFER_WRITE_BIT};
     virga_image_barrier(context, cmd, picture->relief->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    virga_image_barrier(context, cmd, picture->words->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->mist_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, copied);
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
-    context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
-                              VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
     picture->cleared = true;
+}
+
+/* Tiles have all to be written once, and once more after another style, whose images are others. */
+static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
+{
+    struct glass_picture *picture = glass->picture;
+    glass->context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
+                                     VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
+    picture->written_style = glass->settings.style;
 }
 
 /* Texels of the mist's map in use, whole blocks. */
@@ -243,6 +250,8 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
+    if (!picture->cleared || picture->written_style != glass->settings.style)
+        record_unwritten(glass, cmd);
     if (!picture->cleared)
         record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
@@ -344,8 +353,11 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     virga_indirect_barrier(context, cmd); /* both say how much the next has to do */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
-    virga_indirect_barrier(context, cmd);
-    over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0], offsetof(virga_glass_work_gpu, relief_groups));
+    if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER) {
+        virga_indirect_barrier(context, cmd);
+        over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0],
+                  offsetof(virga_glass_work_gpu, relief_groups));
+    }
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
@@ -523,7 +535,8 @@ static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphi
         const uint32_t which = i - (mist ? GLASS_DRAW_MIST : GLASS_DRAW_PAPER);
         def->constant |= which & GLASS_DRAW_OF_PLATE ? VIRGA_GLASS_DRAW_PLATE : VIRGA_GLASS_DRAW_ALONE;
         def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;
-    }
+    } else if (i >= GLASS_DRAW_REFRACTION && (i - GLASS_DRAW_REFRACTION) & GLASS_DRAW_OF_PAPER)
+        def->constant |= VIRGA_GLASS_DRAW_PAPER;
     def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_picture_physical_frag, outputs)
                     : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_picture_paper_frag, outputs)
                     : mist                      ? VIRGA_SPIRV(glass_picture_mist_frag)
@@ -601,10 +614,10 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
         return VIRGA_NOT_READY;
     const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
     const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
-    const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth
-                           : picture->prepared_style == VIRGA_GLASS_STYLE_PAPER
-                               ? GLASS_DRAW_PAPER + depth + plate
-                               : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
+    const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
+    const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth + (paper ? GLASS_DRAW_OF_PAPER : 0)
+                           : paper    ? GLASS_DRAW_PAPER + depth + plate
+                                      : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
     const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
     const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
     const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + plate + depth]};

@@ -84,7 +84,7 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
     memcpy(rows, wanted, sizeof wanted);
 }
 
-#define MAP_TEXEL  16 /* bytes */
+#define MAP_TEXELS 36 /* bytes of a texel of the map, of the relief and of the words together */
 #define COPY_TEXEL 8
 
 VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
@@ -93,7 +93,7 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
     virga_buffer_row rows[BUFFERS];
     fill_sizes(def, &sizes);
     list_buffers(def, VIRGA_MAX_FRAMES_IN_FLIGHT, &sizes, rows);
-    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXEL * 2 +
+    VkDeviceSize sum = (VkDeviceSize)sizes.max_columns * sizes.max_rows * MAP_TEXELS +
                        (VkDeviceSize)VIRGA_GLASS_COPY_WIDTH * VIRGA_GLASS_COPY * COPY_TEXEL +
                        (VkDeviceSize)sizes.max_mist.width * sizes.max_mist.height;
     for (int i = 0; i < BUFFERS; i++)
@@ -134,6 +134,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                               /* 23 map, read */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 24 scene motion */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 25 blocks with film */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 26 words, written */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 27 words, read */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -189,6 +191,8 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         own_image(picture->map, context->nearest),
         image_or_blank(&view->temporal.motion, picture->blank_color, context->nearest),
         whole(glass->film_blocks),
+        own_image(picture->words, VK_NULL_HANDLE),
+        own_image(picture->words, context->nearest),
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }
@@ -236,14 +240,14 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
 
 uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings)
 {
-    const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER && !glass->picture->whole_map;
+    const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER;
     const bool few = !settings->compress || settings->compress_steps <= VIRGA_GLASS_FEW_STEPS;
     return (uint32_t)settings->density | (uint32_t)settings->blend << 3 | (paper ? GLASS_GATHER_PAPER : 0) |
-           (few ? GLASS_GATHER_FEW : 0);
+           (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (few ? GLASS_GATHER_FEW : 0);
 }
 
 /* Those for these settings that are not there yet: without film, with sheets of it, and with beads too. All of them
- * would be a hundred and twenty, of which a pane uses three. */
+ * would be a hundred and eighty, of which a pane uses three. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
@@ -311,6 +315,8 @@ static virga_result create_images(virga_context *context, struct glass_picture *
     TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.map", &picture->map));
+    TRY(virga_image_create(context, VK_FORMAT_R32_UINT, map, 1, sampled | VK_IMAGE_USAGE_STORAGE_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "glass.words", &picture->words));
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, copies, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.copies", &picture->copies));
@@ -379,6 +385,7 @@ void glass_picture_destroy(virga_glass *glass)
         VIRGA_RETIRE(context, picture->targets[i / GLASS_DRAWS].draws[i % GLASS_DRAWS]);
     VIRGA_RETIRE(context, picture->relief);
     VIRGA_RETIRE(context, picture->map);
+    VIRGA_RETIRE(context, picture->words);
     VIRGA_RETIRE(context, picture->copies);
     VIRGA_RETIRE(context, picture->mist_map);
     VIRGA_RETIRE(context, picture->blank_depth);

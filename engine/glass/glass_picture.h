@@ -13,27 +13,29 @@
 
 #define GLASS_MAX_TARGETS 8
 
-/* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., the paper's, and refraction vectors, without and
- * with the scene's depth; then mist, also on what is not glass. The paper's and mist are made for a picture of the
- * host's and for none. */
+/* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., the paper's, and refraction vectors by either,
+ * without and with the scene's depth; then mist, also on what is not glass. The paper's and mist are made for a picture
+ * of the host's and for none. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
     GLASS_DRAW_REFRACTION = 20,
-    GLASS_DRAW_MIST = 22,
-    GLASS_DRAWS = 30,
-    GLASS_DRAW_OF_PLATE = 2, /* what is added for a picture of the host's */
+    GLASS_DRAW_MIST = 24,
+    GLASS_DRAWS = 32,
+    GLASS_DRAW_OF_PAPER = 2, /* what is added for refraction vectors in the paper's style */
+    GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) for a picture of the host's */
     GLASS_DRAW_OF_SOLID = 4  /* (mist) and for what is not glass */
 };
 
-#define GLASS_GATHER_FILM  16u  /* tiles with film */
-#define GLASS_GATHER_MAP   32u  /* the host wants the map */
-#define GLASS_GATHER_BEADS 64u  /* in a view that is near enough to show beads of film as drops */
-#define GLASS_GATHER_PAPER 128u /* densities alone, for the paper's style */
-#define GLASS_GATHER_FEW   256u /* not more than VIRGA_GLASS_FEW_STEPS of compression */
-#define GLASS_MIST_SEVERAL 1u   /* cells to a texel */
-#define GLASS_MIST_MASKED  2u   /* there may be cells without glass */
-#define GLASS_GATHERS      512  /* of which three for each density, blend, style and length of compression are made */
+#define GLASS_GATHER_FILM   16u  /* tiles with film */
+#define GLASS_GATHER_MAP    32u  /* the host wants the map */
+#define GLASS_GATHER_BEADS  64u  /* in a view that is near enough to show beads of film as drops */
+#define GLASS_GATHER_PAPER  128u /* words of densities, for the paper's style; heights only for the host */
+#define GLASS_GATHER_FEW    256u /* not more than VIRGA_GLASS_FEW_STEPS of compression */
+#define GLASS_GATHER_MASKED 512u /* (paper) there may be cells without glass */
+#define GLASS_MIST_SEVERAL  1u   /* cells to a texel */
+#define GLASS_MIST_MASKED   2u   /* there may be cells without glass */
+#define GLASS_GATHERS       1024 /* of which three for each density, blend, style and length of compression are made */
 
 typedef struct glass_target {
     uint64_t serial; /* of the virga_target; 0: free */
@@ -53,8 +55,10 @@ struct glass_picture {
     VkExtent2D max_mist; /* texels of the mist's map, whole blocks */
     virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners, *view_ring;
     virga_image_2d *map;
-    bool whole_map; /* the host wants it, also where there is only mist */
-    virga_image_2d *relief, *copies, *mist_map;
+    bool whole_map;         /* the host wants it, also where there is only mist */
+    virga_image_2d *words;  /* what the paper's style draws from, see shaders/glass/picture_words.glsl */
+    virga_image_2d *relief; /* what others do */
+    virga_image_2d *copies, *mist_map;
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
@@ -64,7 +68,8 @@ struct glass_picture {
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
     uint32_t lanes; /* of a subgroup that passes hand values around in; 0: they use shared memory */
     glass_target targets[GLASS_MAX_TARGETS];
-    bool cleared; /* images have their layout, and `written` says that all is to be written */
+    bool cleared;                    /* images have their layout */
+    virga_glass_style written_style; /* that `written` says of what its images hold */
 
     uint64_t view_frame; /* that the cursors below belong to */
     uint32_t ring_views, view_offset;

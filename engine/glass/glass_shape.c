@@ -414,6 +414,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_result result = check_shape(&context->log, shape);
     if (result)
         return result;
+    const bool masked = glass->masked;
     virga_buffer *cells = NULL, *nodes = NULL;
     TRY(virga_buffer_create(context, glass->surface->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD,
                             "glass.surface_upload", &cells));
@@ -426,15 +427,18 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     fill_cells(glass, shape, cells->memory.block.mapped);
     virga_buffer_flush(context, cells, 0, cells->size);
     virga_buffer_flush(context, nodes, 0, nodes->size);
+    glass->masked = shape->mask != NULL;
+    if (glass->picture)
+        TRY(glass_picture_need(glass, &glass->settings));
     TRY(virga_uploaded(context));
     remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);
     glass->surface_upload = cells;
     glass->nodes_upload = nodes;
-    glass->masked = shape->mask != NULL;
     return VIRGA_OK;
 error:
+    glass->masked = masked;
     VIRGA_RETIRE(context, cells);
     VIRGA_RETIRE(context, nodes);
     return result;

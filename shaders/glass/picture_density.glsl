@@ -10,7 +10,9 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define FILM ((MODE & 16u) != 0u)      // tiles with film
 #define WITH_BEADS ((MODE & 64u) != 0u) // some film is in beads that have a shape
 #define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
-#define PAPER ((MODE & 128u) != 0u)    // only the density is wanted, not the height: all that the paper's style shows
+#define PAPER ((MODE & 128u) != 0u)    // the paper's style, which shows densities
+#define HEIGHTS ((MODE & 160u) != 128u) // are wanted too: not the paper's style, or the host wants the map
+#define MASKED ((MODE & 512u) != 0u)   // (paper) there may be cells without glass
 #define FEW_STEPS ((MODE & 256u) != 0u) // of compression, not more than VIRGA_GLASS_FEW_STEPS
 #else
 #define DENSITY look.density

@@ -18,7 +18,8 @@
 // A fifth sum is the mist of drops too small for a shape: each spread over the four texels around its middle by how
 // near they are, all of its area, wherever it lies.
 //
-// Slopes need neighbours: they are the next pass's, picture_relief.comp.
+// Slopes need neighbours: they are the next pass's, picture_relief.comp, or for the paper's style, which shows nothing
+// but densities and mist, the draw's: a texel is a word then, see picture_words.glsl.
 //
 // A lane has as many texels above one another as it takes; the includer says in LANES how many lanes there are.
 #define DENSITY_SPECIAL
@@ -26,8 +27,9 @@
 #include "picture_density.glsl"
 #include "picture_tiles.glsl"
 #include "picture_beads.glsl"
+#include "picture_words.glsl"
+#include "picture_mask.glsl"
 
-#define TILE VIRGA_GLASS_TILE
 #define ONE 8388608.0 // 1 in the sums: 255 balls on top of each other do not overflow
 #define MOST_CELLS 14 // along a side, that a tile lies on or beside where beads have a shape
 
@@ -35,6 +37,7 @@ layout(local_size_x = LANES) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Entries { uint entries[]; };
 layout(scalar, set = 0, binding = 9) readonly buffer Mist { uint mist[]; }; // four texels of its map to a word
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D map_out;
+layout(set = 0, binding = 26, r32ui) uniform writeonly uimage2D words_out;
 layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; }; // VIRGA_GLASS_HOLDS_..., tile by tile
 
 struct Ball {
@@ -75,7 +78,7 @@ Ball ball_of(uint entry)
 // What a ball adds to a texel's sums: V, or by Chen and Zhang k; k V; k V z; k K.
 vec4 parts_of(Ball ball, vec2 x, float x2, float density)
 {
-    if (PAPER && !WEIGHTED)
+    if (!HEIGHTS && !WEIGHTED)
         return vec4(density, 0.0, 0.0, 0.0);
     const float once = 1.0 / (1.0 + x2);
     const float height = ball.height * max(1.0 + dot(ball.sag, x), 0.2);
@@ -83,7 +86,7 @@ vec4 parts_of(Ball ball, vec2 x, float x2, float density)
     const float k = WEIGHTED ? ball.height * max(reach - sqrt(x2), 0.0) / reach : height;
     const float inner = ball.peak * k * density_window(x2, reach) * once * once;
     const vec4 each = vec4(WEIGHTED ? k : density, k * density, k * density * height, inner);
-    return PAPER ? vec4(each.xy, 0.0, 0.0) : each;
+    return HEIGHTS ? each : vec4(each.xy, 0.0, 0.0);
 }
 
 void add_to(inout Texel texel, Ball ball)
@@ -137,13 +140,13 @@ void add_balls(virga_glass_tile_gpu tile)
 
 // ---- what sums come to
 
-// x: density as blended; y: height of the water over the glass (m), below 0 beside it, or (paper) 0.
+// x: density as blended; y: height of the water over the glass (m), below 0 beside it, or where none is wanted 0.
 vec2 blended(ivec4 sum)
 {
     const vec4 s = vec4(sum);
     const bool weighted = WEIGHTED;
     const float density = weighted ? s.y / max(s.x, 1.0) : s.x / ONE;
-    if (PAPER)
+    if (!HEIGHTS)
         return vec2(density, 0.0);
     const float mean = s.z / max(s.y, 1.0);
     const float inside = max(weighted ? s.w / max(s.x, 1.0) : s.w / ONE / max(mean, 1e-6), 1e-4);
@@ -158,19 +161,28 @@ vec2 blended(ivec4 sum)
 bool put(ivec2 at, Texel texel)
 {
     const vec2 water = blended(texel.sums);
-    const float sheet = sheet_at(texel.place), film_there = smoothstep(0.0, 3e-6, sheet);
     const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
+    // Below the threshold, as a pixel between this texel and a neighbour may be above it.
+    const bool shown = density > 0.2 * look.threshold || drops_mist > 1.0 / 512.0;
+    if (PAPER)
+        imageStore(words_out, at, uvec4(word_of(density, drops_mist, is_glass(at))));
+    if (!HEIGHTS)
+        return shown;
+    const float sheet = sheet_at(texel.place), film_there = smoothstep(0.0, 3e-6, sheet);
     imageStore(map_out, at, vec4(density, mix(water.y, max(water.y, 0.0), film_there) + sheet,
                                  WITH_MAP ? min(drops_mist + film_mist(at), 1.0) : drops_mist, sheet));
-    // Below the threshold, as a pixel between this texel and a neighbour may be above it.
-    return density > 0.2 * look.threshold || drops_mist > 1.0 / 512.0 || (look.style != 0u && sheet > 1e-6);
+    return shown || (!PAPER && sheet > 1e-6);
 }
 
-// Lists the tile for the next pass, by the first lane that finds a reason.
+// Lists the tile for the next pass, or for the draw, by the first lane that finds a reason.
 void list_tile(uint number, bool shown)
 {
     const uint before = atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u));
-    if ((before & VIRGA_GLASS_LISTED) == 0u) {
+    if ((before & VIRGA_GLASS_LISTED) != 0u)
+        return;
+    if (PAPER)
+        draw_tile(number);
+    else {
         const uint turn = atomicAdd(work.relief_tiles, 1u);
         wet[2u * look.max_tiles + look.max_blocks + turn] = number;
         atomicMax(work.relief_groups[0], min(turn + 1u, VIRGA_GLASS_TILE_ROW));
@@ -217,8 +229,9 @@ void gather()
     if (WITH_BEADS)
         add_beads(tile);
     const bool shown = put_texels(first), leads = gl_LocalInvocationIndex == 0u;
+    const uint relief = PAPER ? 0u : held & VIRGA_GLASS_HOLDS_RELIEF;
     if (leads)
-        written[holds] = (held & VIRGA_GLASS_HOLDS_RELIEF) | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
-    if (shown || (leads && (held & VIRGA_GLASS_HOLDS_RELIEF) != 0u))
+        written[holds] = relief | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
+    if (shown || (leads && relief != 0u))
         list_tile(number, shown);
 }

@@ -8,6 +8,7 @@
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_surface.glsl"
+#include "picture_slopes.glsl"
 #include "picture_plate.glsl"
 #include "picture_paper.glsl"
 #include "picture_temporal.glsl"
@@ -16,7 +17,7 @@ layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    const Water water = water_here();
+    const Water water = water_by_density();
     const vec2 pixel = paper_pixel(gl_FragCoord.xy, water.slope, pane_ways);
 #ifdef TEMPORAL
     const mat2 change = mat2(dFdx(pixel), dFdy(pixel)); // while all pixels of a quad are there

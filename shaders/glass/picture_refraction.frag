@@ -6,6 +6,7 @@
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_surface.glsl"
+#include "picture_slopes.glsl"
 #include "picture_plate.glsl"
 #include "picture_path.glsl"
 #include "picture_paper.glsl"
@@ -14,13 +15,17 @@ layout(location = 0) out vec4 offset_cover;
 
 void main()
 {
-    const Water water = water_here();
+    Water water;
+    if (IN_PAPER) // a constant
+        water = water_by_density();
+    else
+        water = water_here();
     const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
     if (water.cover <= 0.0 || behind_scene())
         discard;
     const vec3 d = normalize(position);
     vec2 pixel = gl_FragCoord.xy;
-    if (look.style == 0u)
+    if (IN_PAPER)
         pixel = paper_pixel(pixel, water.slope, ways_on_picture(along_u, along_v));
     else if (look.opaque == 0u || dot(d, cross(along_u, along_v)) < 0.0) {
         const Path path = path_through(d, water, pixel_m, look.opaque != 0u);

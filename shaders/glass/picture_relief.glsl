@@ -7,32 +7,20 @@
 #include "picture.glsl"
 #include "picture_tiles.glsl"
 
-#define TILE VIRGA_GLASS_TILE
-
 layout(local_size_x = LANES) in;
-layout(constant_id = 0) const uint MASKED = 0u; // the pane has a mask
-layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
+layout(constant_id = 0) const uint MODE = 0u; // 1: the pane has a mask
+#define MASKED (MODE != 0u)
+#include "picture_mask.glsl"
 layout(scalar, set = 0, binding = 17) buffer Written { uint written[]; };
-layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 layout(set = 0, binding = 20, rgba32f) uniform writeonly image2D relief_out;
 layout(set = 0, binding = 23) uniform sampler2D map; // a fetch is quicker than a load to software Vulkan
 
-// What slopes are of: the paper takes the density's.
-float level(vec4 texel) { return look.style == 0u ? texel.x : texel.y; }
+float level(vec4 texel) { return texel.y; } // what slopes are of
 
 // At the map's border the nearest that there is.
 vec4 texel_at(ivec2 texel)
 {
     return texelFetch(map, clamp(texel, ivec2(0), ivec2(look.map_columns, look.map_rows) - 1), 0);
-}
-
-bool is_glass(ivec2 texel)
-{
-    if (MASKED == 0u)
-        return true;
-    const vec2 at = (vec2(texel) + 0.5) * texel_m() / look.pane.cell_m;
-    const uvec2 cell = uvec2(clamp(at, vec2(0.0), vec2(look.pane.columns, look.pane.rows) - 1.0));
-    return (surface[cell.x + cell.y * look.pane.columns] & 0x1000000u) != 0u;
 }
 
 // See picture_surface.glsl. The mist of film is drawn apart. `before` and `after`: levels beside it, to the left and
@@ -41,7 +29,7 @@ vec4 relief_of(ivec2 at, vec4 texel, vec2 before, vec2 after)
 {
     // At the map's border from one side only.
     const ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, ivec2(look.map_columns, look.map_rows) - 1);
-    const float film_cover = look.style != 0u ? smoothstep(1e-6, 4e-6, texel.w) : 0.0; // the paper has no film
+    const float film_cover = smoothstep(1e-6, 4e-6, texel.w);
     // Beside drops a film lies flat, and so does what its own rim is drawn with: not below the glass. How deep a drop's
     // surface would lie beside it matters to its rim alone.
     const float least = texel.x < (film_cover > 0.0 ? 1.0 : 0.4) * look.threshold ? 0.0 : -1e3;
@@ -100,16 +88,6 @@ void put_tile(ivec2 first, bool shown)
 }
 #endif
 
-// The tile as two triangles; corners are numbered along rows of the grid of all tiles.
-void draw_tile(ivec2 tile)
-{
-    const uint columns = look.tile_columns + 1u, first = uint(tile.x) + uint(tile.y) * columns;
-    const uint six[6] = uint[6](first, first + 1u, first + columns, first + columns, first + 1u, first + columns + 1u);
-    const uint at = atomicAdd(work.drops.index_count, 6u);
-    for (uint i = 0u; i < 6u; i++)
-        corners[at + i] = six[i];
-}
-
 void relief()
 {
     const uint turn = gl_WorkGroupID.x + gl_WorkGroupID.y * VIRGA_GLASS_TILE_ROW;
@@ -121,6 +99,6 @@ void relief()
     if (gl_LocalInvocationIndex == 0u && turn < work.relief_tiles) {
         written[holds] = (written[holds] & VIRGA_GLASS_HOLDS_WATER) | (shown ? VIRGA_GLASS_HOLDS_RELIEF : 0u);
         if (shown)
-            draw_tile(tile);
+            draw_tile(number);
     }
 }

@@ -9,11 +9,9 @@
 #define BY_HAND ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
 #define SIDE (DRAW_MODE & VIRGA_GLASS_DRAW_SIDE)
 
-// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, or (paper) of the density,
-// per metre.
-// Alpha: above 0 the share that water too small for a shape covers; below 0, in drops, the largest change of the slope
-// (1/m),
-// or on what is not glass the height (m).
+// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, per metre. Alpha: above 0 the
+// share that water too small for a shape covers; below 0, in drops, the largest change of the slope (1/m), or on what
+// is not glass the height (m).
 layout(set = 0, binding = 12) uniform sampler2D relief_map;
 
 layout(location = 0) in vec2 place;
@@ -34,15 +32,18 @@ struct Water {
     float bend;   // largest change of the slope, 1/m
 };
 
+vec2 last_texel() { return vec2(look.map_columns, look.map_rows) - 1.0; }
+
+// The pixel's place among the middles of texels.
+vec2 texels_here() { return clamp(place / texel_m() - 0.5, vec2(0.0), last_texel()); }
+
 // Not every device filters four whole floats.
 vec4 relief_here()
 {
-    const vec2 texels = clamp(place / texel_m(), vec2(0.5), vec2(look.map_columns, look.map_rows) - 0.5);
+    const vec2 texels = texels_here(), low = floor(texels), t = texels - low;
     if (!BY_HAND)
-        return textureLod(relief_map, texels / vec2(textureSize(relief_map, 0)), 0.0);
-    const vec2 low = floor(texels - 0.5), t = texels - 0.5 - low;
-    const ivec2 at = ivec2(low), last = ivec2(look.map_columns, look.map_rows) - 1;
-    const ivec2 next = min(at + 1, last);
+        return textureLod(relief_map, (texels + 0.5) / vec2(textureSize(relief_map, 0)), 0.0);
+    const ivec2 at = ivec2(low), next = min(at + 1, ivec2(last_texel()));
     return mix(mix(texelFetch(relief_map, at, 0), texelFetch(relief_map, ivec2(next.x, at.y), 0), t.x),
                mix(texelFetch(relief_map, ivec2(at.x, next.y), 0), texelFetch(relief_map, next, 0), t.x), t.y);
 }
@@ -55,13 +56,17 @@ bool behind_scene()
     return stored != view.far_depth && view_depth(stored) < 0.9999 / gl_FragCoord.w;
 }
 
+// Over one pixel the rim goes from nothing to all.
+float cover_of(float density)
+{
+    return clamp((density - look.threshold) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
+}
+
 Water water_here()
 {
     const vec4 relief = relief_here();
-    // Over one pixel the rim goes from nothing to all.
-    const float width = max(fwidth(relief.x), 1e-4);
     Water water;
-    water.cover = clamp((relief.x - look.threshold) / width + 0.5, 0.0, 1.0);
+    water.cover = cover_of(relief.x);
     water.mist = (1.0 - water.cover) * max(relief.w, 0.0);
     water.slope = relief.yz;
     water.height = water.bend = max(-relief.w, 0.0);

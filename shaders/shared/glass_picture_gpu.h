@@ -54,7 +54,6 @@ struct virga_glass_picture_gpu {
     float compress_step;
     float compress_k;
     float threshold;
-    uint style;             /* virga_glass_style */
     float paper_shift;
     float thickness_m;
     float tint[3];
@@ -88,6 +87,7 @@ struct virga_glass_picture_gpu {
 #define VIRGA_GLASS_DRAW_BY_HAND 16u /* the device does not filter the map */
 #define VIRGA_GLASS_DRAW_PLATE   32u /* the host's picture is there to read; neither this nor the next: the view says */
 #define VIRGA_GLASS_DRAW_ALONE   64u /* it is not */
+#define VIRGA_GLASS_DRAW_PAPER   128u /* (refraction vectors) the paper's style */
 
 /* For the pass that makes slopes; and there is something to draw. */
 #define VIRGA_GLASS_LISTED 2u
@@ -95,7 +95,7 @@ struct virga_glass_picture_gpu {
 
 /* What the images hold of a tile since it was last written, and so has to be taken away. */
 #define VIRGA_GLASS_HOLDS_WATER  1u /* the map */
-#define VIRGA_GLASS_HOLDS_RELIEF 2u /* what draws read */
+#define VIRGA_GLASS_HOLDS_RELIEF 2u /* what draws by Snell read */
 
 /* The arguments of an indirect draw, as Vulkan has them. */
 struct virga_glass_corners_gpu {

@@ -236,9 +236,12 @@ static void nothing_is_drawn_where_there_is_no_glass(void **state)
     REQUIRE(virga_glass_shape_set(s.glass, &shape) == VIRGA_OK);
     shot_step(&s, 1);
     put_balls(&s, balls, PLACES);
-    const float *pixels = shot_draw(&s, false);
-    REQUIRE(sum_of_alpha(pixels, 0, WIDTH / 2 - 1) == 0);
-    REQUIRE(sum_of_alpha(pixels, WIDTH / 2 + 1, WIDTH) > 1000);
+    for (int style = 0; style < 2; style++) {
+        s.settings.style = style ? VIRGA_GLASS_STYLE_PAPER : VIRGA_GLASS_STYLE_PHYSICAL;
+        const float *pixels = shot_draw(&s, false);
+        REQUIRE(sum_of_alpha(pixels, 0, WIDTH / 2 - 1) == 0);
+        REQUIRE(sum_of_alpha(pixels, WIDTH / 2 + 1, WIDTH) > 1000);
+    }
     shot_close(&s);
 }
 
