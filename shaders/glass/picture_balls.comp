@@ -20,7 +20,7 @@ layout(scalar, set = 0, binding = 22) readonly buffer State { virga_glass_state_
 #define SUB_WATER 0.27              // share of a drop's water in its three sub-balls as it lands
 #define TEAR_SPEED 0.03             // m/s at which half of a tear has formed
 
-shared uint widest;
+shared uint widest, shaped, entered; // of the workgroup
 
 // A drop's balls: the first is its own. Radius 0: there is none.
 vec2 middles[VIRGA_GLASS_DROP_BALLS];
@@ -85,24 +85,32 @@ void count_tiles(uvec2 reached)
     for (uint y = 0u; y < number.y; y++)
         for (uint x = 0u; x < number.x; x++)
             atomicAdd(tiles[tile_number(first + uvec2(x, y))].count, 1u);
-    atomicAdd(work.entries, number.x * number.y);
+    atomicAdd(entered, number.x * number.y);
 }
 
-void emit_balls(vec2 sag)
+// Texels that a ball covers besides its shape. A sub-ball that is fading has none.
+float mist_of(uint i)
 {
-    const float texel_m2 = look.texel_m[0] * look.texel_m[1];
+    const float radius = radii[i], texel_m2 = look.texel_m[0] * look.texel_m[1];
+    const bool misty = i == 0u || sub_peak == 1.0;
+    return misty ? (1.0 - shape_share(radius)) * min(3.14159265 * radius * radius / texel_m2, 4.0) : 0.0;
+}
+
+void emit_balls(vec2 sag, float whole)
+{
+    // Of a drop that has no shape at all one ball has all mist, which is spread over a texel anyway.
+    const bool as_one = shape_share(whole) == 0.0;
+    const float all = mist_of(0u) + mist_of(1u) + mist_of(2u) + mist_of(3u);
     for (uint i = 0u; i < VIRGA_GLASS_DROP_BALLS; i++) {
         const float radius = radii[i], shape = shape_share(radius), peak = (i == 0u ? 1.0 : sub_peak) * shape;
-        // A sub-ball that is fading has no mist.
-        const bool misty = i == 0u || sub_peak == 1.0;
-        const float mist = misty ? (1.0 - shape) * min(3.14159265 * radius * radius / texel_m2, 4.0) : 0.0;
+        const float mist = as_one ? (i == 0u ? all : 0.0) : mist_of(i);
         if (radius > 0.0 && peak + mist > 0.0) {
             const uvec2 reached =
                 tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
             balls[atomicAdd(work.balls, 1u)] =
                 virga_glass_ball_gpu(float[2](middles[i].x, middles[i].y), radius, mist, float[2](sag.x, sag.y), peak,
                                      uint[2](reached.x, reached.y));
-            atomicAdd(work.shaped, peak > 0.0 ? 1u : 0u);
+            atomicAdd(shaped, peak > 0.0 ? 1u : 0u);
             count_tiles(reached);
             atomicMax(widest, floatBitsToUint(radius));
         }
@@ -128,18 +136,21 @@ void make(uint place)
         shape_landing(age / look.impact_s, at.random);
     if (runs)
         shape_tear(velocity);
-    emit_balls(sag);
+    emit_balls(sag, radius);
 }
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        widest = 0u;
+        widest = shaped = entered = 0u;
     barrier();
     const uint i = gl_GlobalInvocationID.x, place = listed[min(i, look.pane.max_drops - 1u)];
     if (i < state.shown && (drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_FREE)
         make(place);
     barrier();
-    if (gl_LocalInvocationIndex == 0u && widest != 0u)
-        atomicMax(work.highest, widest);
+    if (gl_LocalInvocationIndex != 0u || widest == 0u)
+        return;
+    atomicMax(work.highest, widest);
+    atomicAdd(work.shaped, shaped);
+    atomicAdd(work.entries, entered);
 }
