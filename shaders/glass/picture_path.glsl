@@ -1,6 +1,7 @@
 // picture_path.glsl - rays from the eye through pane and water: where they come from.
 
-#define WATER 1.333
+#define WATER    1.333
+#define INSIDE_M 0.01 // what is nearer to the pane is its own: a frame, a blade
 
 // A ray that has passed, or been thrown back.
 struct Path {
@@ -77,10 +78,25 @@ vec3 glass_shift(vec3 d, vec3 flat_normal)
     return look.thickness_m * (in_glass / max(dot(in_glass, n), 0.1) - d / max(dot(d, n), 0.1));
 }
 
+// Whether what the picture has at a pixel lies on the eye's side of the pane, taken as flat: pillars, a dashboard, who
+// sits there. A ray that has passed the pane can not meet them; the picture has nothing of what they hide.
+bool is_inside(vec2 pixel, vec3 d)
+{
+    const vec2 first = vec2(view.viewport[0], view.viewport[1]), size = vec2(view.viewport[2], view.viewport[3]);
+    const vec2 at = clamp(pixel, first, first + size - 1.0);
+    const float stored = buffer_depth(at);
+    if (stored == view.far_depth)
+        return false;
+    const vec3 flat_normal = cross(along_u, along_v);
+    const float beyond = dot(pixel_ray(at) * view_depth(stored) - position, flat_normal);
+    return beyond * sign(dot(d, flat_normal)) < -INSIDE_M;
+}
+
 void find_pixel(inout Path path, vec3 d, float distance)
 {
     const vec3 place_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
-    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
+    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel) &&
+                 !is_inside(path.pixel, d);
 }
 
 // On a surface that is not glass: the place on it that is seen through water so high, displaced along the surface.

@@ -25,7 +25,9 @@ typedef struct shot {
     virga_target *layer;
     host_image plate; /* what is seen through the pane */
     bool give_color, give_depth;
-    float scene_depth; /* in the depth buffer's terms */
+    float scene_depth;     /* in the depth buffer's terms */
+    uint32_t post_columns; /* of the picture, from the left, where the scene has another depth */
+    float post_depth;
     host_camera camera;
     virga_glass_pose pose;
     double late_s; /* drawn so long before the newest tick */
@@ -217,8 +219,12 @@ static inline void shot_record_plate(const shot *s, VkCommandBuffer cmd)
 {
     const VkClearAttachment clear = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {s->scene_depth, 0}}};
     const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
+    const VkClearAttachment post = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {s->post_depth, 0}}};
+    const VkClearRect left = {{{0, 0}, {s->post_columns, s->picture.height}}, 0, 1};
     host_target_begin_plate(&s->picture, cmd);
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
+    if (s->post_columns)
+        vkCmdClearAttachments(cmd, 1, &post, 1, &left);
     host_target_end_plate(&s->picture, cmd);
 }
 
