@@ -1,24 +1,12 @@
 /* scene_lists.c - lists that grow and shrink, by walking the schema beside the data that libcyaml loaded by it. */
 #include "scene_lists.h"
 
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scene_schema.h"
 
 #define TEXT_ROOM 512 /* of a value as YAML */
-
-static bool fail(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static bool fail(char *error, size_t error_size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, error_size, format, arguments);
-    va_end(arguments);
-    return false;
-}
 
 /* ---- finding them --------------------------------------------------------------------------------------------- */
 
@@ -27,13 +15,6 @@ typedef struct found {
     size_t count, room;
     bool failed; /* no memory */
 } found;
-
-static uint32_t length_of(const cyaml_schema_field_t *field, const void *owner)
-{
-    uint64_t length = 0;
-    memcpy(&length, (const char *)owner + field->count_offset, field->count_size); /* little-endian, as libcyaml's */
-    return (uint32_t)length;
-}
 
 static char **entries_of(const cyaml_schema_field_t *field, void *owner)
 {
@@ -63,7 +44,7 @@ static void add(found *out, const char *path, const cyaml_schema_field_t *field,
         out->room = room;
     }
     scene_list *list = &out->lists[out->count++];
-    *list = (scene_list){.count = length_of(field, owner),
+    *list = (scene_list){.count = scene_list_length(field, owner),
                          .least = field->value.sequence.min,
                          .most = field->value.sequence.max,
                          .field = field,
@@ -84,7 +65,7 @@ static void walk(found *out, const char *above, const cyaml_schema_field_t *fiel
         const cyaml_schema_value_t *entry = value->sequence.entry;
         if (!has_names(entry))
             add(out, path, field, data);
-        for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < length_of(field, data); i++) {
+        for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < scene_list_length(field, data); i++) {
             snprintf(inside, sizeof inside, "%.80s.%u", path, i);
             walk(out, inside, entry->mapping.fields, *entries_of(field, data) + (size_t)i * entry->data_size);
         }
@@ -118,10 +99,10 @@ static bool find_one(scene_file *scene, const char *path, scene_list *list, char
     if (one)
         *list = *one;
     free(lists);
-    return one ||
-           fail(error, error_size,
-                lists ? "%.80s: the scene has no list of this name that could grow or shrink" : "%.80s: no more memory",
-                path);
+    return one || scene_settings_fail(error, error_size,
+                                      lists ? "%.80s: the scene has no list of this name that could grow or shrink"
+                                            : "%.80s: no more memory",
+                                      path);
 }
 
 /* ---- growing and shrinking ------------------------------------------------------------------------------------ */
@@ -142,7 +123,7 @@ static bool copy_inside(const cyaml_schema_value_t *entry, char *data)
         if (field->value.type != CYAML_SEQUENCE)
             continue;
         char **inside = entries_of(field, data), *from = *inside;
-        const size_t size = (size_t)length_of(field, data) * field->value.sequence.entry->data_size;
+        const size_t size = (size_t)scene_list_length(field, data) * field->value.sequence.entry->data_size;
         *inside = size ? malloc(size) : NULL;
         if (*inside)
             memcpy(*inside, from, size);
@@ -213,13 +194,13 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
     if (!find_one(scene, path, &list, error, error_size))
         return false;
     if (list.count >= list.most)
-        return fail(error, error_size, "%s: a scene has %u at most", path, list.most);
+        return scene_settings_fail(error, error_size, "%s: a scene has %u at most", path, list.most);
     const cyaml_schema_field_t *field = list.field;
     const cyaml_schema_value_t *entry = field->value.sequence.entry;
     char **entries = entries_of(field, list.owner);
     char *grown = realloc(*entries, (list.count + (size_t)1) * entry->data_size);
     if (!grown)
-        return fail(error, error_size, "%s: no more memory", path);
+        return scene_settings_fail(error, error_size, "%s: no more memory", path);
     *entries = grown;
     char *last = grown + (size_t)list.count * entry->data_size;
     memset(last, 0, entry->data_size);
@@ -227,14 +208,14 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
         memcpy(last, last - entry->data_size, entry->data_size);
     if (!copy_inside(entry, last)) {
         free_inside(entry, last);
-        return fail(error, error_size, "%s: no more memory", path);
+        return scene_settings_fail(error, error_size, "%s: no more memory", path);
     }
     set_length(&list, list.count + 1);
     if (fill(scene, &list))
         return true;
     free_inside(entry, last);
     set_length(&list, list.count);
-    return fail(error, error_size, "%s: no more memory", path);
+    return scene_settings_fail(error, error_size, "%s: no more memory", path);
 }
 
 bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t error_size)
@@ -243,7 +224,7 @@ bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t er
     if (!find_one(scene, path, &list, error, error_size))
         return false;
     if (list.count <= list.least)
-        return fail(error, error_size, "%s: a scene has %u at least", path, list.least);
+        return scene_settings_fail(error, error_size, "%s: a scene has %u at least", path, list.least);
     const cyaml_schema_field_t *field = list.field;
     const cyaml_schema_value_t *entry = field->value.sequence.entry;
     free_inside(entry, *entries_of(field, list.owner) + (list.count - (size_t)1) * entry->data_size);

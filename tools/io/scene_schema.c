@@ -423,7 +423,8 @@ static const scene_rule rules[] = {
      "texels along a side of the maps of where no rain falls; 0: it falls through roofs"},
     {"rain.occlusion_cascades", 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"},
     {"rain.occlusion_slants", 1, 4, "2", RESTARTS, "maps for drops of different slant"},
-    {"rain.occlusion_turns", 1, 16, "1", LIVE, "frames in which the maps are drawn by turns; more is quicker, and late"},
+    {"rain.occlusion_turns", 1, 16, "1", LIVE,
+     "frames in which the maps are drawn by turns; more is quicker, and late"},
     {"rain.keys", 0, 0, "[]", RESTARTS, "rate and wind by time, in place of the two settings"},
     {"rain.keys[].time_s", -ANY_M, ANY_M, NULL, RESTARTS, "when they are so"},
     {"rain.keys[].rate_mm_h", 0, 200, "@rain.rate_mm_h", LIVE, "rain that lands on level ground then"},
@@ -613,4 +614,11 @@ const scene_rule *scene_rule_find(const char *path)
         if (!strcmp(rules[i].path, path))
             return &rules[i];
     return NULL;
+}
+
+uint32_t scene_list_length(const cyaml_schema_field_t *list, const void *group)
+{
+    uint64_t length = 0;
+    memcpy(&length, (const char *)group + list->count_offset, list->count_size); /* little-endian, as libcyaml's own */
+    return (uint32_t)length;
 }

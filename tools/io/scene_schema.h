@@ -3,6 +3,7 @@
 #define VIRGA_IO_SCENE_SCHEMA_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <cyaml/cyaml.h>
 
@@ -22,5 +23,8 @@ const scene_rule *scene_rule_find(const char *path);
 
 /* All of them, for suggestions. */
 const scene_rule *scene_rules(size_t *count);
+
+/* How many entries a list of a group that was loaded has. */
+uint32_t scene_list_length(const cyaml_schema_field_t *list, const void *group);
 
 #endif

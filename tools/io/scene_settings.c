@@ -17,9 +17,7 @@
 
 #define TEXT_ROOM 512 /* of a value as YAML */
 
-static bool fail(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static bool fail(char *error, size_t error_size, const char *format, ...)
+bool scene_settings_fail(char *error, size_t error_size, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -107,13 +105,6 @@ static void add_value(list *out, const place *at, const char *key, const cyaml_s
     }
 }
 
-static uint32_t list_length(const cyaml_schema_field_t *field, const char *owner)
-{
-    uint64_t length = 0;
-    memcpy(&length, owner + field->count_offset, field->count_size); /* little-endian, as libcyaml's own */
-    return (uint32_t)length;
-}
-
 /* A group that may be left out and was: its first key, the name of a file, has no value. */
 static bool is_left_out(const cyaml_schema_field_t *field, const char *data)
 {
@@ -128,7 +119,7 @@ static void walk_list(list *out, const place *at, const cyaml_schema_field_t *fi
 {
     const cyaml_schema_value_t *entry = field->value.sequence.entry;
     char *entries = *(char **)(void *)(owner + field->data_offset);
-    for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < list_length(field, owner); i++) {
+    for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < scene_list_length(field, owner); i++) {
         char number[16];
         snprintf(number, sizeof number, "%u", i);
         const place inside = step_into(at, number, "[]");
@@ -261,8 +252,8 @@ static bool read_number(const scene_setting *setting, const char **text, double 
     const bool whole = setting->kind == SCENE_SETTING_WHOLE;
     if (!length || end != *text + length || !isfinite(*value) || *value < setting->low || *value > setting->high ||
         (whole && *value != floor(*value)))
-        return fail(error, error_size, "%s: expected a %snumber from %.10g to %.10g, got '%.40s'", setting->path,
-                    whole ? "whole " : "", setting->low, setting->high, *text);
+        return scene_settings_fail(error, error_size, "%s: expected a %snumber from %.10g to %.10g, got '%.40s'",
+                                   setting->path, whole ? "whole " : "", setting->low, setting->high, *text);
     *text = end;
     return true;
 }
@@ -283,8 +274,8 @@ static bool parse_numbers(scene_setting *setting, const char *text, char *error,
         at += vector && good;
     }
     if (!good || at[strspn(at, " ")])
-        return fail(error, error_size, "%s: expected %u numbers as in [1, 2, 3], got '%.60s'", setting->path,
-                    setting->count, text);
+        return scene_settings_fail(error, error_size, "%s: expected %u numbers as in [1, 2, 3], got '%.60s'",
+                                   setting->path, setting->count, text);
     for (uint32_t i = 0; i < setting->count; i++) {
         if (setting->kind == SCENE_SETTING_NUMBER)
             ((double *)setting->value)[i] = values[i];
@@ -306,7 +297,7 @@ static bool parse_choice(scene_setting *setting, const char *text, char *error, 
             return true;
         }
     }
-    return fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
+    return scene_settings_fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
 }
 
 /* What may be left to something else: memory of libcyaml's kind behind a pointer, or none. */
@@ -322,13 +313,16 @@ static bool parse_maybe(scene_setting *setting, const char *text, char *error, s
         return true;
     }
     if (number && (!read_number(setting, &at, &read, error, error_size) || *at))
-        return *at ? fail(error, error_size, "%s: expected a number or null, got '%.40s'", setting->path, text) : false;
+        return *at ? scene_settings_fail(error, error_size, "%s: expected a number or null, got '%.40s'", setting->path,
+                                         text)
+                   : false;
     if (!number && !on && strcmp(text, "false"))
-        return fail(error, error_size, "%s: expected true, false or null, got '%.40s'", setting->path, text);
+        return scene_settings_fail(error, error_size, "%s: expected true, false or null, got '%.40s'", setting->path,
+                                   text);
     if (!*value)
         *value = calloc(1, sizeof(double));
     if (!*value)
-        return fail(error, error_size, "%s: no more memory", setting->path);
+        return scene_settings_fail(error, error_size, "%s: no more memory", setting->path);
     if (number)
         *(double *)*value = read;
     else
@@ -347,11 +341,12 @@ bool scene_setting_parse(scene_setting *setting, const char *text, char *error, 
     case SCENE_SETTING_TEXT: break;
     case SCENE_SETTING_SWITCH:
         if (strcmp(text, "true") && strcmp(text, "false"))
-            return fail(error, error_size, "%s: expected true or false, got '%.40s'", setting->path, text);
+            return scene_settings_fail(error, error_size, "%s: expected true or false, got '%.40s'", setting->path,
+                                       text);
         *(bool *)setting->value = text[0] == 't';
         return true;
     }
-    return fail(error, error_size, "%s: is a name that only the scene file can change", setting->path);
+    return scene_settings_fail(error, error_size, "%s: is a name that only the scene file can change", setting->path);
 }
 
 bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t count)
@@ -394,8 +389,8 @@ static bool unknown(const char *path, const scene_setting *settings, size_t coun
         names[i] = settings[i].path;
     if (names)
         near = suggest_nearest(path, names, count);
-    fail(error, error_size, "%.80s: the scene has no such setting%s%s%s", path, near ? "; did you mean " : "",
-         near ? near : "", near ? "?" : "");
+    scene_settings_fail(error, error_size, "%.80s: the scene has no such setting%s%s%s", path,
+                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
     free(names);
     return false;
 }
@@ -405,11 +400,12 @@ bool scene_settings_assign(scene_file *scene, const char *assignment, bool *rest
     char path[96];
     const char *equals = strchr(assignment, '=');
     if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof path)
-        return fail(error, error_size, "expected key=value, such as rain.rate_mm_h=50, got '%.60s'", assignment);
+        return scene_settings_fail(error, error_size, "expected key=value, such as rain.rate_mm_h=50, got '%.60s'",
+                                   assignment);
     snprintf(path, sizeof path, "%.*s", (int)(equals - assignment), assignment);
     size_t count, found = 0;
     scene_setting *settings = scene_settings_list(scene, &count);
-    bool good = settings || fail(error, error_size, "no more memory");
+    bool good = settings || scene_settings_fail(error, error_size, "no more memory");
     for (size_t i = 0; good && i < count; i++) {
         if (!path_matches(settings[i].path, path))
             continue;
@@ -556,7 +552,7 @@ static bool write_document(scene_document *document, const char *source, const c
         return false;
     if (!yaml_emitter_initialize(&emitter)) {
         file_abandon(&file);
-        return fail(error, error_size, "no more memory");
+        return scene_settings_fail(error, error_size, "no more memory");
     }
     file_write(&file, head, (size_t)length);
     yaml_emitter_set_output(&emitter, write_bytes, &file);
@@ -569,7 +565,7 @@ static bool write_document(scene_document *document, const char *source, const c
     if (dumped)
         return file_finish(&file, error, error_size);
     file_abandon(&file);
-    return fail(error, error_size, "cannot write %s", path);
+    return scene_settings_fail(error, error_size, "cannot write %s", path);
 }
 
 /* `scene` is what comes out, checked. */
