@@ -283,7 +283,7 @@ static virga_result init(virga_glass *glass)
     list_passes(glass, passes);
     TRY(virga_buffers_create(glass->context, buffers, BUFFERS));
     TRY(virga_bindings_create(glass->context, kinds, BINDINGS, 1, 5 * sizeof(uint32_t), &glass->bindings));
-    TRY(virga_compute_pipelines_create(glass->context, glass->bindings->layout, &glass->needed, passes, PASSES));
+    TRY(virga_compute_pipelines_create(glass->context, glass->bindings->layout, 0, &glass->needed, passes, PASSES));
     TRY(glass_shape_init(glass));
     TRY(glass_picture_create(glass));
 error:

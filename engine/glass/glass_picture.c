@@ -348,7 +348,7 @@ virga_result glass_picture_create(virga_glass *glass)
     TRY(create_images(context, picture));
     picture->filtered = can_filter(context);
     TRY(virga_bindings_create(context, kinds, BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0, &picture->bindings));
-    TRY(virga_compute_pipelines_create(context, picture->bindings->layout, &glass->needed, passes, PASSES));
+    TRY(virga_compute_pipelines_create(context, picture->bindings->layout, 0, &glass->needed, passes, PASSES));
     picture->lanes = shuffled_lanes(context);
     TRY(create_forms(glass));
     TRY(glass_picture_need(glass, &glass->settings));

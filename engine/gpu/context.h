@@ -268,8 +268,8 @@ typedef struct virga_compute_row {
     const char *name;
 } virga_compute_row;
 
-/* As virga_buffers_create and virga_buffers_retire. */
-virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout,
+/* As virga_buffers_create and virga_buffers_retire. `constant` is every row's, see virga_compute_def. */
+virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout, uint32_t constant,
                                             virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count);
 void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
 

@@ -263,7 +263,7 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
     };
-    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, &ground->needed, passes,
+    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, 0, &ground->needed, passes,
                                           sizeof passes / sizeof passes[0]);
 }
 

@@ -258,7 +258,7 @@ static virga_result init(virga_rain *rain)
                            &rain->blank_wind));
     TRY(rain_occlusion_create(rain));
     TRY(rain_descriptors_create(rain));
-    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, &rain->needed, passes, PASSES));
+    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, 0, &rain->needed, passes, PASSES));
 error:
     return result;
 }

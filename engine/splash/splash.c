@@ -296,7 +296,7 @@ static virga_result init(virga_splash *splash)
     TRY(virga_image_create(splash->context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
                            "splash.blank_color", &splash->blank_color));
     TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
-    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, &splash->needed, passes, PASSES));
+    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, 0, &splash->needed, passes, PASSES));
     result = !result && smaller ? VIRGA_DEGRADED : result;
 error:
     return result;
