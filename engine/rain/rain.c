@@ -154,16 +154,17 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     const VkBufferUsageFlags uniform = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    const VkBufferUsageFlags texels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const virga_heap_kind device = VIRGA_HEAP_DEVICE, upload = VIRGA_HEAP_UPLOAD;
     const virga_buffer_row all[] = {
-        {&rain->slot_buffer, slot_bytes, storage, device, "rain.slots"},
-        {&rain->drop_buffer, slots * sizeof(virga_drop_gpu), storage, device, "rain.drops"},
+        {&rain->slot_buffer, slot_bytes, storage | texels, device, "rain.slots"},
+        {&rain->drop_buffer, slots * sizeof(virga_drop_gpu), storage | texels, device, "rain.drops"},
         {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu), indirect,
          device, "rain.impacts"},
         {&rain->pick_buffer, VIRGA_PICK_BYTES(slots), storage, device, "rain.picks"},
         {&rain->list_buffer, sizeof(virga_list_gpu) + slots * sizeof(uint32_t), indirect, device, "rain.list"},
-        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * RAIN_STREAK_BYTES,
-         storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, device, "rain.streaks"},
+        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * RAIN_STREAK_BYTES, storage | texels, device,
+         "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
         {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
         {&rain->hit_buffer, rain->def.max_panes * rain_hits_bytes(), storage, device, "rain.hits"},
@@ -244,6 +245,8 @@ static virga_result init(virga_rain *rain)
     virga_result result = VIRGA_OK;
     virga_buffer_row buffers[BUFFERS];
     virga_compute_row passes[PASSES];
+    const virga_rain_def *def = &rain->def;
+    const uint32_t form = VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
     TRY(create_field(rain));
     list_buffers(rain, buffers);
     list_passes(rain, passes);
@@ -258,7 +261,7 @@ static virga_result init(virga_rain *rain)
                            &rain->blank_wind));
     TRY(rain_occlusion_create(rain));
     TRY(rain_descriptors_create(rain));
-    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, 0, &rain->needed, passes, PASSES));
+    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, form, &rain->needed, passes, PASSES));
 error:
     return result;
 }
@@ -306,8 +309,10 @@ virga_result virga_rain_create(virga_context *context, const virga_rain_def *def
     virga_result result = check_def(&context->log, def, &checked);
     if (result)
         return result;
-    /* Vertex shaders read a streak as texels. */
+    /* Slots, drops and streaks are read as texels. */
     const uint32_t texels = context->properties.limits.maxTexelBufferElements;
+    checked.max_drops = virga_clamp_setting_u32(&context->log, "rain_def.max_drops", checked.max_drops, 1024,
+                                                texels - VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_GROUP, NULL);
     checked.max_streaks = virga_clamp_setting_u32(&context->log, "rain_def.max_streaks", checked.max_streaks, 256,
                                                   texels / (RAIN_STREAK_BYTES / 16), NULL);
     virga_rain *made = NULL;

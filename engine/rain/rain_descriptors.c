@@ -5,7 +5,7 @@
 static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 tick, maps, classes */
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 1 view */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 2 slots */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},    /* 2 slots as texels */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 3 drops */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 4 impacts */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 5 picks */
@@ -23,6 +23,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},     /* 17 streaks as texels */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 18 hits of a pane */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 19 where each slot's hits go */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},    /* 20 drops as texels */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -54,7 +55,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
     const virga_bound bound[BINDINGS] = {
         bound_buffer(rain->tick_ring, sizeof(rain_tick_tables)),
         bound_buffer(rain->view_ring, sizeof(rain_view_block)),
-        bound_buffer(rain->slot_buffer, 0),
+        {.texels = rain->slot_buffer->texels},
         bound_buffer(rain->drop_buffer, 0),
         bound_buffer(rain->impact_buffer, 0),
         bound_buffer(rain->pick_buffer, 0),
@@ -75,6 +76,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
         rain->hit_buffer ? bound_buffer(rain->hit_buffer, rain_hits_bytes())
                          : bound_buffer(unused, sizeof(virga_prepared_gpu)),
         bound_buffer(rain->hit_places ? rain->hit_places : unused, 0),
+        {.texels = rain->drop_buffer->texels},
     };
     return virga_bindings_write(context, rain->bindings, index, bound);
 }

@@ -162,7 +162,7 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, rain_tick_b
         tick->origin[axis] = (float)rain->origin[axis];
     tick->side_m = (float)rain->classes->side_m;
     tick->levels = rain->levels;
-    tick->groups_per_level = rain->groups_per_level;
+    tick->levels_per_group = 1 / (float)rain->groups_per_level;
     tick->groups = rain->groups;
     tick->seed = rain->def.seed;
     tick->tick = (uint32_t)rain->ticks;

@@ -1,32 +1,59 @@
-// field.glsl - what every pass over the field of drops shares: buffers, boxes, weights, occlusion.
-#define VIRGA_GLSL
-#include "shared/rain_gpu.h"
-#include "shared/random.h"
-#include "shared/drop.h"
-#include "shared/impact.h"
-#include "shared/surface.glsl"
-#include "gpu/vectors.glsl"
+// field.glsl - what every pass over the field of drops shares: slots, drops, boxes, weights, occlusion.
+#include "tick.glsl"
 
-// Small tables are uniforms: software Vulkan reads them without a loop over lanes.
-layout(scalar, set = 0, binding = 0) uniform Tick
-{
-    virga_tick_gpu tick;
-    virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
-    virga_class_gpu classes[VIRGA_RAIN_CLASSES];
-};
+// See VIRGA_RAIN_FORM. Software Vulkan runs every lane through what a branch would skip, so what a rain was made without
+// is left out of its pipelines.
+layout(constant_id = 0) const uint FORM = 0u;
+const uint CASCADES = FORM & 7u;
+const uint SLANTS = (FORM >> 3) & 7u;
+const bool SWAYS = (FORM & 64u) != 0u;
+
+// Slots and drops are read as texels: software Vulkan gathers those for eight lanes at once, and goes lane by lane and
+// word by word through a storage buffer.
+layout(set = 0, binding = 2) uniform usamplerBuffer slot_texels;
+layout(set = 0, binding = 20) uniform usamplerBuffer drop_texels;
+#ifndef SWAYS_ACCESS
+#define SWAYS_ACCESS readonly
+#endif
+layout(scalar, set = 0, binding = 8) SWAYS_ACCESS buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, set = 0, binding = 15) readonly buffer Weights
 {
     virga_weight_gpu weights[]; // of class k in box l at l * VIRGA_RAIN_CLASSES + k
 };
-layout(scalar, set = 0, binding = 2) readonly buffer Slots { virga_slot_gpu slots[]; };
 layout(set = 0, binding = 9) uniform sampler2DArray occlusion_depth;
 layout(set = 0, binding = 10) uniform usampler2DArray occlusion_surface;
 
 #define RANK_SOFTNESS 0.05 // share of ranks that fade where the rate changes; the C side inverts it
 #define FADE_FROM 0.75     // of a box's half side, where it begins to hand over to the next
 
-// The box that a slot lies in.
-uint slot_level(uint slot_index) { return slot_index / (tick.groups_per_level * VIRGA_RAIN_GROUP); }
+virga_slot_gpu slot_of(uint slot_index)
+{
+    const uvec4 texel = texelFetch(slot_texels, int(slot_index));
+    return virga_slot_gpu(uint[3](texel.x, texel.y, texel.z), texel.w);
+}
+
+// The drop that a slot has at the end of the tick.
+virga_drop_gpu drop_of(uint slot_index)
+{
+    const uvec4 texel = texelFetch(drop_texels, int(slot_index));
+    const vec3 position = uintBitsToFloat(texel.xyz);
+    return virga_drop_gpu(float[3](position.x, position.y, position.z), texel.w);
+}
+
+vec3 velocity_of(uint slot_index, uint size_class)
+{
+    vec3 velocity = to_vec(classes[size_class].velocity);
+    if (SWAYS && tick.sway != 0u)
+        velocity += to_vec(sways[slot_index].velocity);
+    return velocity;
+}
+
+// The box that a slot lies in. Whole numbers are divided lane by lane on software Vulkan, and a quotient of at most
+// 16384 / 1 is right in float, half a group away from the next.
+uint slot_level(uint slot_index)
+{
+    return uint((float(slot_index / VIRGA_RAIN_GROUP) + 0.5) * tick.levels_per_group);
+}
 
 // Radius of the square around the camera: boxes are cubes.
 float box_radius(vec3 p) { return max(max(abs(p.x), abs(p.y)), abs(p.z)); }
@@ -82,20 +109,26 @@ vec2 map_texel(virga_map_gpu map, vec3 p)
 }
 
 // The finest map that holds the place. Straight-line code: software Vulkan runs every lane through every branch, so
-// one map is chosen by arithmetic and fetched from once.
+// all maps are looked at by constant index, one is kept by arithmetic, and fetched from once.
 Shelter find_shelter(vec3 p, uint slant)
 {
     uint chosen = VIRGA_RAIN_MAX_MAPS;
     vec2 texel = vec2(0.0);
-    for (uint i = tick.cascades; i > 0u; i--) {
-        const uint index = (i - 1u) * tick.slants + slant;
-        const vec2 at = map_texel(maps[index], p);
-        const bool inside = min(at.x, at.y) >= 1.0 && max(at.x, at.y) < maps[index].texels - 1.0;
-        chosen = inside ? index : chosen;
+    virga_map_gpu map = maps[0];
+    for (uint i = CASCADES * SLANTS; i > 0u; i--) {
+        const virga_map_gpu other = maps[i - 1u];
+        const vec2 at = map_texel(other, p);
+        const bool inside = (i - 1u) % SLANTS == slant && min(at.x, at.y) >= 1.0 && max(at.x, at.y) < other.texels - 1.0;
+        chosen = inside ? i - 1u : chosen;
         texel = inside ? at : texel;
+        map.inv_half_m = inside ? other.inv_half_m : map.inv_half_m;
+        map.texels = inside ? other.texels : map.texels;
+        map.slant[0] = inside ? other.slant[0] : map.slant[0];
+        map.slant[1] = inside ? other.slant[1] : map.slant[1];
+        map.top_m = inside ? other.top_m : map.top_m;
+        map.height_m = inside ? other.height_m : map.height_m;
     }
     const bool known = chosen < VIRGA_RAIN_MAX_MAPS && tick.maps > 0u;
-    const virga_map_gpu map = maps[known ? chosen : 0u];
     Shelter found = Shelter(-1e9, known ? chosen : VIRGA_RAIN_MAX_MAPS, ivec3(texel, known ? chosen : 0u));
     const float depth = texelFetch(occlusion_depth, found.texel, 0).r;
     const ivec3 surface_texel = tick.host_depth != 0u ? ivec3(0) : found.texel; // a host's depth has no surfaces

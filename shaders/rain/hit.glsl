@@ -5,8 +5,6 @@
 // by a hash. The slots of a class lie anywhere in their box, so its drops do too; and only the cells that the pane has
 // swept need to be looked at, of thousands. The first drop is the slot's own, with its id: the one whose streak is
 // drawn.
-layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, push_constant) uniform Pane { virga_rain_pane_gpu pane; };
 
 #define MOST_CELLS 24.0 // along a side of a slot's cube; where it stands for more drops each has the water of several
@@ -38,13 +36,11 @@ struct Walk {
 Slot slot_at(uint slot_index)
 {
     Slot slot;
-    const uint class_rank = slots[slot_index].class_rank, level = slot_level(slot_index);
+    const uint class_rank = slot_of(slot_index).class_rank, level = slot_level(slot_index);
     slot.size_class = class_rank & 0xffffu;
-    slot.position = to_vec(drops[slot_index].position);
-    slot.id = drops[slot_index].id;
-    slot.velocity = to_vec(classes[slot.size_class].velocity);
-    if (tick.sway != 0u)
-        slot.velocity += to_vec(sways[slot_index].velocity);
+    slot.position = to_vec(drop_of(slot_index).position);
+    slot.id = drop_of(slot_index).id;
+    slot.velocity = velocity_of(slot_index, slot.size_class);
     slot.way = (slot.velocity - to_vec(pane.velocity)) * pane.step_s;
     slot.level = level;
     slot.weight = full_weight(level, slot.size_class, class_rank >> 16);

@@ -3,8 +3,6 @@
 // A drop is under the sky where the first thing on its line of fall is below it. It met that thing in the tick in which
 // it went from above to below. A drop that comes under cover from the side (lines of fall drift a little in gusts) does
 // not hit the cover far above it: the surface must lie on the way of this tick.
-layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 
 struct Hit {
     bool met;     // decided once, by impact_find.comp: floats may come out otherwise in another shader
@@ -18,13 +16,11 @@ struct Hit {
 // Without branches: software Vulkan runs every lane through all of them, and reads buffers faster outside.
 Hit find_hit(uint slot_index)
 {
-    const uint class_rank = slots[slot_index].class_rank;
+    const uint class_rank = slot_of(slot_index).class_rank;
     const uint size_class = class_rank & 0xffffu;
-    const virga_drop_gpu drop = drops[slot_index];
+    const virga_drop_gpu drop = drop_of(slot_index);
     const vec3 now = to_vec(drop.position);
-    vec3 velocity = to_vec(classes[size_class].velocity);
-    if (tick.sway != 0u)
-        velocity += to_vec(sways[slot_index].velocity);
+    const vec3 velocity = velocity_of(slot_index, size_class);
     const vec3 before = now - velocity * tick.tick_s;
     const float fallen = before.y - now.y;
     const uint slant = classes[size_class].slant;

@@ -8,8 +8,6 @@
 #include "gpu/compact_find.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
-layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 
 // Both ends beyond the same side of the picture (in clip coordinates, where the sides are planes), by more than `m`.
 bool outside(vec4 head, vec4 tail, vec2 m)
@@ -21,13 +19,11 @@ bool outside(vec4 head, vec4 tail, vec2 m)
 // Without branches: software Vulkan runs every lane through all of them, and reads buffers faster outside.
 uint kind_of_streak(uint slot_index)
 {
-    const uint class_rank = slots[slot_index].class_rank;
+    const uint class_rank = slot_of(slot_index).class_rank;
     const uint size_class = class_rank & 0xffffu;
     const float diameter = classes[size_class].diameter_m;
-    vec3 velocity = to_vec(classes[size_class].velocity);
-    if (tick.sway != 0u)
-        velocity += to_vec(sways[slot_index].velocity);
-    const vec3 at_tick = to_vec(drops[slot_index].position);
+    const vec3 velocity = velocity_of(slot_index, size_class);
+    const vec3 at_tick = to_vec(drop_of(slot_index).position);
     const float weight = drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
     const vec3 p = at_tick + to_vec(view.origin_offset);
     const vec4 head = to_mat(view.clip_from_rel) * vec4(p + velocity * view.time_close_s, 1.0);

@@ -14,8 +14,6 @@
 #include "gpu/compact_buffers.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
-layout(scalar, set = 0, binding = 3) readonly buffer Drops { virga_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 8) readonly buffer Sways { virga_sway_gpu sways[]; };
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
 // The same buffer: behind `max_streaks` streaks of four texels each lies a texel for each one's motion.
 layout(scalar, set = 0, binding = 7) writeonly buffer Motions { vec4 motions[]; };
@@ -106,14 +104,12 @@ void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
 virga_streak_gpu make_streak(uint slot_index, uint index)
 {
     virga_streak_gpu streak = empty_streak();
-    const uint class_rank = slots[slot_index].class_rank;
+    const uint class_rank = slot_of(slot_index).class_rank;
     const uint size_class = class_rank & 0xffffu;
-    const virga_drop_gpu drop = drops[slot_index];
+    const virga_drop_gpu drop = drop_of(slot_index);
     const vec3 at_tick = to_vec(drop.position);
     const float diameter = classes[size_class].diameter_m;
-    vec3 velocity = to_vec(classes[size_class].velocity);
-    if (tick.sway != 0u)
-        velocity += to_vec(sways[slot_index].velocity);
+    const vec3 velocity = velocity_of(slot_index, size_class);
     vec3 head = at_tick + velocity * view.time_close_s, tail = at_tick + velocity * view.time_open_s;
     const float whole_way = distance(head, tail);
     if (!cut_at_surface(tail, head, classes[size_class].slant))

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "field.glsl"
+#include "tick.glsl"
 #include "view.glsl"
 #include "streak.glsl"
 #include "gpu/streak_profile.glsl"

@@ -6,19 +6,18 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#define SWAYS_ACCESS // written here
 #include "field.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
-layout(scalar, set = 0, binding = 3) buffer Drops { virga_drop_gpu drops[]; };
-layout(scalar, set = 0, binding = 8) buffer Sways { virga_sway_gpu sways[]; };
 layout(set = 0, binding = 11) uniform sampler3D wind;
 
 void main()
 {
     const uint slot_index = gl_GlobalInvocationID.x;
-    const uint level = gl_WorkGroupID.x / tick.groups_per_level;
-    const uint size_class = slots[slot_index].class_rank & 0xffffu;
-    const vec3 p = to_vec(drops[slot_index].position); // at the end of the tick before
+    const uint level = slot_level(slot_index);
+    const uint size_class = slot_of(slot_index).class_rank & 0xffffu;
+    const vec3 p = to_vec(drop_of(slot_index).position); // at the end of the tick before
     const vec3 class_velocity = to_vec(classes[size_class].velocity);
     virga_sway_gpu sway = sways[slot_index];
 

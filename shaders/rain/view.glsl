@@ -1,4 +1,4 @@
-// view.glsl - a view's parameters, and what a streak covers in it. After field.glsl.
+// view.glsl - a view's parameters, and what a streak covers in it. After tick.glsl.
 #include "shared/view_gpu.h"
 
 layout(scalar, set = 0, binding = 1) uniform View

@@ -53,7 +53,7 @@ struct virga_weight_gpu {
 struct virga_tick_gpu {
     float side_m;        /* of the widest box */
     uint levels;
-    uint groups_per_level; /* workgroups to a box */
+    float levels_per_group; /* 1 / the workgroups to a box */
     uint groups;         /* workgroups in all */
     uint seed;
     uint tick;

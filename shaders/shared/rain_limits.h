@@ -8,6 +8,8 @@
 #define VIRGA_RAIN_MAX_CASCADES 4
 #define VIRGA_RAIN_MAX_SLANTS 4
 #define VIRGA_RAIN_MAX_MAPS 16    /* cascades x slants */
+/* What rain's compute pipelines are made for: their specialisation constant. */
+#define VIRGA_RAIN_FORM(cascades, slants, sways) ((cascades) | (slants) << 3 | ((sways) ? 64 : 0))
 #define VIRGA_RAIN_MAX_PANES 8      /* that drops are caught on in a frame */
 #define VIRGA_RAIN_MAX_HITS 8192    /* drops that meet one of them in a step */
 #define VIRGA_RAIN_MAX_VIEWS 16     /* prepares a frame */

@@ -32,7 +32,8 @@ typedef struct virga_rain_def {
     uint32_t size, cookie;
     uint32_t seed;         /* another seed, other drops with the same statistics. Default 1 */
     uint32_t max_drops;    /* [1024; 4194304] slots, rounded up to whole workgroups a box. Quality falls with it, the
-                            * rate never. 32 bytes of device memory each, 40 more with wind_texture. Default 131072 */
+                            * rate never. 32 bytes of device memory each, 40 more with wind_texture. Not more than the
+                            * device's maxTexelBufferElements less 3072. Default 131072 */
     float range_m;         /* [4; 512] drops are drawn and land up to here from the camera, haze takes over beyond.
                             * Default 32 */
     uint32_t max_impacts;  /* [256; 4194240] impacts that one step can hold, 64 bytes each; more are counted and
