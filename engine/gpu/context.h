@@ -429,8 +429,8 @@ void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, con
 void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
                                          VkBuffer arguments, VkDeviceSize offset);
 
-/* Ordered compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. Leaves the list ready
- * for a pass over it. */
+/* Ordered compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. The pass that lists has
+ * an invocation for each word of 32 slots. Leaves the list ready for a pass over it. */
 void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
                        const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
 

@@ -64,7 +64,7 @@ void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, scan, 1);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_and_barrier(context, cmd, list, groups);
+    virga_dispatch_and_barrier(context, cmd, list, (groups + 31) / 32);
 }
 
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,

@@ -9,6 +9,8 @@
 #include "shaders/rain_hit_scan_comp.spv.h"
 #include "shaders/rain_hit_write_comp.spv.h"
 #include "shaders/rain_impact_find_comp.spv.h"
+#include "shaders/rain_impact_near_comp.spv.h"
+#include "shaders/rain_impact_near_scan_comp.spv.h"
 #include "shaders/rain_impact_scan_comp.spv.h"
 #include "shaders/rain_impact_write_comp.spv.h"
 #include "shaders/rain_list_comp.spv.h"
@@ -143,7 +145,7 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 /* ---- creating */
 
 /* What rain makes and lets go of, each in one table for both. */
-enum { BUFFERS = 17, PASSES = 15 };
+enum { BUFFERS = 17, PASSES = 17 };
 
 static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 {
@@ -189,6 +191,8 @@ static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
     const virga_compute_row all[] = {
         {&rain->step, VIRGA_SPIRV(rain_step_comp), "rain.step"},
         {&rain->sway, VIRGA_SPIRV(rain_sway_comp), "rain.sway"},
+        {&rain->impact_near, VIRGA_SPIRV(rain_impact_near_comp), "rain.impact_near"},
+        {&rain->impact_near_scan, VIRGA_SPIRV(rain_impact_near_scan_comp), "rain.impact_near_scan"},
         {&rain->impact_find, VIRGA_SPIRV(rain_impact_find_comp), "rain.impact_find"},
         {&rain->list, VIRGA_SPIRV(rain_list_comp), "rain.list"},
         {&rain->impact_scan, VIRGA_SPIRV(rain_impact_scan_comp), "rain.impact_scan"},

@@ -146,8 +146,9 @@ struct virga_rain {
     VkDescriptorSet step_set; /* of the frame step_set_frame */
     uint64_t step_set_frame;
     virga_pipeline_group needed; /* for all but the draws */
-    virga_pipeline *step, *sway, *impact_find, *impact_scan, *impact_write, *prepare_find, *prepare_scan,
-        *prepare_write, *list, *points, *hit_find, *hit_scan, *hit_count, *hit_place, *hit_write;
+    virga_pipeline *step, *sway, *impact_near, *impact_near_scan, *impact_find, *impact_scan, *impact_write,
+        *prepare_find, *prepare_scan, *prepare_write, *list, *points, *hit_find, *hit_scan, *hit_count, *hit_place,
+        *hit_write;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
 
     uint64_t hits_frame; /* that hits_panes belongs to */

@@ -219,8 +219,11 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "rain.impacts");
-    virga_record_list(context, cmd, rain->impact_find, rain->impact_scan, rain->list, rain->groups);
-    virga_dispatch_indirect(context, cmd, rain->impact_write, rain->list_buffer->buffer, 0);
+    const VkBuffer list = rain->list_buffer->buffer;
+    virga_record_list(context, cmd, rain->impact_near, rain->impact_near_scan, rain->list, rain->groups);
+    virga_dispatch_indirect_and_barrier(context, cmd, rain->impact_find, list, 0);
+    virga_dispatch_and_barrier(context, cmd, rain->impact_scan, 1);
+    virga_dispatch_indirect(context, cmd, rain->impact_write, list, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     virga_pass_end(context, cmd, scope);

@@ -4,7 +4,8 @@
 //
 // find:  each slot's pick becomes a bit in shared memory (an OR does not care for order), 32 slots to a word
 // scan:  one workgroup turns the words' counts into places
-// list:  each picked slot finds its place by counting the bits before its own, and writes its number there
+// list:  each picked slot's number goes to its place: a lane for each word of slots, or for each slot, which finds its
+//        place by counting the bits before its own
 // write: a dispatch as long as the list, so that no invocation works for a slot that was not picked
 //
 // The list is in the order of slots, whatever order the device runs groups in. Slots are picked as one of two kinds,

@@ -1,7 +1,6 @@
 // compact_list.glsl - the listing part of ordered compaction, see compact_buffers.glsl.
 #include "gpu/compact_buffers.glsl"
 
-#ifdef COMPACT_LISTS
 // Writes a word's picks into the entries from `entry` on, each at its place where there is room; `slot` is that of its
 // first bit. A lane for a word: 32 lanes that read the same word cost software Vulkan four times as much.
 void list_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
@@ -16,7 +15,8 @@ void list_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
         place += uvec2(1u - second, second);
     }
 }
-#else
+
+#ifndef COMPACT_LISTS
 // Writes a slot into the list, at its place, if it was picked and there is room.
 void list_pick(uint slot_index)
 {

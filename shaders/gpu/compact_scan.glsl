@@ -49,6 +49,7 @@ uvec2 scan_picks(uint groups, uint most)
         list.second_kind = head.second_kind;
         list.count = head.count;
         list.group_count = head.group_count;
+        list.words = groups * GROUP_WORDS;
     }
     return total;
 }

@@ -82,12 +82,24 @@ float drop_weight(vec3 p, uint level, uint size_class, uint rank)
     return full_weight(level, size_class, rank) * level_share(box_radius(p), level);
 }
 
+// Where a place is in the occlusion maps.
+struct MapPlace {
+    virga_map_gpu map;
+    uint index;     // VIRGA_RAIN_MAX_MAPS: in none
+    vec2 texel;
+};
+
 // Where the line of fall through a place first meets something.
 struct Shelter {
     float height;   // of that point, relative to the origin; far below where nothing is known
     uint map;       // VIRGA_RAIN_MAX_MAPS: none
     ivec3 texel;
 };
+
+#define NOTHING_BELOW -1e9 // height where nothing is known
+#define MOST_OFFSET 4.0    // texels that a slope can add to a height
+
+float texel_side_m(virga_map_gpu map) { return 2.0 / (map.inv_half_m * map.texels); }
 
 // Height on the plane of the texel's surface, not only at its middle, so that slopes are not stairs. With the map's
 // coordinate X = x + s (y - y0), a plane n.p = c has dy/dX = -n.x / (n.y - n.x s.x - n.z s.z).
@@ -96,9 +108,9 @@ float plane_offset(virga_map_gpu map, vec2 from_middle, vec3 normal)
     const float across = normal.y - normal.x * map.slant[0] - normal.z * map.slant[1];
     if (abs(across) < 0.05)
         return 0.0;
-    const float texel_m = 2.0 / (map.inv_half_m * map.texels);
+    const float texel_m = texel_side_m(map);
     const float offset = -dot(normal.xz, from_middle) * texel_m / across;
-    return clamp(offset, -4.0 * texel_m, 4.0 * texel_m);
+    return clamp(offset, -MOST_OFFSET * texel_m, MOST_OFFSET * texel_m);
 }
 
 // Texel of a place in a map; outside of [1; texels - 1) there is none.
@@ -109,31 +121,45 @@ vec2 map_texel(virga_map_gpu map, vec3 p)
 }
 
 // The finest map that holds the place. Straight-line code: software Vulkan runs every lane through every branch, so
-// all maps are looked at by constant index, one is kept by arithmetic, and fetched from once.
+// all maps are looked at by constant index, and one is kept by arithmetic.
+MapPlace map_place(vec3 p, uint slant)
+{
+    MapPlace place = MapPlace(maps[0], VIRGA_RAIN_MAX_MAPS, vec2(0.0));
+    for (uint i = CASCADES * SLANTS; i > 0u; i--) {
+        const virga_map_gpu map = maps[i - 1u];
+        const vec2 at = map_texel(map, p);
+        const bool inside =
+            (i - 1u) % SLANTS == slant && min(at.x, at.y) >= 1.0 && max(at.x, at.y) < map.texels - 1.0;
+        place.index = inside ? i - 1u : place.index;
+        place.texel = inside ? at : place.texel;
+        place.map.inv_half_m = inside ? map.inv_half_m : place.map.inv_half_m;
+        place.map.texels = inside ? map.texels : place.map.texels;
+        place.map.slant[0] = inside ? map.slant[0] : place.map.slant[0];
+        place.map.slant[1] = inside ? map.slant[1] : place.map.slant[1];
+        place.map.top_m = inside ? map.top_m : place.map.top_m;
+        place.map.height_m = inside ? map.height_m : place.map.height_m;
+    }
+    place.index = tick.maps > 0u ? place.index : VIRGA_RAIN_MAX_MAPS;
+    return place;
+}
+
+ivec3 texel_of(MapPlace place) { return ivec3(place.texel, place.index < VIRGA_RAIN_MAX_MAPS ? place.index : 0u); }
+
+// Height of the surface in the middle of the place's texel.
+float middle_height(MapPlace place)
+{
+    const float depth = texelFetch(occlusion_depth, texel_of(place), 0).r;
+    const bool known = place.index < VIRGA_RAIN_MAX_MAPS && depth < 1.0;
+    return known ? place.map.top_m - depth * place.map.height_m : NOTHING_BELOW;
+}
+
 Shelter find_shelter(vec3 p, uint slant)
 {
-    uint chosen = VIRGA_RAIN_MAX_MAPS;
-    vec2 texel = vec2(0.0);
-    virga_map_gpu map = maps[0];
-    for (uint i = CASCADES * SLANTS; i > 0u; i--) {
-        const virga_map_gpu other = maps[i - 1u];
-        const vec2 at = map_texel(other, p);
-        const bool inside = (i - 1u) % SLANTS == slant && min(at.x, at.y) >= 1.0 && max(at.x, at.y) < other.texels - 1.0;
-        chosen = inside ? i - 1u : chosen;
-        texel = inside ? at : texel;
-        map.inv_half_m = inside ? other.inv_half_m : map.inv_half_m;
-        map.texels = inside ? other.texels : map.texels;
-        map.slant[0] = inside ? other.slant[0] : map.slant[0];
-        map.slant[1] = inside ? other.slant[1] : map.slant[1];
-        map.top_m = inside ? other.top_m : map.top_m;
-        map.height_m = inside ? other.height_m : map.height_m;
-    }
-    const bool known = chosen < VIRGA_RAIN_MAX_MAPS && tick.maps > 0u;
-    Shelter found = Shelter(-1e9, known ? chosen : VIRGA_RAIN_MAX_MAPS, ivec3(texel, known ? chosen : 0u));
-    const float depth = texelFetch(occlusion_depth, found.texel, 0).r;
+    const MapPlace place = map_place(p, slant);
+    Shelter found = Shelter(middle_height(place), place.index, texel_of(place));
     const ivec3 surface_texel = tick.host_depth != 0u ? ivec3(0) : found.texel; // a host's depth has no surfaces
     const vec3 normal = unpack_normal(texelFetch(occlusion_surface, surface_texel, 0).r);
-    const float offset = tick.host_depth != 0u ? 0.0 : plane_offset(map, fract(texel) - 0.5, normal);
-    found.height = known && depth < 1.0 ? map.top_m - depth * map.height_m + offset : found.height;
+    const float offset = plane_offset(place.map, fract(place.texel) - 0.5, normal);
+    found.height += tick.host_depth != 0u || found.height == NOTHING_BELOW ? 0.0 : offset;
     return found;
 }

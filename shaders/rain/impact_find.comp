@@ -1,4 +1,5 @@
-// impact_find.comp - marks the slots whose drops met a surface in this tick.
+// impact_find.comp - marks which of the listed slots have drops that met a surface in this tick. What is marked from
+// here on is the list's entries.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,6 +12,7 @@ layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
 void main()
 {
-    const uint slot_index = gl_GlobalInvocationID.x;
-    mark_pick(find_hit(slot_index).met ? FIRST_KIND : NOT_PICKED);
+    const uint entry = gl_GlobalInvocationID.x;
+    const bool met = find_hit(listed[min(entry, list.count - 1u)]).met;
+    mark_pick(entry < list.count && met ? FIRST_KIND : NOT_PICKED);
 }

@@ -1,4 +1,4 @@
-// impact_write.comp - writes the impacts that were marked.
+// impact_write.comp - writes the impacts of the list's entries that were marked.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -48,11 +48,13 @@ void add_water(uint water)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= list.count)
+    const uint entry = gl_GlobalInvocationID.x, bit = 1u << (entry & 31u);
+    const uvec4 word = picks[entry >> 5];
+    if ((word.x & bit) == 0u)
         return;
-    Hit hit = find_hit(listed[gl_GlobalInvocationID.x]);
+    Hit hit = find_hit(listed[entry]);
     hit.weight = max(hit.weight, 1e-6); // above 0 where it was found
-    const uint place = list.first + gl_GlobalInvocationID.x;
+    const uint place = list.first + word.z + bitCount(word.x & (bit - 1u));
     const float diameter = classes[hit.size_class].diameter_m;
     const uint water = water_of(diameter, hit.weight, hit.id);
     add_water(water);

@@ -9,4 +9,9 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { list_pick(gl_GlobalInvocationID.x); }
+void main()
+{
+    const uint word = gl_GlobalInvocationID.x;
+    if (word < list.words)
+        list_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
+}

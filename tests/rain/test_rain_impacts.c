@@ -5,15 +5,16 @@
 
 #include <math.h>
 
-/* Impacts on 5 m x 5 m of floor, gathered over some time. */
+/* Impacts on a square of floor, gathered over some time. */
 typedef struct landed {
+    float half_m;                 /* half of its side, seen from above */
     double water_m3, variance_m6; /* and the variance of the sum, each impact counted as a Poisson event */
     double number;
     uint32_t impacts;
     double *diameters, *weights;
 } landed;
 
-enum { MOST_IMPACTS = 4000000 };
+enum { MOST_IMPACTS = 4000000, MAP_SIZE = 256 };
 
 static void gather(const rain_fixture *f, landed *sum)
 {
@@ -22,7 +23,7 @@ static void gather(const rain_fixture *f, landed *sum)
     assert_int_equal(head->dropped, 0);
     for (uint32_t i = 0; i < head->count; i++) {
         const float x = list[i].position[0] + head->origin[0], z = list[i].position[2] + head->origin[2];
-        if (fabsf(x) > 2.5f || fabsf(z) > 2.5f || sum->impacts == MOST_IMPACTS)
+        if (fabsf(x) > sum->half_m || fabsf(z) > sum->half_m || sum->impacts == MOST_IMPACTS)
             continue;
         const double volume = virga_drop_volume((double)list[i].diameter_m), weight = (double)list[i].weight;
         sum->water_m3 += weight * volume;
@@ -33,21 +34,30 @@ static void gather(const rain_fixture *f, landed *sum)
     }
 }
 
-static void run(rain_fixture *f, double rate, double seconds, landed *sum)
+/* A floor that rises by `slope` along x. */
+static void sloping_floor(rain_fixture *f, float slope)
+{
+    const float low = -100 * slope, high = 100 * slope;
+    const float quad[1][4][3] = {{{-100, low, -100}, {100, high, -100}, {100, high, 100}, {-100, low, 100}}};
+    rain_fixture_quads(f, quad, 1);
+}
+
+static void run(rain_fixture *f, double rate, double seconds, float slope, uint32_t map_size, landed *sum)
 {
     virga_rain_def def = virga_default_rain_def();
     def.max_drops = 24576;
     def.range_m = 6;
-    def.occlusion_size = 256;
+    def.occlusion_size = map_size;
     def.tick_s = 1.0 / 30;
     def.seed = (uint32_t)rate;
     rain_fixture_open(f);
-    rain_fixture_floor(f);
+    sloping_floor(f, slope);
     rain_fixture_rain(f, &def);
     f->camera[1] = 1.7;
     f->settings.rate_mm_h = (float)rate;
     assert_int_equal(virga_rain_set(f->rain, &f->settings), VIRGA_OK);
     memset(sum, 0, sizeof *sum);
+    sum->half_m = slope > 0 ? 1.25f : 2.5f;
     sum->diameters = malloc(MOST_IMPACTS * sizeof(double));
     sum->weights = malloc(MOST_IMPACTS * sizeof(double));
     for (int step = 0; step < (int)(seconds * 3); step++) {
@@ -63,13 +73,14 @@ static void finish(rain_fixture *f, landed *sum)
     rain_fixture_close(f);
 }
 
-static void check_rate(double rate)
+static void check_rate(double rate, float slope, uint32_t map_size)
 {
     rain_fixture f;
     landed sum;
     const double seconds = 60;
-    run(&f, rate, seconds, &sum);
-    const double asked = rate * 1e-3 / 3600 * seconds * 25, noise = sqrt(sum.variance_m6);
+    run(&f, rate, seconds, slope, map_size, &sum);
+    const double area_m2 = 4 * (double)sum.half_m * (double)sum.half_m;
+    const double asked = rate * 1e-3 / 3600 * seconds * area_m2, noise = sqrt(sum.variance_m6);
     printf("%g mm/h: %u impacts, %.4f of the water asked for, counting noise %.2f %%\n", rate, sum.impacts,
            sum.water_m3 / asked, 100 * noise / asked);
     assert_true(fabs(sum.water_m3 - asked) <= 0.01 * asked + 2.5 * noise);
@@ -79,19 +90,26 @@ static void check_rate(double rate)
 static void drizzle_lands_at_its_rate(void **state)
 {
     (void)state;
-    check_rate(1);
+    check_rate(1, 0, MAP_SIZE);
 }
 
 static void heavy_rain_lands_at_its_rate(void **state)
 {
     (void)state;
-    check_rate(25);
+    check_rate(25, 0, MAP_SIZE);
 }
 
 static void a_cloudburst_lands_at_its_rate(void **state)
 {
     (void)state;
-    check_rate(100);
+    check_rate(100, 0, MAP_SIZE);
+}
+
+/* Seen from above a hillside gets as much as a floor, also where a texel of the map is a step of half a metre. */
+static void a_steep_slope_gets_its_rain(void **state)
+{
+    (void)state;
+    check_rate(25, 2, 64);
 }
 
 typedef struct weighted {
@@ -110,7 +128,7 @@ static void sizes_follow_the_distribution(void **state)
     (void)state;
     rain_fixture f;
     landed sum;
-    run(&f, 25, 6, &sum);
+    run(&f, 25, 6, 0, MAP_SIZE, &sum);
     weighted *sorted = malloc(sum.impacts * sizeof *sorted);
     double squares = 0;
     for (uint32_t i = 0; i < sum.impacts; i++) {
@@ -141,7 +159,7 @@ static void impacts_have_the_speed_of_their_size(void **state)
     (void)state;
     rain_fixture f;
     landed sum;
-    run(&f, 25, 1, &sum);
+    run(&f, 25, 1, 0, MAP_SIZE, &sum);
     const virga_impact_gpu *list;
     const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
     assert_true(head->count > 100);
@@ -161,7 +179,7 @@ static void water_in_nanolitres_adds_up_to_the_head(void **state)
     (void)state;
     rain_fixture f;
     landed sum;
-    run(&f, 25, 1, &sum);
+    run(&f, 25, 1, 0, MAP_SIZE, &sum);
     const virga_impact_gpu *list;
     const virga_impacts_gpu *head = rain_fixture_impacts(&f, &list);
     uint64_t water = 0;
@@ -211,6 +229,7 @@ int main(void)
         cmocka_unit_test(drizzle_lands_at_its_rate),
         cmocka_unit_test(heavy_rain_lands_at_its_rate),
         cmocka_unit_test(a_cloudburst_lands_at_its_rate),
+        cmocka_unit_test(a_steep_slope_gets_its_rain),
         cmocka_unit_test(impacts_are_ready_as_indirect_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
