@@ -158,10 +158,6 @@ void main()
 #ifndef MIRROR
     // Under water, whose index is near its own, hardly anything shines: the water does.
     reflected *= 1.0 - water.puddle;
-    // A film on level ground sees no ground: only sky, and a quarter of it from what stands in the way.
-    float sky = clamp(0.5 * (moments.w + dot(moments.xyz, r)), 0.0, 1.0);
-    float film_share = sky + 0.25 * moments.w * (1.0 - sky);
-    reflected *= mix(1.0, film_share / max(sky_share(moments, r), 1e-3), water.film * clamp(frame.mirror.z, 0.0, 1.0));
     f0 *= 1.0 - water.puddle;
     roughness = mix(roughness, 1.0, water.puddle);
 #endif

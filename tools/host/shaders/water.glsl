@@ -1,8 +1,9 @@
 // water.glsl - a material that is damp, wet or under water.
 //
 // Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes
-// it glossier; a puddle is a mirror of its own over it, with the reflectance of water (0.0204 at right angles) and the
-// level normal.
+// it glossier; from a tenth of a millimetre on water has a level surface of its own over it, with the reflectance of water
+// (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for both, that
+// mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim.
 #include "shared/ground_map.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
@@ -12,10 +13,10 @@ layout(set = 0, binding = 6) uniform sampler2D ripple_map;
 struct Water {
     float damp;     // [0; 1] of the pores
     float film;     // [0; 1] share of the surface that is a film
-    float puddle;   // [0; 1] share that is a mirror
+    float puddle;   // [0; 1] share that has a surface of its own
     float depth_mm;
-    float roughness; // of the mirror
-    vec3 normal;     // of the mirror
+    float roughness; // of that surface
+    vec3 normal;     // of that surface
 };
 
 // Slope of the rings around the camera, faded out towards the end of their map, where only their variance is left.
@@ -42,7 +43,7 @@ Water water_at(vec3 relative, vec3 n)
     Water water;
     water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
     water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
-    water.puddle = level * smoothstep(0.5, 1.6, wet.depth_mm);
+    water.puddle = level * smoothstep(0.05, 0.4, wet.depth_mm);
     water.depth_mm = level * wet.depth_mm;
     float drawn;
     water.normal = water_normal(relative, pixel / max(inv_cell, 1e-6), drawn);
@@ -52,6 +53,8 @@ Water water_at(vec3 relative, vec3 n)
     const vec2 slope = water.normal.xz / water.normal.y, right = dFdx(slope), down = dFdy(slope);
     const float within = 0.25 * (dot(right, right) + dot(down, down));
     water.roughness = clamp(sqrt(sqrt(2.0 * (wet.slope2 * (1.0 - 0.7 * drawn) + within))), 0.03, 0.5);
+    // Thin water still follows the grains below.
+    water.roughness = max(water.roughness, 0.34 * (1.0 - smoothstep(0.1, 2.0, wet.depth_mm)));
     return water;
 }
 
