@@ -577,6 +577,23 @@ def make_church(scene):
     scene.place(g)
 
 
+def make_close(scene):
+    """What one sees between the church and its neighbours: no sky shows beside it under the bridge."""
+    front, depth, eaves, ridge = END_Z - 5.0, 8.0, 6.8, 12.4
+    back, middle = front - depth, front - depth / 2
+    for name, wall, x0, x1 in (("parish", "plaster_cream", -19.0, -6.9), ("school", "brick_brown", 5.4, 18.0)):
+        g = Group(name, TILES)
+        g.box(wall, (x0, 0, back), (x1, eaves, front), "yY")
+        for x, out in ((x0, -1), (x1, 1)):
+            gable = [(x, eaves, front), (x, eaves, back), (x, ridge, middle)]
+            g.poly(wall, gable if out > 0 else gable[::-1])
+        low = eaves - 0.3
+        for z, sign in ((front + 0.4, 1), (back - 0.4, -1)):
+            a, b = (x0 - 0.3, x1 + 0.3) if sign > 0 else (x1 + 0.3, x0 - 0.3)
+            g.poly("tile_slate", [(a, low, z), (b, low, z), (b, ridge + 0.1, middle), (a, ridge + 0.1, middle)])
+        scene.place(g)
+
+
 def rose_window(g, centre):
     """A round window and a pointed portal, both lit from inside."""
     x, y, z = centre
@@ -699,9 +716,8 @@ def make_furniture(scene):
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     scene = Scene(MATERIALS, street_textures.all_images())
-    for make in (make_ground, make_markings, make_kerbs, make_houses, make_bridge, make_church, make_awning,
-                 make_market,
-                 make_trees, make_furniture):
+    for make in (make_ground, make_markings, make_kerbs, make_houses, make_bridge, make_church, make_close, make_awning,
+                 make_market, make_trees, make_furniture):
         make(scene)
     path = os.path.join(here, "scenes", "street.glb")
     scene.write(path)
