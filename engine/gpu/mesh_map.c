@@ -32,8 +32,8 @@ void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map)
 {
     if (!*map)
         return;
-    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
-        VIRGA_RETIRE(context, (*map)->pipelines[i]);
+    for (uint32_t i = 0; i < 2 * VIRGA_MAP_STRIDES; i++)
+        VIRGA_RETIRE(context, (*map)->pipelines[i / VIRGA_MAP_STRIDES][i % VIRGA_MAP_STRIDES]);
     VIRGA_RETIRE(context, (*map)->depth);
     VIRGA_RETIRE(context, (*map)->surface);
     VIRGA_RETIRE(context, *map);
@@ -140,11 +140,12 @@ static virga_result create_pipelines(virga_context *context, virga_pipeline_grou
                               .depth_write = true,
                               .group = group,
                               .name = map->name};
-    for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++) {
-        def.vertex_stride = map->strides[i];
-        if (map->strides[i])
-            TRY(virga_graphics_pipeline_create(context, &def, &map->pipelines[i]));
-    }
+    for (def.constant = 0; def.constant < 2; def.constant++)
+        for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++) {
+            def.vertex_stride = map->strides[i];
+            if (map->strides[i])
+                TRY(virga_graphics_pipeline_create(context, &def, &map->pipelines[def.constant][i]));
+        }
 error:
     return result;
 }
@@ -191,11 +192,12 @@ void virga_mesh_map_first_layouts(virga_context *context, VkCommandBuffer cmd, c
     virga_image_barrier(context, cmd, map->surface->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
 }
 
-static virga_pipeline *pipeline_for(const virga_mesh_map *map, uint32_t stride)
+static virga_pipeline *pipeline_for(const virga_mesh_map *map, const virga_occluder *mesh)
 {
+    const bool holes = mesh->cover > 0 && mesh->cover < 1;
     for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
-        if (map->pipelines[i] && map->strides[i] == stride)
-            return map->pipelines[i];
+        if (map->pipelines[holes][i] && map->strides[i] == mesh->vertex_stride)
+            return map->pipelines[holes][i];
     return NULL;
 }
 
@@ -226,7 +228,7 @@ virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh
     for (uint32_t i = 0; i < count; i++) {
         if (check_mesh(log, &occluders[i], i))
             return VIRGA_ERROR_INVALID;
-        if (!pipeline_for(map, occluders[i].vertex_stride))
+        if (!pipeline_for(map, &occluders[i]))
             return virga_wrong_argument(log, "occluder %u: vertex_stride %u is not among def.occluder_strides", i,
                                         occluders[i].vertex_stride);
     }
@@ -255,7 +257,7 @@ static virga_map_push describe_push(const virga_mesh_map *map, const virga_map_v
 static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map,
                       const virga_map_view *view, const virga_occluder *mesh, const virga_pipeline **bound)
 {
-    const virga_pipeline *pipeline = pipeline_for(map, mesh->vertex_stride);
+    const virga_pipeline *pipeline = pipeline_for(map, mesh);
     if (pipeline != *bound)
         context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     *bound = pipeline;

@@ -22,7 +22,7 @@ typedef struct virga_mesh_map {
     VkRenderPass pass;
     VkFramebuffer framebuffers[VIRGA_MAP_MAX_LAYERS];
     VkPipelineLayout layout;
-    virga_pipeline *pipelines[VIRGA_MAP_STRIDES];
+    virga_pipeline *pipelines[2][VIRGA_MAP_STRIDES]; /* of meshes that cover all, and of those with holes */
 } virga_mesh_map;
 
 /* Where a layer looks, relative to an origin near it. */
@@ -36,8 +36,8 @@ typedef struct virga_map_view {
     bool ground_only; /* only meshes that are ground */
 } virga_map_view;
 
-/* Images of size x size texels (0: one texel that nothing is drawn into), a pipeline for each vertex stride that is
- * not 0. */
+/* Images of size x size texels (0: one texel that nothing is drawn into), two pipelines for each vertex stride
+ * that is not 0. */
 virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
                                    const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
                                    virga_pipeline_group *group, virga_mesh_map **map);

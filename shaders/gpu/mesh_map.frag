@@ -7,7 +7,8 @@
 #include "shared/random.h"
 
 layout(scalar, push_constant) uniform Push { virga_map_push push; };
-layout(location = 0) in vec3 place;
+layout(constant_id = 0) const bool HOLES = false; // the mesh covers only a share of its surface
+layout(location = 0) noperspective in vec3 place;
 layout(location = 0) out uint surface;
 
 uint pack_normal(vec3 n)
@@ -24,11 +25,12 @@ void main()
 {
     // Before any texel is discarded: behind that, derivatives are undefined.
     const vec3 to_right = dFdx(place), down = dFdy(place);
-    // Leaves: a share of the texels lets drops through. By texel, so that it is steady while the map stays in place.
+    // Leaves: a share of the texels lets drops through. By texel, so that it is steady while the map stays in place. For
+    // meshes without holes this is left out: a shader that may discard has its depth tested last.
     const uvec2 texel = uvec2(gl_FragCoord.xy);
-    if (push.cover < 1.0 && virga_unit(virga_hash3(push.texels, texel.x, texel.y)) >= push.cover)
+    if (HOLES && virga_unit(virga_hash3(push.texels, texel.x, texel.y)) >= push.cover)
         discard;
-    const vec3 up = normalize(cross(down, to_right));
+    const vec3 up = cross(down, to_right); // of any length
     const float towards_sky = up.y - up.x * push.slant[0] - up.z * push.slant[1];
     surface = pack_normal(towards_sky < 0.0 ? -up : up) | push.material;
 }

@@ -7,7 +7,7 @@
 
 layout(scalar, push_constant) uniform Push { virga_map_push push; };
 layout(location = 0) in vec3 position;
-layout(location = 0) out vec3 place;
+layout(location = 0) noperspective out vec3 place; // w is 1
 
 void main()
 {
