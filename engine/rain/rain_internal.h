@@ -219,7 +219,7 @@ void rain_take_statistics(virga_rain *rain);
 virga_result rain_occlusion_create(virga_rain *rain);
 uint32_t rain_class_slant(const virga_rain *rain, double diameter_m);
 void rain_occlusion_tick(virga_rain *rain);
-void rain_fill_maps(const virga_rain *rain, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS]);
+void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS]);
 
 /* ---- rain_draw.c */
 void rain_targets_destroy(virga_rain *rain);

@@ -115,19 +115,23 @@ static void centre_from(const rain_map *map, const double origin[3], double cent
         centre[axis] = map->centre[axis] - origin[axis * 2] - map->slant[axis] * origin[1];
 }
 
-void rain_fill_maps(const virga_rain *rain, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS])
+void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS])
 {
+    const double size = rain->host_maps ? rain->host_map_image.extent.width : rain->def.occlusion_size;
+    tick->map_texels = (float)size;
+    tick->map_top_m = (float)(rain->maps[0].top_m - rain->origin[1]);
+    tick->map_height_m = (float)rain->maps[0].height_m;
     memset(maps, 0, VIRGA_RAIN_MAX_MAPS * sizeof maps[0]);
-    const uint32_t size = rain->host_maps ? rain->host_map_image.extent.width : rain->def.occlusion_size;
     for (uint32_t i = 0; i < rain->map_count; i++) {
+        const rain_map *map = &rain->maps[i];
+        const double scale = 0.5 * size / map->half_m;
         double centre[2];
-        centre_from(&rain->maps[i], rain->origin, centre);
-        maps[i] = (virga_map_gpu){.centre = {(float)centre[0], (float)centre[1]},
-                                  .inv_half_m = (float)(1 / rain->maps[i].half_m),
-                                  .texels = (float)size,
-                                  .slant = {(float)rain->maps[i].slant[0], (float)rain->maps[i].slant[1]},
-                                  .top_m = (float)(rain->maps[i].top_m - rain->origin[1]),
-                                  .height_m = (float)rain->maps[i].height_m};
+        centre_from(map, rain->origin, centre);
+        maps[i].texels_per_m = (float)scale;
+        for (int axis = 0; axis < 2; axis++) {
+            maps[i].slant[axis] = (float)(map->slant[axis] * scale);
+            maps[i].origin[axis] = (float)(0.5 * size - centre[axis] * scale);
+        }
     }
 }
 

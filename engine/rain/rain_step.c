@@ -176,7 +176,7 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, rain_tick_b
     tick->host_depth = rain->host_maps;
     tick->gravity = (float)VIRGA_GRAVITY;
     fill_wind(rain, tick);
-    rain_fill_maps(rain, block->tables.maps);
+    rain_fill_maps(rain, tick, block->tables.maps);
     fill_classes(rain, block);
 }
 

@@ -99,29 +99,25 @@ struct Shelter {
 #define NOTHING_BELOW -1e9 // height where nothing is known
 #define MOST_OFFSET 4.0    // texels that a slope can add to a height
 
-float texel_side_m(virga_map_gpu map) { return 2.0 / (map.inv_half_m * map.texels); }
-
 // Height on the plane of the texel's surface, not only at its middle, so that slopes are not stairs. With the map's
 // coordinate X = x + s (y - y0), a plane n.p = c has dy/dX = -n.x / (n.y - n.x s.x - n.z s.z).
 float plane_offset(virga_map_gpu map, vec2 from_middle, vec3 normal)
 {
-    const float across = normal.y - normal.x * map.slant[0] - normal.z * map.slant[1];
+    const float texel_m = 1.0 / map.texels_per_m;
+    const float across = normal.y - (normal.x * map.slant[0] + normal.z * map.slant[1]) * texel_m;
     if (abs(across) < 0.05)
         return 0.0;
-    const float texel_m = texel_side_m(map);
     const float offset = -dot(normal.xz, from_middle) * texel_m / across;
     return clamp(offset, -MOST_OFFSET * texel_m, MOST_OFFSET * texel_m);
 }
 
-// Texel of a place in a map; outside of [1; texels - 1) there is none.
 vec2 map_texel(virga_map_gpu map, vec3 p)
 {
-    const vec2 sheared = p.xz + vec2(map.slant[0], map.slant[1]) * p.y - vec2(map.centre[0], map.centre[1]);
-    return (sheared * map.inv_half_m * 0.5 + 0.5) * map.texels;
+    return p.xz * map.texels_per_m + vec2(map.slant[0], map.slant[1]) * p.y + vec2(map.origin[0], map.origin[1]);
 }
 
-// The finest map that holds the place. Straight-line code: software Vulkan runs every lane through every branch, so
-// all maps are looked at by constant index, and one is kept by arithmetic.
+// The finest map that holds the place; the outermost texels do not count. Straight-line code: software Vulkan runs
+// every lane through every branch, so all maps are looked at by constant index, and one is kept by arithmetic.
 MapPlace map_place(vec3 p, uint slant)
 {
     MapPlace place = MapPlace(maps[0], VIRGA_RAIN_MAX_MAPS, vec2(0.0));
@@ -129,15 +125,12 @@ MapPlace map_place(vec3 p, uint slant)
         const virga_map_gpu map = maps[i - 1u];
         const vec2 at = map_texel(map, p);
         const bool inside =
-            (i - 1u) % SLANTS == slant && min(at.x, at.y) >= 1.0 && max(at.x, at.y) < map.texels - 1.0;
+            (i - 1u) % SLANTS == slant && min(at.x, at.y) >= 1.0 && max(at.x, at.y) < tick.map_texels - 1.0;
         place.index = inside ? i - 1u : place.index;
         place.texel = inside ? at : place.texel;
-        place.map.inv_half_m = inside ? map.inv_half_m : place.map.inv_half_m;
-        place.map.texels = inside ? map.texels : place.map.texels;
+        place.map.texels_per_m = inside ? map.texels_per_m : place.map.texels_per_m;
         place.map.slant[0] = inside ? map.slant[0] : place.map.slant[0];
         place.map.slant[1] = inside ? map.slant[1] : place.map.slant[1];
-        place.map.top_m = inside ? map.top_m : place.map.top_m;
-        place.map.height_m = inside ? map.height_m : place.map.height_m;
     }
     place.index = tick.maps > 0u ? place.index : VIRGA_RAIN_MAX_MAPS;
     return place;
@@ -150,7 +143,7 @@ float middle_height(MapPlace place)
 {
     const float depth = texelFetch(occlusion_depth, texel_of(place), 0).r;
     const bool known = place.index < VIRGA_RAIN_MAX_MAPS && depth < 1.0;
-    return known ? place.map.top_m - depth * place.map.height_m : NOTHING_BELOW;
+    return known ? tick.map_top_m - depth * tick.map_height_m : NOTHING_BELOW;
 }
 
 Shelter find_shelter(vec3 p, uint slant)

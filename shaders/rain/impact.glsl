@@ -25,7 +25,7 @@ bool near_surface(uint slot_index)
     const float fallen = -velocity_of(slot_index, size_class).y * tick.tick_s;
     const MapPlace place = map_place(now, classes[size_class].slant);
     const float height = middle_height(place);
-    const float slope = tick.host_depth != 0u ? 0.0 : MOST_OFFSET * texel_side_m(place.map);
+    const float slope = tick.host_depth != 0u ? 0.0 : MOST_OFFSET / place.map.texels_per_m;
     return now.y - ROUNDING_M <= height + slope && height - slope <= now.y + 1.5 * fallen + ROUNDING_M;
 }
 

@@ -26,17 +26,17 @@ uint water_of(float diameter_m, float weight, uint id)
 vec3 depth_normal(Shelter surface)
 {
     const virga_map_gpu map = maps[min(surface.map, VIRGA_RAIN_MAX_MAPS - 1u)];
-    const float texel_m = 2.0 / (map.inv_half_m * map.texels);
     const float here = texelFetch(occlusion_depth, surface.texel, 0).r;
+    const vec2 s = vec2(map.slant[0], map.slant[1]) / map.texels_per_m;
     vec2 slope;
     for (int axis = 0; axis < 2; axis++) {
         const ivec3 to = axis == 0 ? ivec3(1, 0, 0) : ivec3(0, 1, 0);
         const float ahead = here - texelFetch(occlusion_depth, surface.texel + to, 0).r;
         const float behind = texelFetch(occlusion_depth, surface.texel - to, 0).r - here;
-        slope[axis] = (abs(ahead) < abs(behind) ? ahead : behind) * map.height_m / texel_m;
+        slope[axis] = (abs(ahead) < abs(behind) ? ahead : behind) * tick.map_height_m * map.texels_per_m;
     }
     // dy/dX in sheared coordinates back to a plane: n.x = -a, n.z = -b, n.y = 1 - a s.x - b s.y.
-    return normalize(vec3(-slope.x, 1.0 - slope.x * map.slant[0] - slope.y * map.slant[1], -slope.y));
+    return normalize(vec3(-slope.x, 1.0 - dot(slope, s), -slope.y));
 }
 
 void add_water(uint water)

@@ -72,18 +72,18 @@ struct virga_tick_gpu {
     float wind_mean[3];  /* uniform wind of this tick, gust included */
     uint host_depth;     /* 1: maps come from the host, without normals and materials */
     float gravity;
-    uint pad[3];
+    float map_texels;    /* along a map's side */
+    float map_top_m;     /* height of depth 0, relative to the origin */
+    float map_height_m;  /* between depth 0 and depth 1 */
 };
 
 /* An occlusion map. The line that a drop of slant s falls along is the texel of
- * (x + s.x (y - y0), z + s.y (y - y0)), so a texel's depth is where that line first meets something. */
+ * (x + s.x (y - y0), z + s.y (y - y0)), so a texel's depth is where that line first meets something. All maps have one
+ * size, top and height, see virga_tick_gpu. */
 struct virga_map_gpu {
-    float centre[2];     /* of the map, in the same sheared coordinates relative to the origin of the step */
-    float inv_half_m;    /* 1 / half of its side */
-    float texels;        /* along a side */
-    float slant[2];      /* horizontal metres a metre of fall */
-    float top_m;         /* height of depth 0, relative to the origin */
-    float height_m;      /* between depth 0 and depth 1 */
+    float texels_per_m;
+    float slant[2];      /* texels a metre of fall */
+    float origin[2];     /* where the step's origin is, in texels */
 };
 
 /* What rain's settings say of a view, beside virga_view_gpu. */
@@ -158,7 +158,7 @@ VIRGA_ASSERT_SIZE(virga_class_gpu, 28);
 VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
-VIRGA_ASSERT_SIZE(virga_map_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_map_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 76);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
