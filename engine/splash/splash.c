@@ -95,6 +95,21 @@ static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
     return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
 }
 
+/* Splashes, droplets and sprites are read as texels. True: less than asked for. */
+static bool fit_texels(const virga_context *context, virga_splash_def *def)
+{
+    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
+    bool smaller = false;
+    def->max_droplets = virga_clamp_setting_u32(&context->log, "splash_def.max_droplets", def->max_droplets,
+                                                VIRGA_SPLASH_BLOCK, texels / (SPLASH_SPRITE_BYTES / 16), &smaller);
+    def->max_splashes = virga_clamp_setting_u32(&context->log, "splash_def.max_splashes", def->max_splashes,
+                                                VIRGA_SPLASH_BLOCK, texels / (sizeof(virga_splash_gpu) / 16), &smaller);
+    /* Rings hold a power of two, and buffers whole blocks. */
+    def->max_splashes = power_of_two(def->max_splashes / 2 + 1);
+    def->max_droplets -= def->max_droplets % VIRGA_SPLASH_BLOCK;
+    return smaller;
+}
+
 /* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked
  * for. */
 static bool fit_device(const virga_context *context, virga_splash_def *def)
@@ -115,9 +130,10 @@ static bool fit_device(const virga_context *context, virga_splash_def *def)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
                       "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
                       def->max_droplets, (unsigned long long)most);
+    const bool smaller = fit_texels(context, def);
     while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
         def->max_returns /= 2;
-    return asked != def->max_droplets;
+    return smaller || asked != def->max_droplets;
 }
 
 VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
@@ -144,14 +160,14 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
     const uint32_t frames = splash->context->frames_in_flight, sprites = splash_max_sprites(def);
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                             texels = storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const virga_buffer_row wanted[BUFFERS] = {
         {&splash->state, sizeof(virga_splash_state_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.state"},
-        {&splash->splashes, def->max_splashes * sizeof(virga_splash_gpu), storage, VIRGA_HEAP_DEVICE,
-         "splash.splashes"},
-        {&splash->droplet_buffers[0], def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
+        {&splash->splashes, def->max_splashes * sizeof(virga_splash_gpu), texels, VIRGA_HEAP_DEVICE, "splash.splashes"},
+        {&splash->droplet_buffers[0], def->max_droplets * sizeof(virga_droplet_gpu), texels, VIRGA_HEAP_DEVICE,
          "splash.droplets0"},
-        {&splash->droplet_buffers[1], def->max_droplets * sizeof(virga_droplet_gpu), storage, VIRGA_HEAP_DEVICE,
+        {&splash->droplet_buffers[1], def->max_droplets * sizeof(virga_droplet_gpu), texels, VIRGA_HEAP_DEVICE,
          "splash.droplets1"},
         {&splash->marks, def->max_droplets / 32 * 16, storage, VIRGA_HEAP_DEVICE, "splash.marks"},
         {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
@@ -161,7 +177,7 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
          VIRGA_HEAP_DEVICE, "splash.picks"},
         {&splash->lists, 2 * sizeof(virga_list_gpu) + ((VkDeviceSize)sprites + splash_max_crowns(def)) * 4, indirect,
          VIRGA_HEAP_DEVICE, "splash.lists"},
-        {&splash->sprites, sprites * SPLASH_SPRITE_BYTES, storage, VIRGA_HEAP_DEVICE, "splash.sprites"},
+        {&splash->sprites, sprites * SPLASH_SPRITE_BYTES, texels, VIRGA_HEAP_DEVICE, "splash.sprites"},
         {&splash->prepared_buffer, sizeof(virga_splash_prepared_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.prepared"},
         {&splash->index_buffer, splash_index_bytes(def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "splash.indices"},
@@ -206,19 +222,22 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 2 rules */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 spawns */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 4 state */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 5 splashes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 6 droplets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 splashes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 droplets */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 marks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 places */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 returns */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 10 picks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 11 lists */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 12 droplets that stay */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 13 sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 13 sprites */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 14 prepared */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 15 indices */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 scene depth */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene colour */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 18 droplets as texels */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 19 splashes as texels */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 20 sprites as texels */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -269,7 +288,10 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
         whole(splash->prepared_buffer),
         whole(splash->index_buffer),
         image_or_blank(view ? &view->depth : NULL, splash->blank_depth, splash->context->nearest),
-        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view))};
+        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view)),
+        {.texels = splash->droplet_buffers[current]->texels},
+        {.texels = splash->splashes->texels},
+        {.texels = splash->sprites->texels}};
     return virga_bindings_write(splash->context, splash->bindings, index, bound);
 }
 

@@ -68,7 +68,7 @@ void main()
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }
-    const virga_splash_gpu splash = splashes[slot];
+    const virga_splash_gpu splash = splash_of(slot);
     const Shape s = shape_of(splash, 0.0);
     const Crown now = s.crown;
     const bool disk = now.model == VIRGA_SPLASH_DISK;

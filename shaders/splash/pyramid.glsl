@@ -28,7 +28,7 @@ vec3 crown_corner(uint pyramid, uint corner, float ago_s)
     const uint slot = splash_place(listed[look.max_sprites + pyramid / VIRGA_CROWN_PYRAMIDS]);
     if (slot == NO_PLACE)
         return vec3(0.0);
-    const virga_splash_gpu splash = splashes[slot];
+    const virga_splash_gpu splash = splash_of(slot);
     const Crown crown = crown_at(splash, view.time_close_s - ago_s);
     const uint spoke = pyramid % VIRGA_CROWN_PYRAMIDS;
     const float angle =
@@ -49,7 +49,7 @@ vec3 pile_corner(uint pyramid, uint corner, float ago_s)
     const uint slot = slot_of(listed[pyramid]).place;
     if (slot == NO_PLACE)
         return vec3(0.0);
-    const virga_droplet_gpu droplet = droplets[slot];
+    const virga_droplet_gpu droplet = droplet_of(slot);
     const vec4 tip = pile_tip(droplet, view.time_close_s - ago_s);
     const float half_foot = droplet.diameter_m * (is_upright(droplet) ? 1.5 : 0.7);
     return corner_of(base_of(droplet), tip.xyz, half_foot * tip.w, corner);

@@ -6,18 +6,15 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-float[3] shifted(float position[3])
-{
-    return float[3](position[0] + tick.shift[0], position[1] + tick.shift[1], position[2] + tick.shift[2]);
-}
+uvec3 shifted(uvec3 position) { return floatBitsToUint(uintBitsToFloat(position) + to_vec(tick.shift)); }
 
 void main()
 {
     const uint place = gl_GlobalInvocationID.x;
     if (place < tick.max_splashes)
-        splashes[place].position = shifted(splashes[place].position);
+        splashes[4u * place].xyz = shifted(splashes[4u * place].xyz);
     if (place < tick.max_droplets) {
-        droplets[place].position = shifted(droplets[place].position);
-        droplets[place].base = shifted(droplets[place].base);
+        droplets[4u * place].xyz = shifted(droplets[4u * place].xyz);
+        droplets[4u * place + 2u].xyz = shifted(droplets[4u * place + 2u].xyz); // its base
     }
 }

@@ -28,7 +28,7 @@ uint forget_splashes(uint lane)
         const uint place = first + lane;
         bool live = place - first >= state.end_splash - first;
         if (!live) {
-            const virga_splash_gpu splash = splashes[place & (tick.max_splashes - 1u)];
+            const virga_splash_gpu splash = splash_of(place & (tick.max_splashes - 1u));
             live = (float(tick.tick - splash.tick) - splash.share) * tick.tick_s <= splash.life_s;
         }
         if (live)

@@ -66,7 +66,10 @@ void write_splash(uint place, uint first, virga_spawn_gpu spawn, vec3 position, 
     splash.lean = halves(lean.x, lean.z);
     splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16;
     splash.id = spawn.id;
-    splashes[place & (tick.max_splashes - 1u)] = splash;
+    const uvec4 texels[4] = texels_of(splash);
+    const uint texel = 4u * (place & (tick.max_splashes - 1u));
+    for (uint i = 0u; i < 4u; i++)
+        splashes[texel + i] = texels[i];
 }
 
 // Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into
@@ -167,7 +170,9 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
             start_cone(droplet, spawn, centre);
         else
             start_pile(droplet, spawn, frame, centre, i, n);
-        droplets[first + i] = droplet;
+        const uvec4 texels[4] = texels_of(droplet);
+        for (uint j = 0u; j < 4u; j++)
+            droplets[4u * (first + i) + j] = texels[j];
     }
 }
 
@@ -183,8 +188,7 @@ void start_splash(virga_spawn_gpu spawn, uvec2 place, Starts starts)
         start_droplets(spawn, centre, starts.droplet + first_droplet(place.y), n);
     const uint at = starts.returned + (place.x - starts.crowded_from);
     if (crowded && at < tick.max_returns) {
-        returns[at] =
-            make_return(centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
+        write_return(at, centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
         count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
     }
 }

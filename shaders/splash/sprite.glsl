@@ -128,11 +128,11 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 Sprite sprite_of(Slot slot, float ago_s)
 {
     if (slot.kind == SLOT_DROPLET)
-        return droplet_sprite(droplets[slot.place], ago_s);
+        return droplet_sprite(droplet_of(slot.place), ago_s);
     if (slot.kind == SLOT_PILE)
-        return pile_sprite(droplets[slot.place], ago_s);
+        return pile_sprite(droplet_of(slot.place), ago_s);
     if (slot.kind == SLOT_SPLASH)
-        return puff_sprite(splashes[slot.place], ago_s);
+        return puff_sprite(splash_of(slot.place), ago_s);
     return empty_sprite();
 }
 

@@ -2,11 +2,10 @@
 // wider than it is drawn.
 //
 // Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
-// half as much again.
-layout(scalar, set = 0, binding = 13) readonly buffer Sprites { virga_sprite_gpu sprites[]; };
+// half as much again. The buffer is read as texels, see state.glsl.
+layout(set = 0, binding = 20) uniform usamplerBuffer sprite_texels; // four a sprite; behind all a motion each
 
 #ifdef MOTION
-layout(scalar, set = 0, binding = 13) readonly buffer Motions { vec4 motions[]; }; // behind the sprites
 layout(location = 5) noperspective out vec2 motion; // px
 #endif
 
@@ -18,11 +17,14 @@ layout(location = 4) flat out vec4 turn;           // direction of its way on th
 
 void set_corner(uint vertex)
 {
-    const virga_sprite_gpu sprite = sprites[vertex >> 2];
-    const vec2 head = vec2(sprite.head[0], sprite.head[1]), tail = vec2(sprite.tail[0], sprite.tail[1]);
-    const vec2 widths = unpackHalf2x16(sprite.widths), alpha_body = unpackHalf2x16(sprite.alpha_body);
-    const vec2 light[3] = vec2[3](unpackHalf2x16(sprite.light[0]), unpackHalf2x16(sprite.light[1]),
-                                  unpackHalf2x16(sprite.light[2]));
+    const int texel = int(vertex & ~3u); // four corners, four texels
+    const vec4 ends = uintBitsToFloat(texelFetch(sprite_texels, texel)),
+               depths = uintBitsToFloat(texelFetch(sprite_texels, texel + 1));
+    const uvec4 shown = texelFetch(sprite_texels, texel + 2), rest = texelFetch(sprite_texels, texel + 3);
+    const vec2 head = ends.xy, tail = ends.zw;
+    const vec2 widths = unpackHalf2x16(shown.x), alpha_body = unpackHalf2x16(shown.y);
+    const vec2 light[3] = vec2[3](unpackHalf2x16(shown.z), unpackHalf2x16(shown.w), unpackHalf2x16(rest.x));
+    const uint kind = rest.y;
     const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const vec2 way = (head - tail) * half_viewport;
     const float way_px = length(way);
@@ -30,20 +32,21 @@ void set_corner(uint vertex)
     const bool at_head = (vertex & 2u) != 0u;
     // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
-    const float margin = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : sprite.kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
-    const float own = sprite.kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
+    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
+    const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
     const vec2 corner =
         (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
 #ifdef MOTION
-    const vec4 ends = motions[4u * look.max_sprites + (vertex >> 2)];
-    motion = at_head ? ends.xy : ends.zw;
+    const vec4 moved =
+        uintBitsToFloat(texelFetch(sprite_texels, int(4u * look.max_sprites + (vertex >> 2))));
+    motion = at_head ? moved.xy : moved.zw;
 #endif
-    place = vec4(across, at_head ? way_px + margin : -margin, sprite.distance[at_head ? 0 : 1], 0.0);
+    place = vec4(across, at_head ? way_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
     centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
-    rim_kind = vec4(light[1].y, light[2], float(sprite.kind));
+    rim_kind = vec4(light[1].y, light[2], float(kind));
     shape = vec4(0.5 * widths, way_px, alpha_body.y);
-    turn = vec4(along, unpackHalf2x16(sprite.solid).x, 0.0);
+    turn = vec4(along, unpackHalf2x16(rest.z).x, 0.0);
     // The same w at all corners, so that everything is interpolated without perspective.
-    gl_Position = vec4(corner, sprite.depth[at_head ? 0 : 1], 1.0);
+    gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

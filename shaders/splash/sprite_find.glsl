@@ -20,7 +20,7 @@ uint[2] droplet_kinds(uint place)
 {
     if (place >= state.staying)
         return uint[2](NOT_PICKED, NOT_PICKED);
-    const virga_droplet_gpu droplet = droplets[place];
+    const virga_droplet_gpu droplet = droplet_of(place);
     return uint[2](kind_of(droplet_sprite(droplet, 0.0)), kind_of(pile_sprite(droplet, 0.0)));
 }
 
@@ -56,7 +56,7 @@ uint[2] splash_kinds(uint entry)
     const uint place = splash_place(entry);
     if (place == NO_PLACE)
         return uint[2](NOT_PICKED, NOT_PICKED);
-    const virga_splash_gpu splash = splashes[place];
+    const virga_splash_gpu splash = splash_of(place);
     const Crown crown = crown_at(splash, view.time_close_s);
     const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash, 0.0));
     return uint[2](puff, sheet_kind(splash, crown));

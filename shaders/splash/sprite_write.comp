@@ -10,14 +10,13 @@
 #include "view_lists.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
-layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { virga_sprite_gpu sprites[]; };
-// The same buffer: behind `max_sprites` sprites of 64 bytes each lies each one's motion.
-layout(scalar, set = 0, binding = 13) writeonly buffer Motions { vec4 motions[]; };
+// Four for each of `max_sprites` virga_sprite_gpu, behind which lies each one's motion.
+layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]; };
 
 // A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines
 // of those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is
 // white and lies level, whose lobe is the cosine (moments 2/3 and 1/4).
-void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
+uvec3 light_of(vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
     const vec3 glitter = lamps(middle, d), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
@@ -25,7 +24,7 @@ void set_light(inout virga_sprite_gpu record, vec3 middle, float torn)
     const vec3 rim =
         mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) +
         0.6 * glitter;
-    record.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
+    return uvec3(halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
 // From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there
@@ -34,9 +33,9 @@ void write_motion(uint index, Slot slot, Sprite sprite)
 {
     const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);
     const Sprite before = sprite_of(slot, view.ago_s);
-    motions[4u * look.max_sprites + index] =
-        vec4(motion_px(project(now, sprite.head), project(previous, before.head)),
-             motion_px(project(now, sprite.tail), project(previous, before.tail)));
+    sprites[4u * look.max_sprites + index] =
+        floatBitsToUint(vec4(motion_px(project(now, sprite.head), project(previous, before.head)),
+                             motion_px(project(now, sprite.tail), project(previous, before.tail))));
 }
 
 void main()
@@ -48,20 +47,14 @@ void main()
     const Sprite sprite = sprite_of(slot, 0.0);
     const Projected p = project_sprite(sprite);
     const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
-    virga_sprite_gpu record;
-    record.head = float[2](head.x, head.y);
-    record.tail = float[2](tail.x, tail.y);
-    record.depth = float[2](head.z, tail.z);
-    record.distance = float[2](p.head.w, p.tail.w);
-    record.widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px),
-                           max(pixels(sprite.widths.y, p.tail.w), view.min_width_px));
-    record.alpha_body = halves(p.coverage, p.body_px);
-    record.kind = sprite.kind;
-    record.solid = halves(sprite.solid, 0.0);
-    record.id = sprite.id;
+    const uint widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px),
+                               max(pixels(sprite.widths.y, p.tail.w), view.min_width_px));
     const float torn = sprite.kind == VIRGA_SPRITE_PUFF ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
-    set_light(record, 0.5 * (sprite.head + sprite.tail), torn);
-    sprites[index] = record;
+    const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
+    sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
+    sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
+    sprites[4u * index + 2u] = uvec4(widths, halves(p.coverage, p.body_px), light.xy);
+    sprites[4u * index + 3u] = uvec4(light.z, sprite.kind, halves(sprite.solid, 0.0), sprite.id);
     if (look.motion != 0u)
         write_motion(index, slot, sprite);
 }

@@ -14,8 +14,9 @@
 layout(scalar, set = 0, binding = 0) uniform Tick { virga_splash_tick_gpu tick; };
 layout(scalar, set = 0, binding = 2) uniform Rules { virga_splash_rules_gpu rules; };
 layout(scalar, set = 0, binding = 4) STATE_ACCESS buffer State { virga_splash_state_gpu state; };
-layout(scalar, set = 0, binding = 5) STATE_ACCESS buffer Splashes { virga_splash_gpu splashes[]; };
-layout(scalar, set = 0, binding = 6) STATE_ACCESS buffer Droplets { virga_droplet_gpu droplets[]; };
+layout(scalar, set = 0, binding = 5) STATE_ACCESS buffer Splashes { uvec4 splashes[]; };
+layout(scalar, set = 0, binding = 6) STATE_ACCESS buffer Droplets { uvec4 droplets[]; };
+#include "texels.glsl"
 
 #define GRAVITY 9.80665
 #define NO_PLACE 0xffffffffu

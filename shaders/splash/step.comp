@@ -76,14 +76,13 @@ void move(inout virga_droplet_gpu droplet, float time_s)
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
 }
 
-// Writes what may have changed: each word costs software Vulkan a loop over lanes.
+// Writes what may have changed: all but its base.
 void store(uint place, virga_droplet_gpu droplet)
 {
-    droplets[place].position = droplet.position;
-    droplets[place].age_s = droplet.age_s;
-    droplets[place].velocity = droplet.velocity;
-    droplets[place].weight_free = droplet.weight_free;
-    droplets[place].kind = droplet.kind;
+    const uvec4 texels[4] = texels_of(droplet);
+    droplets[4u * place] = texels[0];
+    droplets[4u * place + 1u] = texels[1];
+    droplets[4u * place + 3u] = texels[3];
 }
 
 void step_droplet(uint place, virga_droplet_gpu droplet)
@@ -110,7 +109,7 @@ void main()
         fallen_bits[lane] = alive_bits[lane] = 0u;
     barrier();
     if (place < state.end_droplet) {
-        const virga_droplet_gpu droplet = droplets[place];
+        const virga_droplet_gpu droplet = droplet_of(place);
         if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
             step_droplet(place, droplet);
     }

@@ -1,0 +1,49 @@
+// texels.glsl - droplets and splashes as four texels each: how passes read them, and what they write.
+//
+// Software Vulkan gathers texels for eight lanes at once; through a storage buffer it goes lane by lane and word by
+// word. Four words at a time are also what it writes fastest.
+layout(set = 0, binding = 18) uniform usamplerBuffer droplet_texels;
+layout(set = 0, binding = 19) uniform usamplerBuffer splash_texels;
+
+float[3] floats(uvec3 words)
+{
+    const vec3 numbers = uintBitsToFloat(words);
+    return float[3](numbers.x, numbers.y, numbers.z);
+}
+
+uvec4 texel_of(float three[3], uint fourth) { return uvec4(floatBitsToUint(to_vec(three)), fourth); }
+uvec4 texel_of(float three[3], float fourth) { return texel_of(three, floatBitsToUint(fourth)); }
+
+virga_droplet_gpu droplet_of(uint place)
+{
+    const int texel = int(4u * place);
+    const uvec4 a = texelFetch(droplet_texels, texel), b = texelFetch(droplet_texels, texel + 1),
+                c = texelFetch(droplet_texels, texel + 2), d = texelFetch(droplet_texels, texel + 3);
+    return virga_droplet_gpu(floats(a.xyz), uintBitsToFloat(a.w), floats(b.xyz), uintBitsToFloat(b.w), floats(c.xyz),
+                             c.w, d.x, d.y, d.z, d.w);
+}
+
+uvec4[4] texels_of(virga_droplet_gpu droplet)
+{
+    return uvec4[4](texel_of(droplet.position, droplet.age_s), texel_of(droplet.velocity, droplet.diameter_m),
+                    texel_of(droplet.base, droplet.slopes),
+                    uvec4(droplet.kind, droplet.id, droplet.water_nl, droplet.weight_free));
+}
+
+virga_splash_gpu splash_of(uint place)
+{
+    const int texel = int(4u * place);
+    const uvec4 a = texelFetch(splash_texels, texel), b = texelFetch(splash_texels, texel + 1),
+                c = texelFetch(splash_texels, texel + 2), d = texelFetch(splash_texels, texel + 3);
+    return virga_splash_gpu(floats(a.xyz), uintBitsToFloat(a.w), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), b.w,
+                            floats(c.xyz), c.w, uintBitsToFloat(d.x), d.y, d.z, d.w);
+}
+
+uvec4[4] texels_of(virga_splash_gpu splash)
+{
+    return uvec4[4](texel_of(splash.position, splash.share),
+                    uvec4(splash.tick, floatBitsToUint(splash.diameter_m), floatBitsToUint(splash.speed_m_s),
+                          splash.depth_weight),
+                    texel_of(splash.normal, splash.random),
+                    uvec4(floatBitsToUint(splash.life_s), splash.lean, splash.kind, splash.id));
+}
