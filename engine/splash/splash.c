@@ -193,24 +193,59 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
     memcpy(rows, wanted, sizeof wanted);
 }
 
-static void list_passes(virga_splash *splash, virga_compute_row rows[PASSES])
+/* A pass with as many pipelines as it has forms, which are their specialisation constants. */
+typedef struct pass_row {
+    virga_pipeline **forms;
+    uint32_t count;
+    virga_spirv shader;
+    const char *name;
+} pass_row;
+
+static void list_passes(virga_splash *splash, pass_row rows[PASSES])
 {
-    const virga_compute_row wanted[PASSES] = {
-        {&splash->spawn_scan, VIRGA_SPIRV(splash_spawn_scan_comp), "splash.spawn_scan"},
-        {&splash->spawn, VIRGA_SPIRV(splash_spawn_comp), "splash.spawn"},
-        {&splash->step, VIRGA_SPIRV(splash_step_comp), "splash.step"},
-        {&splash->fall_scan, VIRGA_SPIRV(splash_fall_scan_comp), "splash.fall_scan"},
-        {&splash->fall, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
-        {&splash->rebase, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
-        {&splash->indices, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
-        {&splash->few_find, VIRGA_SPIRV(splash_few_find_comp), "splash.few_find"},
-        {&splash->droplet_find, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
-        {&splash->splash_find, VIRGA_SPIRV(splash_splash_find_comp), "splash.splash_find"},
-        {&splash->view_scan, VIRGA_SPIRV(splash_view_scan_comp), "splash.view_scan"},
-        {&splash->view_list, VIRGA_SPIRV(splash_view_list_comp), "splash.view_list"},
-        {&splash->sprite_write, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},
+    const pass_row wanted[PASSES] = {
+        {&splash->spawn_scan, 1, VIRGA_SPIRV(splash_spawn_scan_comp), "splash.spawn_scan"},
+        {&splash->spawn, 1, VIRGA_SPIRV(splash_spawn_comp), "splash.spawn"},
+        {&splash->step, 1, VIRGA_SPIRV(splash_step_comp), "splash.step"},
+        {&splash->fall_scan, 1, VIRGA_SPIRV(splash_fall_scan_comp), "splash.fall_scan"},
+        {&splash->fall, 1, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
+        {&splash->rebase, 1, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
+        {&splash->indices, 1, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
+        {splash->few_find, SPLASH_STYLES, VIRGA_SPIRV(splash_few_find_comp), "splash.few_find"},
+        {splash->droplet_find, SPLASH_STYLES, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
+        {splash->splash_find, SPLASH_STYLES, VIRGA_SPIRV(splash_splash_find_comp), "splash.splash_find"},
+        {&splash->view_scan, 1, VIRGA_SPIRV(splash_view_scan_comp), "splash.view_scan"},
+        {&splash->view_list, 1, VIRGA_SPIRV(splash_view_list_comp), "splash.view_list"},
+        {splash->sprite_write, VIRGA_SPLASH_FORMS, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},
     };
     memcpy(rows, wanted, sizeof wanted);
+}
+
+static virga_result create_passes(virga_splash *splash)
+{
+    virga_result result = VIRGA_OK;
+    pass_row rows[PASSES];
+    list_passes(splash, rows);
+    for (uint32_t i = 0; i < PASSES; i++)
+        for (uint32_t form = 0; form < rows[i].count; form++) {
+            const virga_compute_def def = {.shader = rows[i].shader,
+                                           .layout = splash->bindings->layout,
+                                           .constant = form,
+                                           .group = &splash->needed,
+                                           .name = rows[i].name};
+            TRY(virga_compute_pipeline_create(splash->context, &def, &rows[i].forms[form]));
+        }
+error:
+    return result;
+}
+
+static void retire_passes(virga_splash *splash)
+{
+    pass_row rows[PASSES];
+    list_passes(splash, rows);
+    for (uint32_t i = 0; i < PASSES; i++)
+        for (uint32_t form = 0; form < rows[i].count; form++)
+            VIRGA_RETIRE(splash->context, rows[i].forms[form]);
 }
 
 #define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
@@ -305,10 +340,8 @@ static virga_result init(virga_splash *splash)
 {
     virga_result result = VIRGA_OK;
     virga_buffer_row buffers[BUFFERS];
-    virga_compute_row passes[PASSES];
     const bool smaller = fit_device(splash->context, &splash->def);
     list_buffers(splash, buffers);
-    list_passes(splash, passes);
     TRY(virga_buffers_create(splash->context, buffers, BUFFERS));
     splash->droplets = splash->droplet_buffers[0];
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -318,7 +351,7 @@ static virga_result init(virga_splash *splash)
     TRY(virga_image_create(splash->context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
                            "splash.blank_color", &splash->blank_color));
     TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
-    TRY(virga_compute_pipelines_create(splash->context, splash->bindings->layout, 0, &splash->needed, passes, PASSES));
+    TRY(create_passes(splash));
     result = !result && smaller ? VIRGA_DEGRADED : result;
 error:
     return result;
@@ -383,10 +416,8 @@ void virga_splash_destroy(virga_splash **splash)
     virga_splash *dying = *splash;
     virga_context *context = dying->context;
     virga_buffer_row buffers[BUFFERS];
-    virga_compute_row passes[PASSES];
     list_buffers(dying, buffers);
-    list_passes(dying, passes);
-    virga_compute_pipelines_retire(context, passes, PASSES);
+    retire_passes(dying);
     virga_buffers_retire(context, buffers, BUFFERS);
     splash_targets_destroy(dying);
     VIRGA_RETIRE(context, dying->blank_depth);

@@ -63,6 +63,15 @@ static bool wants_motion(const virga_splash *splash)
     return false;
 }
 
+/* VIRGA_SPLASH_FORM_... of the passes of a prepare. */
+static uint32_t form_wanted(const virga_splash *splash)
+{
+    const virga_splash_settings *settings = &splash->settings;
+    const bool full = settings->lighting.light_count || wants_motion(splash);
+    return (settings->style == VIRGA_SPLASH_STYLE_FILM ? VIRGA_SPLASH_FORM_FILM : 0) |
+           (full ? VIRGA_SPLASH_FORM_FULL : 0);
+}
+
 static void fill_view(const virga_splash *splash, const virga_view *view, double time_s, splash_view_block *out)
 {
     const virga_splash_settings *settings = &splash->settings;
@@ -94,14 +103,14 @@ static void push_view(virga_splash *splash, const virga_view *view, double time_
 }
 
 /* What is to be seen of sprites and of sheets, found side by side. */
-static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
+static void record_lists(virga_splash *splash, VkCommandBuffer cmd, uint32_t style)
 {
     virga_context *context = splash->context;
-    virga_dispatch_indirect(context, cmd, splash->few_find, splash->state->buffer,
+    virga_dispatch_indirect(context, cmd, splash->few_find[style], splash->state->buffer,
                             offsetof(virga_splash_state_gpu, find_groups));
-    virga_dispatch_indirect(context, cmd, splash->droplet_find, splash->state->buffer,
+    virga_dispatch_indirect(context, cmd, splash->droplet_find[style], splash->state->buffer,
                             offsetof(virga_splash_state_gpu, find_droplet_groups));
-    virga_dispatch_indirect(context, cmd, splash->splash_find, splash->state->buffer,
+    virga_dispatch_indirect(context, cmd, splash->splash_find[style], splash->state->buffer,
                             offsetof(virga_splash_state_gpu, find_splash_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, splash->view_scan, 2);
@@ -111,7 +120,7 @@ static void record_lists(virga_splash *splash, VkCommandBuffer cmd)
     virga_indirect_barrier(context, cmd);
 }
 
-static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
+static void record_prepare(virga_splash *splash, VkCommandBuffer cmd, uint32_t form)
 {
     virga_context *context = splash->context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.prepare");
@@ -123,8 +132,8 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd)
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->prepared_set);
-    record_lists(splash, cmd);
-    virga_dispatch_indirect(context, cmd, splash->sprite_write, splash->lists->buffer, 0);
+    record_lists(splash, cmd, form & VIRGA_SPLASH_FORM_FILM);
+    virga_dispatch_indirect(context, cmd, splash->sprite_write[form], splash->lists->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -163,7 +172,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     push_view(splash, view, time_s);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
     splash->prepared_set = splash_write_set(splash, place, splash_current(splash), view);
-    record_prepare(splash, cmd);
+    record_prepare(splash, cmd, form_wanted(splash));
     memcpy(splash->prepared_viewport, view->viewport, sizeof splash->prepared_viewport);
     splash->prepared_style = splash->settings.style;
     splash->prepared = true;

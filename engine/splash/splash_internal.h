@@ -27,6 +27,8 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
+#define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of passes that know of the style alone */
+
 /* What the statistics ring reads back for one frame. */
 typedef struct splash_readback {
     virga_splash_state_gpu state;
@@ -68,7 +70,9 @@ struct virga_splash {
     virga_bindings *bindings;
     virga_pipeline_group needed; /* for all but the draws */
     virga_pipeline *spawn_scan, *spawn, *step, *fall_scan, *fall, *rebase, *indices;
-    virga_pipeline *few_find, *droplet_find, *splash_find, *view_scan, *view_list, *sprite_write;
+    virga_pipeline *view_scan, *view_list;
+    virga_pipeline *few_find[SPLASH_STYLES], *droplet_find[SPLASH_STYLES], *splash_find[SPLASH_STYLES];
+    virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];
     splash_target targets[SPLASH_MAX_TARGETS];
 
     uint64_t ring_frame, rules_frame, view_frame; /* that the cursors below belong to */

@@ -26,6 +26,12 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
+/* Forms of a view's passes, their specialisation constant 0: software Vulkan runs every lane through what a branch would
+ * skip. Those that find know of the first bit alone. */
+#define VIRGA_SPLASH_FORM_FILM 1 /* the film's style, not the paper's */
+#define VIRGA_SPLASH_FORM_FULL 2 /* there may be lamps, and motions are written where they are wanted */
+#define VIRGA_SPLASH_FORMS     4
+
 /* All that a tick's passes need. */
 struct virga_splash_tick_gpu {
     uint tick;

@@ -16,7 +16,12 @@ layout(scalar, set = 0, binding = 1) uniform View
 #define WIDE_PX 3.0       // from here on a sprite shows what is in it
 #define MESH_PX 4.0       // crowns that are at least as high on the picture are sheets
 
+#ifdef IN_FORMS
+layout(constant_id = 0) const uint FORM = 0u; // VIRGA_SPLASH_FORM_...
+bool is_film() { return (FORM & uint(VIRGA_SPLASH_FORM_FILM)) != 0u; }
+#else
 bool is_film() { return look.style == 1u; }
+#endif
 
 bool is_upright(virga_droplet_gpu droplet)
 {

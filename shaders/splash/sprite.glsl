@@ -127,13 +127,14 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 
 Sprite sprite_of(Slot slot, float ago_s)
 {
-    if (slot.kind == SLOT_DROPLET)
-        return droplet_sprite(droplet_of(slot.place), ago_s);
-    if (slot.kind == SLOT_PILE)
-        return pile_sprite(droplet_of(slot.place), ago_s);
+    if (slot.kind == SLOT_NONE)
+        return empty_sprite();
     if (slot.kind == SLOT_SPLASH)
         return puff_sprite(splash_of(slot.place), ago_s);
-    return empty_sprite();
+    const virga_droplet_gpu droplet = droplet_of(slot.place);
+    if (slot.kind == SLOT_PILE)
+        return pile_sprite(droplet, ago_s);
+    return droplet_sprite(droplet, ago_s);
 }
 
 // On the picture.

@@ -1,5 +1,6 @@
 // sprite_find.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets
 // and splashes have a dispatch each, as software Vulkan runs every lane through all branches.
+#define IN_FORMS
 #include "sprite.glsl"
 #include "compact.glsl"
 #include "gpu/compact_find.glsl"

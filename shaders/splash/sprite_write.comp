@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
+#define IN_FORMS
 #include "sprite.glsl"
 #include "gpu/light.glsl"
 #include "compact.glsl"
@@ -10,6 +11,7 @@
 #include "view_lists.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+const bool FULL = (FORM & uint(VIRGA_SPLASH_FORM_FULL)) != 0u;
 // Four for each of `max_sprites` virga_sprite_gpu, behind which lies each one's motion.
 layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]; };
 
@@ -19,7 +21,7 @@ layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]
 uvec3 light_of(vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
-    const vec3 glitter = lamps(middle, d), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
+    const vec3 glitter = FULL ? lamps(middle, d) : vec3(0.0), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
     const vec3 centre = mix(environment(d, vec2(0.97, 0.90)), sky, torn) + glitter;
     const vec3 rim =
         mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) +
@@ -55,6 +57,6 @@ void main()
     sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
     sprites[4u * index + 2u] = uvec4(widths, halves(p.coverage, p.body_px), light.xy);
     sprites[4u * index + 3u] = uvec4(light.z, sprite.kind, halves(sprite.solid, 0.0), sprite.id);
-    if (look.motion != 0u)
+    if (FULL && look.motion != 0u)
         write_motion(index, slot, sprite);
 }
