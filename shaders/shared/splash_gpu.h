@@ -23,11 +23,12 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 /* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes
  * through all that one does, and 256 cost it 50 us more. */
 #define VIRGA_SPLASH_LANES      64
+#define VIRGA_SPLASH_FEW        512 /* droplets, which one workgroup flies: more are worth a dispatch */
 #define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
-/* Forms of a view's passes, their specialisation constant 0: software Vulkan runs every lane through what a branch would
- * skip. Those that find know of the first bit alone. */
+/* Forms of a view's passes, their specialisation constant 0: software Vulkan runs every lane through what a branch
+ * would skip. Those that find know of the first bit alone. */
 #define VIRGA_SPLASH_FORM_FILM 1 /* the film's style, not the paper's */
 #define VIRGA_SPLASH_FORM_FULL 2 /* there may be lamps, and motions are written where they are wanted */
 #define VIRGA_SPLASH_FORMS     4
@@ -77,7 +78,7 @@ struct virga_splash_state_gpu {
     uint crowded_from;      /* rank among this tick's spawns from which on there is no room for droplets */
     uint returns;           /* of this step */
     uint returns_before;    /* of this tick's falls */
-    uint droplet_groups[3]; /* of a dispatch over all droplets of this tick */
+    uint droplet_groups[3]; /* of a dispatch over all droplets of this tick; 0 where they are few */
     uint splash_groups[3];
     uint pad;
     uint spawn_groups[3];   /* of the passes that start splashes and place what falls; 0 where their scan has done so */

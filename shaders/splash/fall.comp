@@ -12,6 +12,7 @@ layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 void main()
 {
-    if (gl_GlobalInvocationID.x < state.end_droplet)
-        place_droplet(gl_GlobalInvocationID.x, state.returns_before, state.returns - state.returns_before);
+    const uint place = gl_GlobalInvocationID.x;
+    if (place < state.end_droplet)
+        place_droplet(place, droplet_of(place), state.returns_before, state.returns - state.returns_before);
 }

@@ -3,14 +3,13 @@
 layout(scalar, set = 0, binding = 12) writeonly buffer Staying { uvec4 staying[]; };
 
 // `room`: for so many returns, from `first` on; more wait in the air.
-void place_droplet(uint place, uint first, uint room)
+void place_droplet(uint place, virga_droplet_gpu droplet, uint first, uint room)
 {
     const uvec4 word = marks[place / 32u];
     const uint bit = 1u << (place & 31u);
     if ((word.y & bit) == 0u)
         return;
     const uint fallen = word.z + bitCount(word.x & (bit - 1u)), alive = word.w + bitCount(word.y & (bit - 1u));
-    const virga_droplet_gpu droplet = droplet_of(place);
     const uvec4 texels[4] = texels_of(droplet);
     droplets[4u * place + 3u] = uvec4(0u, texels[3].yzw);
     if ((word.x & bit) == 0u || fallen >= room) {

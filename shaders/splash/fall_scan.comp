@@ -1,6 +1,6 @@
 // fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their
-// places. One workgroup; each lane takes a run of words. Where droplets are few it places them too, and spares the pass
-// that else does.
+// places. One workgroup; each lane takes a run of words. Where droplets are few it steps and places them too, and
+// spares the passes that else do.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,12 +12,13 @@
 #include "fall_buffers.glsl"
 #include "returns.glsl"
 #include "fall_place.glsl"
+#define STEP_WORDS (VIRGA_SPLASH_FEW / 32)
+#include "step.glsl"
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
-#define FEW 512u         // droplets, of which a lane places some here: more are worth a dispatch
 #define FEW_GROUPS 8u    // as many of droplets and of splashes are found in one dispatch for both
 
 // Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
@@ -34,10 +35,28 @@ uint spawns_to_come()
     return spawn_count() - low;
 }
 
+// All of `end` droplets, which are few.
+void step_few(uint lane, uint end)
+{
+    clear_bits(lane);
+    barrier();
+    for (uint place = lane; place < end; place += VIRGA_SPLASH_LANES) {
+        const virga_droplet_gpu droplet = droplet_of(place);
+        if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
+            step_droplet(place, droplet, place);
+    }
+    barrier();
+    if (32u * lane < end)
+        marks[lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);
+    memoryBarrierBuffer();
+    barrier();
+}
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, end_droplet = state.end_droplet, returned = state.returns;
-    const uint words = (end_droplet + 31u) / 32u;
+    const uint words = (end_droplet + 31u) / 32u, few = end_droplet <= VIRGA_SPLASH_FEW ? end_droplet : 0u;
+    step_few(lane, few);
     const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
     uvec2 sum = uvec2(0u);
@@ -52,17 +71,16 @@ void main()
     }
     const uint taken = min(returned + spawns_to_come(), tick.max_returns);
     const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
-    const bool few = end_droplet <= FEW;
     memoryBarrierBuffer();
     barrier();
-    for (uint place = few ? lane : end_droplet; place < end_droplet; place += VIRGA_SPLASH_LANES)
-        place_droplet(place, returned, fallen);
+    for (uint place = lane; place < few; place += VIRGA_SPLASH_LANES) // not as texels, as they were written here
+        place_droplet(place, stored_droplet(place), returned, fallen);
     if (lane != 0u)
         return;
     state.returns_before = returned;
     state.returns = returned + fallen;
     state.staying = all.y - fallen;
-    state.fall_groups = uint[3](few ? 0u : state.droplet_groups[0], 1u, 1u);
+    state.fall_groups = state.droplet_groups;
     state.view_groups = ring_groups(0u, all.y - fallen);
     state.sprite_groups = uint[3](2u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
     const uint most = max(state.view_groups[0], state.splash_groups[0]);

@@ -97,7 +97,8 @@ void main()
     state.returns_before = returned;
     state.returns = min(returned + crowded, tick.max_returns);
     state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
-    state.droplet_groups = ring_groups(0u, staying + crowded_droplets);
+    const uint droplets = staying + crowded_droplets;
+    state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_FEW ? 0u : droplets);
     state.splash_groups = ring_groups(first_splash, end_after);
     count(VIRGA_SPLASH_CROWDED, crowded);
     count(VIRGA_SPLASH_DROPLETS, crowded_droplets);

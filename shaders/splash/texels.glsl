@@ -14,13 +14,24 @@ float[3] floats(uvec3 words)
 uvec4 texel_of(float three[3], uint fourth) { return uvec4(floatBitsToUint(to_vec(three)), fourth); }
 uvec4 texel_of(float three[3], float fourth) { return texel_of(three, floatBitsToUint(fourth)); }
 
+virga_droplet_gpu droplet_from(uvec4 a, uvec4 b, uvec4 c, uvec4 d)
+{
+    return virga_droplet_gpu(floats(a.xyz), uintBitsToFloat(a.w), floats(b.xyz), uintBitsToFloat(b.w), floats(c.xyz),
+                             c.w, d.x, d.y, d.z, d.w);
+}
+
 virga_droplet_gpu droplet_of(uint place)
 {
     const int texel = int(4u * place);
-    const uvec4 a = texelFetch(droplet_texels, texel), b = texelFetch(droplet_texels, texel + 1),
-                c = texelFetch(droplet_texels, texel + 2), d = texelFetch(droplet_texels, texel + 3);
-    return virga_droplet_gpu(floats(a.xyz), uintBitsToFloat(a.w), floats(b.xyz), uintBitsToFloat(b.w), floats(c.xyz),
-                             c.w, d.x, d.y, d.z, d.w);
+    return droplet_from(texelFetch(droplet_texels, texel), texelFetch(droplet_texels, texel + 1),
+                        texelFetch(droplet_texels, texel + 2), texelFetch(droplet_texels, texel + 3));
+}
+
+// One that this very invocation has written, which its texels may not show yet.
+virga_droplet_gpu stored_droplet(uint place)
+{
+    const uint texel = 4u * place;
+    return droplet_from(droplets[texel], droplets[texel + 1u], droplets[texel + 2u], droplets[texel + 3u]);
 }
 
 uvec4[4] texels_of(virga_droplet_gpu droplet)
