@@ -115,9 +115,10 @@ static virga_result create_buffers(virga_ground *ground)
     const uint32_t frames = ground->context->frames_in_flight;
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags texels = storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const virga_buffer_row wanted[] = {
-        {&ground->floors, cells * sizeof(virga_floor_gpu), storage, VIRGA_HEAP_DEVICE, "ground.floors"},
-        {&ground->cells, cells * sizeof(virga_cell_gpu), storage, VIRGA_HEAP_DEVICE, "ground.cells"},
+        {&ground->floors, cells * sizeof(virga_floor_gpu), texels, VIRGA_HEAP_DEVICE, "ground.floors"},
+        {&ground->cells, cells * sizeof(virga_cell_gpu), texels, VIRGA_HEAP_DEVICE, "ground.cells"},
         {&ground->arrivals, cells * sizeof(virga_arrivals_gpu), storage, VIRGA_HEAP_DEVICE, "ground.arrivals"},
         {&ground->stirs, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.stirs"},
         {&ground->swings, cells * sizeof(uint32_t), storage, VIRGA_HEAP_DEVICE, "ground.swings"},
@@ -187,6 +188,8 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE},                              /* 18 rules of splashes */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 spawns */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 20 swings */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 21 floors as texels */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 22 cells as texels */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -237,7 +240,9 @@ static void write_set(virga_ground *ground, uint32_t source)
          .image_layout = mapped ? info->materials.image.before.layout : read_only},
         info->splash_rules ? rules : whole(ground->no_rules),
         whole(ground->spawns),
-        whole(ground->swings)};
+        whole(ground->swings),
+        {.texels = ground->floors->texels},
+        {.texels = ground->cells->texels}};
     ground->sets[source] = virga_bindings_write(ground->context, ground->bindings, source, bound);
 }
 
@@ -263,8 +268,17 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
     };
-    return virga_compute_pipelines_create(ground->context, ground->bindings->layout, 0, &ground->needed, passes,
-                                          sizeof passes / sizeof passes[0]);
+    const virga_compute_def kept = {.shader = VIRGA_SPIRV(ground_measure_comp),
+                                    .layout = ground->bindings->layout,
+                                    .constant = VK_TRUE,
+                                    .group = &ground->needed,
+                                    .name = "ground.measure_kept"};
+    virga_result result = VIRGA_OK;
+    TRY(virga_compute_pipelines_create(ground->context, ground->bindings->layout, 0, &ground->needed, passes,
+                                       sizeof passes / sizeof passes[0]));
+    TRY(virga_compute_pipeline_create(ground->context, &kept, &ground->measure_kept));
+error:
+    return result;
 }
 
 static virga_result init(virga_ground *ground)
@@ -318,6 +332,16 @@ static virga_result make_in_budget(virga_context *context, virga_ground_def *def
     return result;
 }
 
+/* Floors and cells are read as texels, of two each; cells stay a power of two. */
+static void fit_texels(const virga_context *context, virga_ground_def *def)
+{
+    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
+    uint32_t most = 128;
+    while (most < 4096 && 2ull * most * most <= texels)
+        most *= 2;
+    def->cells = virga_clamp_setting_u32(&context->log, "ground_def.cells", def->cells, 128, most, NULL);
+}
+
 virga_result virga_ground_create(virga_context *context, const virga_ground_def *given, virga_ground **ground)
 {
     if (ground)
@@ -330,6 +354,7 @@ virga_result virga_ground_create(virga_context *context, const virga_ground_def 
     virga_result result = check_def(&context->log, given, &def);
     if (result)
         return result;
+    fit_texels(context, &def);
     virga_ground *made = NULL;
     result = make_in_budget(context, &def, &made);
     if (result < 0)
@@ -347,9 +372,9 @@ void virga_ground_destroy(virga_ground **ground)
         return;
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
-    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,     &dying->land,      &dying->share,
-                                    &dying->soak,  &dying->flow,       &dying->measure,   &dying->map,
-                                    &dying->ring,  &dying->spawn_find, &dying->spawn_scan};
+    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,     &dying->land,       &dying->share,
+                                    &dying->soak,  &dying->flow,       &dying->measure,    &dying->map,
+                                    &dying->ring,  &dying->spawn_find, &dying->spawn_scan, &dying->measure_kept};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
     virga_buffer **buffers[] = {&dying->floors,     &dying->cells,         &dying->arrivals, &dying->spots,

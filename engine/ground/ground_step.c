@@ -341,7 +341,8 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
         const uint32_t pairs = (uint32_t)(pass % FLOW_PASSES);
         const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.flow");
         ground->context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pairs, &pairs);
-        dispatch_cells(ground, cmd, ground->flow, pairs_of_cells / VIRGA_GROUND_GROUP);
+        virga_dispatch(ground->context, cmd, ground->flow,
+                       pairs_of_cells / (VIRGA_GROUND_PAIRS_EACH * VIRGA_GROUND_GROUP));
         virga_compute_barrier(ground->context, cmd);
         virga_pass_end(ground->context, cmd, scope);
     }
@@ -372,8 +373,10 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
     context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
     transfer_barrier(ground, cmd);
-    const uint32_t tiles = ground->window.tiles * ground->window.tiles + ground_window_kept_end(&ground->window);
-    virga_dispatch(context, cmd, ground->measure, tiles);
+    const uint32_t kept = ground_window_kept_end(&ground->window);
+    virga_dispatch(context, cmd, ground->measure, ground->window.tiles * ground->window.tiles);
+    if (kept)
+        virga_dispatch(context, cmd, ground->measure_kept, kept);
     virga_pass_end(context, cmd, scope);
 }
 

@@ -10,13 +10,18 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
-#include "groups.glsl"
 #include "swing.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z, not x; bit 1: the lower cell is odd
 
 shared uint group_sunk, group_dried; // a few thousand nl a cell at most
+
+// Of the invocation's own pairs: software Vulkan works off what invocations share lane by lane.
+struct Lost {
+    uint sunk, dried;
+    virga_ground_count_gpu drained;
+};
 
 struct Surface {
     int height_um;
@@ -72,7 +77,7 @@ uint dry(inout virga_cell_gpu cell, virga_soil_gpu soil, uint hash)
 }
 
 // What leaves a cell of ground but to its neighbours.
-void lose_water(inout virga_cell_gpu cell, uint material, uint hash)
+void lose_water(inout virga_cell_gpu cell, uint material, uint hash, inout Lost lost)
 {
     const virga_soil_gpu soil = tick.soils[material];
     const uint sunk = min(round_fairly(soil.sink_nl_s * loss_s(), hash), cell.free_nl);
@@ -80,19 +85,16 @@ void lose_water(inout virga_cell_gpu cell, uint material, uint hash)
     const uint drained = soil.drain != 0u ? cell.free_nl : 0u;
     cell.free_nl -= drained;
     const uint dried = dry(cell, soil, virga_hash1(hash));
-    if (sunk > 0u)
-        atomicAdd(group_sunk, sunk);
-    if (dried > 0u)
-        atomicAdd(group_dried, dried);
-    if (drained > 0u)
-        count_water(VIRGA_GROUND_RUN_OFF, drained);
+    lost.sunk += sunk;
+    lost.dried += dried;
+    lost.drained.low += drained;
+    lost.drained.high += lost.drained.low < drained ? 1u : 0u;
 }
 
-// The place of the lower cell of this invocation's pair. Tiles have an even number of cells along a side, so what is
-// even in a tile is even in the world.
-uint low_place(bool along_z, uint odd)
+// The place of the lower cell of a pair. Tiles have an even number of cells along a side, so what is even in a tile is
+// even in the world.
+uint low_place(uint pair, bool along_z, uint odd)
 {
-    const uint pair = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const uint tile = pair / (VIRGA_GROUND_TILE_CELLS / 2), inside = pair % (VIRGA_GROUND_TILE_CELLS / 2);
     const uint row_bits = along_z ? TILE_SHIFT : TILE_SHIFT - 1;
     const uvec2 half_local = uvec2(inside & ((1u << row_bits) - 1u), inside >> row_bits);
@@ -100,38 +102,56 @@ uint low_place(bool along_z, uint odd)
     return (tile << (2 * TILE_SHIFT)) | (local.y << TILE_SHIFT) | local.x;
 }
 
-void main()
+void run_pair(uint pair, bool along_z, inout Lost lost)
 {
-    if (gl_LocalInvocationIndex == 0u) {
-        group_sunk = 0u;
-        group_dried = 0u;
-    }
-    barrier();
-    const bool along_z = (pairs & 1u) != 0u;
-    const uint place = low_place(along_z, pairs >> 1);
+    const uint place = low_place(pair, along_z, pairs >> 1);
     const ivec2 where = cell_at_place(place);
     const uint found = cell_place(where + (along_z ? ivec2(0, 1) : ivec2(1, 0)));
     const uint other = found == NO_CELL ? place : found;
-    virga_cell_gpu cell = cells[place];
-    const Surface low = Surface(floors[place].height_um, floors[place].material, cell.free_nl);
-    const Surface high = Surface(floors[other].height_um, floors[other].material, cells[other].free_nl);
+    const uvec2 own_words = cell_words[place], other_words = cell_words[other];
+    virga_cell_gpu cell = virga_cell_gpu(own_words.x, own_words.y);
+    const virga_floor_gpu low_floor = floor_of(place), high_floor = floor_of(other);
+    const Surface low = Surface(low_floor.height_um, low_floor.material, cell.free_nl);
+    const Surface high = Surface(high_floor.height_um, high_floor.material, other_words.x);
     const bool both = found != NO_CELL && low.material != NO_GROUND && high.material != NO_GROUND;
     const int inflow = both ? flow_between(low, high) : 0;
     const int half_um = inflow / (2 * tick.nl_per_um);
     swings[place] = with_swing(swings[place], along_z, half_um);
     if (both) {
-        cells[other].free_nl = uint(int(high.free_nl) - inflow);
+        cell_words[other].x = uint(int(high.free_nl) - inflow);
         swings[other] = with_swing(swings[other], along_z, -half_um);
     }
     if (low.material != NO_GROUND) {
         cell.free_nl = uint(int(cell.free_nl) + inflow);
         const uint hash = virga_hash2(tick.seed + 0x9e3779b9u * (4u * tick.tick + pairs),
                                       uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
-        lose_water(cell, low.material, hash);
-        cells[place] = cell;
+        lose_water(cell, low.material, hash, lost);
+        cell_words[place] = uvec2(cell.free_nl, cell.held_nl);
+    }
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane == 0u) {
+        group_sunk = 0u;
+        group_dried = 0u;
     }
     barrier();
-    if (gl_LocalInvocationIndex == 0u) {
+    Lost lost = Lost(0u, 0u, virga_ground_count_gpu(0u, 0u));
+    const uint first = gl_WorkGroupID.x * VIRGA_GROUND_PAIRS_EACH * VIRGA_GROUND_GROUP + lane;
+    for (uint i = 0u; i < VIRGA_GROUND_PAIRS_EACH; i++)
+        run_pair(first + i * VIRGA_GROUND_GROUP, (pairs & 1u) != 0u, lost);
+    if (lost.sunk > 0u)
+        atomicAdd(group_sunk, lost.sunk);
+    if (lost.dried > 0u)
+        atomicAdd(group_dried, lost.dried);
+    if ((lost.drained.low | lost.drained.high) != 0u) {
+        count_water(VIRGA_GROUND_RUN_OFF, lost.drained.low);
+        atomicAdd(counts[VIRGA_GROUND_RUN_OFF].high, lost.drained.high);
+    }
+    barrier();
+    if (lane == 0u) {
         if (group_sunk > 0u)
             count_water(VIRGA_GROUND_INFILTRATED, group_sunk);
         if (group_dried > 0u)

@@ -32,11 +32,11 @@ void main()
     const uint side = tick.tiles * VIRGA_GROUND_TILE;
     const ivec2 cell = cell_at_place(place);
     const ivec2 texel = cell & int(side - 1u);
-    const virga_floor_gpu own = floors[place];
+    const virga_floor_gpu own = floor_of(place);
     vec4 wet = vec4(0.0, 0.0, 0.0, -60000.0); // far below everything: nothing wet there
     uvec2 bits = uvec2(0u);
     if (own.material != NO_GROUND) {
-        const virga_cell_gpu state = cells[place];
+        const virga_cell_gpu state = cell_of(place);
         const uint capacity = tick.soils[own.material].capacity_nl;
         const float held = float(state.held_nl) / max(float(capacity), 1.0);
         const float free_mm = float(state.free_nl) * tick.m_per_nl * 1e3;

@@ -10,6 +10,7 @@
 #define CELLS_EACH (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 #define STATE_BITS 5 // of a word with counts of up to CELLS_EACH for each state
 
+layout(constant_id = 0) const bool KEPT_TILES = false; // not those of the window
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Kept { virga_cell_gpu kept[]; };
 
@@ -44,26 +45,37 @@ void count_sum(uint index, uint which)
     atomicAdd(counts[index].high, high >> 16);
 }
 
+struct Sums {
+    Sum film, puddles, held;
+    uint of_state;
+};
+
+void measure_cell(virga_cell_gpu cell, uint material, inout Sums sums)
+{
+    const uint state = material == NO_GROUND ? VIRGA_GROUND_NONE : cell_state(cell, material);
+    const bool deep = state >= VIRGA_GROUND_PUDDLE_3;
+    add(sums.film, deep ? 0u : cell.free_nl);
+    add(sums.puddles, deep ? cell.free_nl : 0u);
+    add(sums.held, cell.held_nl);
+    sums.of_state += 1u << (STATE_BITS * state);
+}
+
+// `first`: a texel, of two cells.
 void measure_window(uint first)
 {
-    Sum film = Sum(0u, 0u), puddles = film, held = film;
-    uint of_state = 0u;
-    for (uint i = 0u; i < CELLS_EACH; i++) {
-        const uint place = first + i * VIRGA_GROUND_GROUP;
-        const virga_cell_gpu cell = cells[place];
-        const uint material = floors[place].material;
-        const uint state = material == NO_GROUND ? VIRGA_GROUND_NONE : cell_state(cell, material);
-        const bool deep = state >= VIRGA_GROUND_PUDDLE_3;
-        add(film, deep ? 0u : cell.free_nl);
-        add(puddles, deep ? cell.free_nl : 0u);
-        add(held, cell.held_nl);
-        of_state += 1u << (STATE_BITS * state);
+    const Sum none = Sum(0u, 0u);
+    Sums sums = Sums(none, none, none, 0u);
+    for (uint i = 0u; i < CELLS_EACH; i += 2u) {
+        const int texel = int(first + i / 2u * VIRGA_GROUND_GROUP);
+        const uvec4 two_cells = texelFetch(cell_texels, texel), two_floors = texelFetch(floor_texels, texel);
+        measure_cell(virga_cell_gpu(two_cells.x, two_cells.y), two_floors.y, sums);
+        measure_cell(virga_cell_gpu(two_cells.z, two_cells.w), two_floors.w, sums);
     }
-    share_sum(FILM, film);
-    share_sum(PUDDLES, puddles);
-    share_sum(HELD, held);
+    share_sum(FILM, sums.film);
+    share_sum(PUDDLES, sums.puddles);
+    share_sum(HELD, sums.held);
     for (uint i = 0u; i < VIRGA_GROUND_STATES; i++)
-        atomicAdd(states[i], bitfieldExtract(of_state, int(STATE_BITS * i), STATE_BITS));
+        atomicAdd(states[i], bitfieldExtract(sums.of_state, int(STATE_BITS * i), STATE_BITS));
 }
 
 void measure_kept(uint first)
@@ -87,13 +99,12 @@ void main()
     if (lane < VIRGA_GROUND_STATES)
         states[lane] = 0u;
     barrier();
-    const uint tile = gl_WorkGroupID.x, window = tick.tiles * tick.tiles;
-    if (tile < window)
-        measure_window(tile * VIRGA_GROUND_TILE_CELLS + lane);
+    if (KEPT_TILES)
+        measure_kept(gl_WorkGroupID.x * VIRGA_GROUND_TILE_CELLS + lane);
     else
-        measure_kept((tile - window) * VIRGA_GROUND_TILE_CELLS + lane);
+        measure_window(gl_WorkGroupID.x * (VIRGA_GROUND_TILE_CELLS / 2) + lane);
     barrier();
-    if (lane < 4u)
+    if (KEPT_TILES ? lane == KEPT : lane < KEPT)
         count_sum(VIRGA_GROUND_FIRST_MEASURED + lane, lane);
     if (lane < VIRGA_GROUND_STATES && states[lane] > 0u)
         count_water(VIRGA_GROUND_CELLS + lane, states[lane]);

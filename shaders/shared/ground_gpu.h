@@ -18,7 +18,8 @@ typedef struct virga_ring_gpu virga_ring_gpu;
 typedef struct virga_rings_gpu virga_rings_gpu;
 #endif
 
-#define VIRGA_GROUND_GROUP 256
+#define VIRGA_GROUND_GROUP      256
+#define VIRGA_GROUND_PAIRS_EACH 4 /* pairs of cells for an invocation of a flow pass */
 
 /* Water on its way within a tick; zero between ticks. */
 struct virga_arrivals_gpu {
