@@ -56,14 +56,14 @@ virga_cell_gpu cell_of(uint place)
     return virga_cell_gpu(words.x, words.y);
 }
 
-bool is_ground(uint place) { return place != NO_CELL && floors[place].material != NO_GROUND; }
+bool is_ground(uint place) { return place != NO_CELL && floor_of(place).material != NO_GROUND; }
 
 // Height of the water's surface at a place above a floor, in nanolitres on one cell.
 int surface_above(uint place, int floor_um, int least, int most)
 {
     const int step_um = most / tick.nl_per_um;
-    const int rise = clamp(floors[place].height_um - floor_um, -step_um, step_um) * tick.nl_per_um;
-    return clamp(rise + int(min(cells[place].free_nl, uint(most))), least, most);
+    const int rise = clamp(floor_of(place).height_um - floor_um, -step_um, step_um) * tick.nl_per_um;
+    return clamp(rise + int(min(cell_of(place).free_nl, uint(most))), least, most);
 }
 
 uint cell_state(virga_cell_gpu cell, uint material)

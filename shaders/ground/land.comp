@@ -81,7 +81,7 @@ uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, ui
     if (piece.place == NO_CELL)
         return 0u;
     atomicAdd(arrivals[piece.place].landed_nl, water_nl);
-    const float water_m = float(cells[piece.place].free_nl) * tick.m_per_nl;
+    const float water_m = float(cell_of(piece.place).free_nl) * tick.m_per_nl;
     if (water_m >= LEAST_WATER_M)
         atomicAdd(stirs[piece.place], uint(drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6));
     leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
@@ -99,8 +99,9 @@ void main()
     uint next = tick.max_spawns == 0u ? NO_SPAWN : landings[landing].first_spawn;
     const uint splashing = landings[landing].splashing;
     uint here = 0u, flown = 0u;
+    const Piece first = first_piece(impact);
     for (uint i = 0u; i < n; i++) {
-        const Piece piece = get_piece(impact, i, n);
+        const Piece piece = get_piece(impact, first, i, n);
         if (i == 0u)
             record_landing(landing, piece, impact);
         uint water = piece.water_nl;

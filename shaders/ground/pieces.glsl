@@ -64,30 +64,30 @@ Piece piece_at(vec2 cells_in_window, float height_m) // above the base
     piece.cell = ivec2(whole) + ivec2(tick.low_tile[0], tick.low_tile[1]) * VIRGA_GROUND_TILE;
     piece.in_cell = cells_in_window - whole;
     piece.place = cell_place(piece.cell);
-    if (is_ground(piece.place)) {
-        precise float above = height_m - float(floors[piece.place].height_um) * 1e-6;
-        piece.place = abs(above) > SAME_SURFACE_M ? NO_CELL : piece.place;
-    } else {
-        piece.place = NO_CELL;
+    if (piece.place != NO_CELL) {
+        const virga_floor_gpu found = floor_of(piece.place);
+        precise float above = height_m - float(found.height_um) * 1e-6;
+        if (found.material == NO_GROUND || abs(above) > SAME_SURFACE_M)
+            piece.place = NO_CELL;
     }
     piece.water_nl = 0u;
     return piece;
 }
 
+Piece first_piece(virga_impact_gpu impact) { return piece_at(in_window(impact), above_base(impact.position[1])); }
+
 // Piece i of n; the first lies where the impact is, and takes what does not divide.
-Piece get_piece(virga_impact_gpu impact, uint i, uint n)
+Piece get_piece(virga_impact_gpu impact, Piece first, uint i, uint n)
 {
     const float height_m = above_base(impact.position[1]);
-    const vec2 at = in_window(impact);
-    const Piece own = piece_at(at, height_m);
-    Piece piece = own;
+    Piece piece = first;
     if (i > 0u) {
         const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
         precise float radius = sqrt(virga_unit(h) * float(n)) * 0.09 * tick.inv_cell_m;
         precise float angle = 6.2831853 * virga_unit(virga_hash1(h));
-        precise vec2 beside = at + radius * vec2(cos(angle), sin(angle));
+        precise vec2 beside = first.at + radius * vec2(cos(angle), sin(angle));
         const Piece scattered = piece_at(beside, height_m);
-        if (scattered.place != NO_CELL && own.place != NO_CELL)
+        if (scattered.place != NO_CELL && first.place != NO_CELL)
             piece = scattered;
     }
     piece.water_nl = impact.water_nl / n + (i == 0u ? impact.water_nl % n : 0u);

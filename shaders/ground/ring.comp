@@ -24,7 +24,7 @@ bool on_water(uint index)
 void start_ring(uint place, uint index)
 {
     const virga_impact_gpu impact = impacts[index];
-    const Piece piece = piece_at(in_window(impact), above_base(impact.position[1]));
+    const Piece piece = first_piece(impact);
     virga_ring_gpu ring;
     ring.cell = int[2](piece.cell.x, piece.cell.y);
     ring.in_cell = float[2](piece.in_cell.x, piece.in_cell.y);

@@ -47,7 +47,7 @@ int level_of(int heights[5], int water)
 
 void share(ivec2 cell, uint own, int water)
 {
-    const int floor_um = floors[own].height_um;
+    const int floor_um = floor_of(own).height_um;
     uint places[5];
     int heights[5];
     int neighbours = 0, highest = -MOST_STEP_NL;
@@ -82,16 +82,17 @@ void main()
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
+    const Piece first = first_piece(impact);
     for (uint i = 0u; i < n; i++) {
-        const Piece piece = get_piece(impact, i, n);
+        const Piece piece = get_piece(impact, first, i, n);
         if (piece.place == NO_CELL)
             continue;
         // Of all drops on a cell one invocation gets their sum; which does not matter.
         const uint landed = atomicExchange(arrivals[piece.place].landed_nl, 0u);
         if (landed == 0u)
             continue;
-        const uint room = tick.soils[floors[piece.place].material].capacity_nl;
-        const uint taken = min(landed, room - min(cells[piece.place].held_nl, room));
+        const uint room = tick.soils[floor_of(piece.place).material].capacity_nl;
+        const uint taken = min(landed, room - min(cell_of(piece.place).held_nl, room));
         const uint shared_nl = min(landed - taken, uint(MOST_STEP_NL));
         give(piece.place, int(landed - shared_nl));
         share(piece.cell, piece.place, int(shared_nl));

@@ -16,10 +16,11 @@ void soak(uint place)
     const uint given = atomicExchange(arrivals[place].given_nl, 0u);
     if (given == 0u)
         return;
-    const virga_cell_gpu cell = cells[place];
-    const uint capacity = tick.soils[floors[place].material].capacity_nl;
+    const uvec2 words = cell_words[place];
+    const virga_cell_gpu cell = virga_cell_gpu(words.x, words.y);
+    const uint capacity = tick.soils[floor_of(place).material].capacity_nl;
     const uint taken = min(given, capacity - min(cell.held_nl, capacity));
-    cells[place] = virga_cell_gpu(cell.free_nl + (given - taken), cell.held_nl + taken);
+    cell_words[place] = uvec2(cell.free_nl + (given - taken), cell.held_nl + taken);
 }
 
 void main()
@@ -29,8 +30,9 @@ void main()
         return;
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
+    const Piece first = first_piece(impact);
     for (uint i = 0u; i < n; i++) {
-        const Piece piece = get_piece(impact, i, n);
+        const Piece piece = get_piece(impact, first, i, n);
         if (piece.place == NO_CELL)
             continue;
         for (int k = 0; k < 5; k++) {

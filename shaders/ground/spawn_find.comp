@@ -17,7 +17,8 @@ void main()
     const virga_impact_gpu impact = impacts[index];
     const uint n = piece_count(impact);
     uint splashing = 0u;
+    const Piece first = first_piece(impact);
     for (uint i = 0u; i < n; i++)
-        splashing |= is_splash(impact, get_piece(impact, i, n), i) ? 1u << i : 0u;
+        splashing |= is_splash(impact, get_piece(impact, first, i, n), i) ? 1u << i : 0u;
     landings[landing_index(index)].splashing = splashing;
 }

@@ -24,15 +24,15 @@ struct Spawning {
 
 uint state_at(uint place)
 {
-    return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cells[place], floors[place].material);
+    return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cell_of(place), floor_of(place).material);
 }
 
 uint material_at(uint place, virga_impact_gpu impact)
 {
-    return place == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floors[place].material;
+    return place == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floor_of(place).material;
 }
 
-float depth_at(uint place) { return place == NO_CELL ? 0.0 : float(cells[place].free_nl) * tick.m_per_nl; }
+float depth_at(uint place) { return place == NO_CELL ? 0.0 : float(cell_of(place).free_nl) * tick.m_per_nl; }
 
 // The first piece lies where the drop met the mesh, the others on their cells' floors.
 vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
@@ -41,7 +41,7 @@ vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
     if (i == 0u || piece.place == NO_CELL)
         return own;
     const vec2 moved = (piece.at - in_window(impact)) * tick.cell_m;
-    const float floor_m = float(floors[piece.place].height_um) * 1e-6 - above_base(0.0);
+    const float floor_m = float(floor_of(piece.place).height_um) * 1e-6 - above_base(0.0);
     return vec3(own.x + moved.x, floor_m, own.z + moved.y);
 }
 
