@@ -112,7 +112,8 @@ struct virga_ground {
     uint32_t last_tick;
     virga_bindings *bindings;
     virga_pipeline_group needed; /* for all of it */
-    virga_pipeline *adopt, *forget, *spawn_find, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_kept, *map, *ring;
+    virga_pipeline *adopt, *forget, *spawn_find, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_kept,
+        *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
     uint64_t ring_frame;

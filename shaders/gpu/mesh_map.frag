@@ -25,8 +25,8 @@ void main()
 {
     // Before any texel is discarded: behind that, derivatives are undefined.
     const vec3 to_right = dFdx(place), down = dFdy(place);
-    // Leaves: a share of the texels lets drops through. By texel, so that it is steady while the map stays in place. For
-    // meshes without holes this is left out: a shader that may discard has its depth tested last.
+    // Leaves: a share of the texels lets drops through. By texel, so that it is steady while the map stays in place.
+    // For meshes without holes this is left out: a shader that may discard has its depth tested last.
     const uvec2 texel = uvec2(gl_FragCoord.xy);
     if (HOLES && virga_unit(virga_hash3(push.texels, texel.x, texel.y)) >= push.cover)
         discard;

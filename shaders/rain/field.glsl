@@ -1,8 +1,8 @@
 // field.glsl - what every pass over the field of drops shares: slots, drops, boxes, weights, occlusion.
 #include "tick.glsl"
 
-// See VIRGA_RAIN_FORM. Software Vulkan runs every lane through what a branch would skip, so what a rain was made without
-// is left out of its pipelines.
+// See VIRGA_RAIN_FORM. Software Vulkan runs every lane through what a branch would skip, so what a rain was made
+// without is left out of its pipelines.
 layout(constant_id = 0) const uint FORM = 0u;
 const uint CASCADES = FORM & 7u;
 const uint SLANTS = (FORM >> 3) & 7u;

@@ -20,8 +20,8 @@ typedef struct scene_list {
     void *owner;
 } scene_list;
 
-/* All of them, also empty ones, in the order of the schema: an array to free(), NULL without memory. Counts are those of
- * now. */
+/* All of them, also empty ones, in the order of the schema: an array to free(), NULL without memory. Counts are those
+ * of now. */
 scene_list *scene_lists(scene_file *scene, size_t *count);
 
 /* Adds an entry at the end: the last one again, later or larger where entries have to rise; the first has defaults.

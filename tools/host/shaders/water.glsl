@@ -1,9 +1,9 @@
 // water.glsl - a material that is damp, wet or under water.
 //
 // Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes
-// it glossier; from a tenth of a millimetre on water has a level surface of its own over it, with the reflectance of water
-// (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for both, that
-// mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim.
+// it glossier; from a tenth of a millimetre on water has a level surface of its own over it, with the reflectance of
+// water (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for
+// both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim.
 #include "shared/ground_map.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
