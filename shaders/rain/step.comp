@@ -67,7 +67,7 @@ void main()
     z = add64(z, uvec2(h, 0u));
     h = scatter(h, z.y);
 
-    const float unit = tick.side_m * exp2(-32.0 - float(shift));
+    const float unit = tick.side_m * uintBitsToFloat((95u - shift) << 23); // side / 2^(32 + shift)
     const ivec3 middle = ivec3(uvec3(x.x, y.x, z.x) - 0x80000000u);
     const vec3 p = vec3(middle) * unit;
     const uint id = slot_index | (h << VIRGA_RAIN_ID_SLOT_BITS);
