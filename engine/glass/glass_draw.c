@@ -312,7 +312,7 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
     const VkPipelineStageFlags from =
         view->color.before.stage ? view->color.before.stage : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    virga_dispatch_2d(context, cmd, picture->copy_pass, VIRGA_GLASS_COPY / 16, VIRGA_GLASS_COPY / 16);
+    virga_dispatch_2d(context, cmd, picture->copy_pass, 1, VIRGA_GLASS_COPY);
     virga_compute_barrier(context, cmd);
     virga_dispatch_2d(context, cmd, picture->shrink_pass, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
     virga_pass_end(context, cmd, scope);

@@ -1,10 +1,12 @@
-// picture_copy.comp - the plate as 256 x 256 texels, each the mean of its part: by as many whole pixels as it has.
+// picture_copy.comp - the plate as 256 x 256 texels, each the mean of its part: by as many whole pixels as it has. A
+// workgroup has a row of them, so that a processor reads a few rows of the plate from end to end: squares, which jump
+// from row to row of it, took half as long again.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = VIRGA_GLASS_COPY) in;
 layout(set = 0, binding = 13, rgba16f) uniform image2D copies_out;
 layout(set = 0, binding = 16) uniform sampler2D scene_color;
 
