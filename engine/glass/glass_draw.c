@@ -177,7 +177,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
                       glass_view_block *block)
 {
-    glass_view_block filled = {0};
+    glass_view_block filled = {.look.view_texel = glass->picture->view_offset / 16};
     virga_view_fill(view, &glass->settings.lighting, pose->position_m, virga_glass_time(glass), time_s, &filled.view);
     fill_pane(glass, view, pose, &filled.look);
     fill_time(glass, time_s, &filled.look);

@@ -79,7 +79,8 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->corners, (tiles + blocks) * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "glass.corners"},
         {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
-         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.views"},
+         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, VIRGA_HEAP_UPLOAD,
+         "glass.views"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
@@ -136,6 +137,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 25 blocks with film */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 26 words, written */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 27 words, read */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, FRAGMENT},                                /* 28 views, as texels */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -193,6 +195,7 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
         whole(glass->film_blocks),
         own_image(picture->words, VK_NULL_HANDLE),
         own_image(picture->words, context->nearest),
+        {.texels = picture->view_ring->texels},
     };
     return virga_bindings_write(context, picture->bindings, index, bound);
 }

@@ -8,13 +8,14 @@
 
 layout(set = 0, binding = 21) uniform sampler2D mist_map;
 
+layout(location = 14) flat in vec4 mist_grid;
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
     // Whole texels only: beyond those in use others are left from another view.
-    const vec2 last = (vec2(look.mist_columns, look.mist_rows) - 0.5) / vec2(textureSize(mist_map, 0));
-    const float share = textureLod(mist_map, min(place * vec2(look.mist_scale[0], look.mist_scale[1]), last), 0.0).r;
+    const vec2 last = (mist_grid.xy - 0.5) / vec2(textureSize(mist_map, 0));
+    const float share = textureLod(mist_map, min(place * mist_grid.zw, last), 0.0).r;
     if (share <= 0.0 || behind_scene())
         discard;
     if (SIDE == VIRGA_GLASS_DRAW_OPAQUE && dot(position, cross(along_u, along_v)) > 0.0)

@@ -7,8 +7,11 @@
 #include "picture_corner.glsl"
 #include "picture_corner_light.glsl"
 
+layout(location = 14) flat out vec4 mist_grid; // texels of the mist's map in use; the scale of its texture, per metre
+
 void main()
 {
+    mist_grid = vec4(look.mist_columns, look.mist_rows, look.mist_scale[0], look.mist_scale[1]);
     const uint columns = look.mist_pitch / VIRGA_GLASS_MIST_BLOCK + 1u, number = uint(gl_VertexIndex);
     const float block_m = float(VIRGA_GLASS_MIST_BLOCK * look.mist_cells) * look.pane.cell_m;
     const vec2 at = vec2(number % columns, number / columns) * block_m;

@@ -24,8 +24,7 @@ void main()
 #endif
     if (water.cover + water.mist <= 0.0 || behind_scene())
         discard;
-    const vec2 size = vec2(view.viewport[2], view.viewport[3]);
-    const vec2 mirrored = vec2(view.viewport[0], view.viewport[1]) + paper_uv(pixel) * size;
+    const vec2 mirrored = view_box.xy + paper_uv(pixel) * view_box.zw;
     const vec3 light = HAS_PLATE ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)
                                  : environment(normalize(pixel_ray(mirrored)), vec2(1.0));
     const float alpha = water.cover + water.mist;

@@ -17,12 +17,12 @@ vec2 paper_pixel(vec2 pixel, vec2 slope, vec4 ways)
 {
     const vec3 normal = normalize(vec3(-slope * PAPER_RELIEF_M, 1.0));
     const vec2 picture = vec2(dot(normal.xy, ways.xy), dot(normal.xy, ways.zw));
-    return pixel - picture * look.paper_shift * view.viewport[3];
+    return pixel - picture * shown_by.y * view_box.w;
 }
 
 // Beyond the picture's borders it is looked up mirrored in them.
 vec2 paper_uv(vec2 pixel)
 {
-    const vec2 uv = (pixel - vec2(view.viewport[0], view.viewport[1])) / vec2(view.viewport[2], view.viewport[3]);
+    const vec2 uv = (pixel - view_box.xy) / view_box.zw;
     return 1.0 - abs(1.0 - mod(uv, 2.0));
 }

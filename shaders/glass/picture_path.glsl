@@ -82,8 +82,7 @@ vec3 glass_shift(vec3 d, vec3 flat_normal)
 // sits there. A ray that has passed the pane can not meet them; the picture has nothing of what they hide.
 bool is_inside(vec2 pixel, vec3 d)
 {
-    const vec2 first = vec2(view.viewport[0], view.viewport[1]), size = vec2(view.viewport[2], view.viewport[3]);
-    const vec2 at = clamp(pixel, first, first + size - 1.0);
+    const vec2 at = clamp(pixel, view_box.xy, view_box.xy + view_box.zw - 1.0);
     const float stored = buffer_depth(at);
     if (stored == view.far_depth)
         return false;
@@ -147,6 +146,6 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     else
         path.ahead = on_picture(vec4(path.out_of, 0.0), path.pixel);
     // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
-    path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / view.pixel_angle;
+    path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / gain_angle.y;
     return path;
 }

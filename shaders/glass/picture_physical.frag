@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
+#include "picture_sky.glsl"
 #include "gpu/light.glsl"
 #include "picture_surface.glsl"
 #include "picture_plate.glsl"
@@ -61,7 +62,7 @@ vec3 shown(Path path, vec3 d, float height)
     // On what is not glass a film follows the bumps beneath, which the map does not have: it mirrors a lamp as widely,
     // or its trails would be white wires. Drops and beads are round, whatever they lie on.
     const float level = opaque ? FILM_TURN * (1.0 - smoothstep(1.5e-5, 6e-5, height)) : 0.0;
-    const float width = max(0.5 * path.pixels * view.pixel_angle, max(level, 0.02));
+    const float width = max(0.5 * path.pixels * gain_angle.y, max(level, 0.02));
     const bool outside = opaque || SIDE == VIRGA_GLASS_DRAW_BEFORE ||
                          (SIDE != VIRGA_GLASS_DRAW_BEHIND && dot(d, flat_normal) < 0.0);
     vec3 through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * mix(1.0, THROWN, path.lost);
@@ -73,7 +74,7 @@ vec3 shown(Path path, vec3 d, float height)
     vec3 mirrored = environment(path.mirrored, outside ? vec2(1.0) : vec2(1.0, 0.0)) * (outside ? 1.0 : BEHIND);
     if (HAS_LAMPS && outside)
         mirrored += lamps_along(path.mirrored, width);
-    return mix(through * to_vec(look.tint), mirrored * look.gain, path.reflects);
+    return mix(through * tint_given.rgb, mirrored * gain_angle.x, path.reflects);
 }
 
 void main()

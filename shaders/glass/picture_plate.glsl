@@ -18,26 +18,29 @@ vec3 plate_at(vec2 pixel, float pixels)
     return mix(copy_at(uv, nearest), textureLod(scene_color, uv, 0.0).rgb, sharp);
 }
 
+#ifndef PAPER
 // Where a place relative to the camera (w = 1), or a direction (w = 0), is on the picture; false: not before the
 // camera.
 bool on_picture(vec4 where, out vec2 pixel)
 {
-    const vec4 clip = to_mat(view.clip_from_rel) * where;
-    const vec2 ndc = clip.xy / max(clip.w, 1e-5);
-    pixel = vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
-    return clip.w > 1e-5;
+    const vec4 low = clip_xy[0], high = clip_xy[1];
+    const vec3 clip = mat4x3(low.xy, clip_w.x, low.zw, clip_w.y, high.xy, clip_w.z, high.zw, clip_w.w) * where;
+    const vec2 ndc = clip.xy / max(clip.z, 1e-5);
+    pixel = view_box.xy + (0.5 * ndc + 0.5) * view_box.zw;
+    return clip.z > 1e-5;
 }
 
 // What lies there: the picture, and smoothly around its edges the environment.
 vec3 seen(bool ahead, vec2 pixel, vec3 direction, float pixels)
 {
     const vec3 around = environment(direction, vec2(1.0));
-    if (view.color_given == 0u || !ahead)
+    if (tint_given.w == 0.0 || !ahead)
         return around;
-    const vec2 size = vec2(view.viewport[2], view.viewport[3]), way = abs(pixel - gl_FragCoord.xy) / size;
-    const vec2 ndc = (pixel - vec2(view.viewport[0], view.viewport[1])) / size * 2.0 - 1.0;
+    const vec2 way = abs(pixel - gl_FragCoord.xy) / view_box.zw;
+    const vec2 ndc = (pixel - view_box.xy) / view_box.zw * 2.0 - 1.0;
     // The wider a ray is bent the wider the band: one that is not bent shows the picture up to its edge.
     const float band = clamp(max(way.x, way.y), 1e-3, 0.15);
     const float inside = smoothstep(0.0, 1.0, (1.0 - max(abs(ndc.x), abs(ndc.y))) / band);
     return inside > 0.0 ? mix(around, plate_at(pixel, pixels), inside) : around;
 }
+#endif

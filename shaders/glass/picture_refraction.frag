@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
+#include "picture_sky.glsl"
 #include "gpu/light.glsl"
 #include "picture_surface.glsl"
 #include "picture_slopes.glsl"

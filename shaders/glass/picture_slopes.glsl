@@ -40,7 +40,7 @@ Water water_by_density()
     water.cover = cover_of(between(vec4(lower.yz, upper.yz) * glass, t));
     water.mist = (1.0 - water.cover) * between(vec4(four & 0xffu) * glass, t) / 255.0;
     water.slope = vec2(slope_between(mix(lower, upper, t.y), has_first.x, has_last.x, t.x),
-                       slope_between(mix(left, right, t.x), has_first.y, has_last.y, t.y)) / texel_m();
+                       slope_between(mix(left, right, t.x), has_first.y, has_last.y, t.y)) / map_grid.xy;
     water.height = water.bend = 0.0;
     return water;
 }

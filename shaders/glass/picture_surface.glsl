@@ -16,12 +16,19 @@ layout(set = 0, binding = 12) uniform sampler2D relief_map;
 
 layout(location = 0) in vec2 place;
 layout(location = 1) in vec3 position;
+layout(location = 5) flat in vec4 map_grid; // these as in picture_corner.glsl
+layout(location = 6) flat in vec4 view_box;
+layout(location = 7) flat in vec2 shown_by;
 #ifdef PAPER
 layout(location = 2) in vec4 pane_ways;
 #else
 layout(location = 2) in vec3 along_u;
 layout(location = 3) in vec3 along_v;
 layout(location = 4) in vec3 mist_light;
+layout(location = 8) flat in vec4 tint_given; // these as in picture_corner_light.glsl
+layout(location = 9) flat in vec4 clip_xy[2];
+layout(location = 11) flat in vec4 clip_w;
+layout(location = 13) flat in vec2 gain_angle;
 #endif
 
 struct Water {
@@ -32,10 +39,10 @@ struct Water {
     float bend;   // largest change of the slope, 1/m
 };
 
-vec2 last_texel() { return vec2(look.map_columns, look.map_rows) - 1.0; }
+vec2 last_texel() { return map_grid.zw; }
 
 // The pixel's place among the middles of texels.
-vec2 texels_here() { return clamp(place / texel_m() - 0.5, vec2(0.0), last_texel()); }
+vec2 texels_here() { return clamp(place / map_grid.xy - 0.5, vec2(0.0), last_texel()); }
 
 // Not every device filters four whole floats.
 vec4 relief_here()
@@ -59,7 +66,7 @@ bool behind_scene()
 // Over one pixel the rim goes from nothing to all.
 float cover_of(float density)
 {
-    return clamp((density - look.threshold) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
+    return clamp((density - shown_by.x) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
 }
 
 Water water_here()

@@ -1,7 +1,9 @@
 // light.glsl - what water shows of the light around it. The includer has gpu/vectors.glsl and a block with a member
 // `virga_view_gpu view`.
 
+#ifndef SH_FETCHED // else the includer has this function
 vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
+#endif
 
 // The environment seen along d through a lobe with Legendre moments 1, g.x, g.y: each band is scaled by its moment
 // (Funk-Hecke). A drop's phase function as the lobe gives what the drop shows on average: nearly the whole environment.

@@ -74,6 +74,7 @@ struct virga_glass_picture_gpu {
     float previous_from_here[16]; /* to the previous frame's clip coordinates, from where something is relative to the
                                    * camera that has kept its place on the pane */
     float eye_before[3];    /* where the camera was then, likewise */
+    uint view_texel;        /* first of the view among the texels that all views' blocks are */
 };
 
 /* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else

@@ -54,9 +54,11 @@ struct virga_view_gpu {
     uint motion_given;
 };
 
+#define VIRGA_VIEW_SH_WORD 61u /* that `sh` begins with */
+
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
-VIRGA_ASSERT_OFFSET(virga_view_gpu, sh, 244);
+VIRGA_ASSERT_OFFSET(virga_view_gpu, sh, 4 * VIRGA_VIEW_SH_WORD);
 VIRGA_ASSERT_OFFSET(virga_view_gpu, lights, 620);
 #undef uint
 #endif
