@@ -7,10 +7,17 @@ float buffer_depth(vec2 pixel) { return texelFetch(scene_depth, ivec2(pixel), 0)
 // As view depth (m).
 float view_depth(float stored) { return view.depth_b / (view.depth_a + stored); }
 
-// 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it.
-float soft_edge(float distance)
+// 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it. The terms are
+// depth_a, depth_b, far_depth and soft_m of the view, from a vertex: software Vulkan reads a uniform buffer lane by lane
+// in a fragment shader.
+float soft_edge(float distance, vec4 terms)
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
-    const float in_front = stored == view.far_depth ? 1e9 : view_depth(stored) - distance;
-    return view.soft_m > 0.0 ? clamp(in_front / view.soft_m, 0.0, 1.0) : float(in_front >= 0.0);
+    const float in_front = stored == terms.z ? 1e9 : terms.y / (terms.x + stored) - distance;
+    return terms.w > 0.0 ? clamp(in_front / terms.w, 0.0, 1.0) : float(in_front >= 0.0);
+}
+
+float soft_edge(float distance)
+{
+    return soft_edge(distance, vec4(view.depth_a, view.depth_b, view.far_depth, view.soft_m));
 }

@@ -3,22 +3,31 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#define SH_FETCHED
 #include "tick.glsl"
 #include "view.glsl"
 #include "gpu/scene_depth.glsl"
 
+layout(location = 0) noperspective in vec3 ray; // see haze.vert
+layout(location = 1) flat in vec4 depth_and_reach;
+layout(location = 2) flat in vec4 per_m[HAZE_VECTORS];
+layout(location = 6) flat in vec4 sky[SKY_VECTORS];
 layout(location = 0) out vec4 radiance;
+
+float sky_word(uint word) { return sky[word / 4u][word % 4u]; }
+
+vec3 sh_coefficient(uint i) { return vec3(sky_word(3u * i), sky_word(3u * i + 1u), sky_word(3u * i + 2u)); }
 
 void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
-    const vec3 ray = pixel_ray(gl_FragCoord.xy);
     // The sky is an environment seen through its own rain already.
-    const float way = stored == view.far_depth ? 0.0 : view_depth(stored) * length(ray);
-    float thick = 0.0, from = 0.0, to = look.haze_inner_m;
-    for (uint box = 0u; box < tick.levels && way > from; box++, from = to, to *= 2.0)
-        thick += look.haze_per_m[box] * (min(way, to) - from);
-    thick += look.haze_per_m[tick.levels] * max(way - from, 0.0);
+    const float way =
+        stored == depth_and_reach.z ? 0.0 : depth_and_reach.y / (depth_and_reach.x + stored) * length(ray);
+    float thick = 0.0, from = 0.0, to = depth_and_reach.w;
+    for (uint box = 0u; box < VIRGA_RAIN_MAX_LEVELS; box++, from = to, to *= 2.0)
+        thick += per_m[box / 4u][box % 4u] * clamp(way - from, 0.0, to - from);
+    thick += per_m[VIRGA_RAIN_MAX_LEVELS / 4][VIRGA_RAIN_MAX_LEVELS % 4] * max(way - from, 0.0);
     const float alpha = 1.0 - exp(-thick);
     if (alpha <= 0.0)
         discard;

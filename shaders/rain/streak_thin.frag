@@ -13,13 +13,14 @@ layout(constant_id = 0) const bool HAS_DEPTH = true;
 layout(location = 0) noperspective in vec4 place;
 layout(location = 1) flat in vec4 light_alpha;
 layout(location = 2) flat in vec3 shape;
+layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
     float alpha = light_alpha.a * streak_profile(abs(place.x), shape.x) * streak_length(place.y, shape.y);
     if (HAS_DEPTH)
-        alpha *= soft_edge(place.w);
+        alpha *= soft_edge(place.w, depth_terms);
     radiance = vec4(light_alpha.rgb * streak_wave(place.z, shape.z) * alpha, alpha);
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);

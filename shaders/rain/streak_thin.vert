@@ -7,9 +7,12 @@
 #include "streak.glsl"
 #include "gpu/streak_profile.glsl"
 
+layout(constant_id = 0) const bool HAS_DEPTH = true;
+
 layout(location = 0) noperspective out vec4 place; // px from the middle line; see streak_begun; turns; view depth
 layout(location = 1) flat out vec4 light_alpha;
 layout(location = 2) flat out vec3 shape; // half width; see streak_ends; size of the wave
+layout(location = 5) flat out vec4 depth_terms;
 
 void main()
 {
@@ -21,4 +24,6 @@ void main()
     const float wide = clamp(streak.half_width - 0.75, 0.0, 1.0);
     light_alpha = vec4(mix(streak.centre, streak.rim, wide / 3.0 + (1.0 - wide) * 0.5), streak.alpha);
     shape = vec3(streak.half_width, streak_ends(streak.way_px, streak.body_px), streak.wave_size);
+    if (HAS_DEPTH)
+        depth_terms = vec4(view.depth_a, view.depth_b, view.far_depth, view.soft_m);
 }

@@ -13,6 +13,7 @@ layout(location = 0) noperspective in vec4 place;
 layout(location = 1) flat in vec4 centre_alpha;
 layout(location = 2) flat in vec4 rim_wave;
 layout(location = 3) flat in vec3 shape;
+layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
 // What a drop shows at (u, v) of its disc: the ray is bent by 2 (i - t), sin i = r, towards the other side, so the
@@ -48,7 +49,7 @@ void main()
     float alpha = centre_alpha.a * streak_profile(abs(place.x), half_width) *
                   streak_length(streak_begun(place.y, way, body), streak_ends(way, body));
     if (HAS_DEPTH)
-        alpha *= soft_edge(place.w);
+        alpha *= soft_edge(place.w, depth_terms);
     if (alpha <= 0.0)
         discard;
 

@@ -6,10 +6,13 @@
 #include "view.glsl"
 #include "streak.glsl"
 
+layout(constant_id = 0) const bool HAS_DEPTH = true;
+
 layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; turns; view depth
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
 layout(location = 3) flat out vec3 shape;    // half width; length of the drop; way (px)
+layout(location = 5) flat out vec4 depth_terms;
 
 void main()
 {
@@ -19,4 +22,6 @@ void main()
     centre_alpha = vec4(streak.centre, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
     shape = vec3(streak.half_width, streak.body_px, streak.way_px);
+    if (HAS_DEPTH)
+        depth_terms = vec4(view.depth_a, view.depth_b, view.far_depth, view.soft_m);
 }

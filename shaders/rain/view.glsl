@@ -7,6 +7,13 @@ layout(scalar, set = 0, binding = 1) uniform View
     virga_rain_look_gpu look;
 };
 
+// Flat inputs of the haze: see haze.vert.
+#define HAZE_VECTORS (VIRGA_RAIN_MAX_LEVELS / 4 + 1)
+#define SKY_VECTORS 7
+
+#ifdef SH_FETCHED
+vec3 sh_coefficient(uint i);
+#endif
 #include "gpu/view.glsl"
 #include "gpu/light.glsl"
 
