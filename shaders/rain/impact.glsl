@@ -26,7 +26,8 @@ bool near_surface(uint slot_index)
     const MapPlace place = map_place(now, classes[size_class].slant);
     const float height = middle_height(place);
     const float slope = tick.host_depth != 0u ? 0.0 : MOST_OFFSET / place.map.texels_per_m;
-    return now.y - ROUNDING_M <= height + slope && height - slope <= now.y + 1.5 * fallen + ROUNDING_M;
+    return height > NOTHING_BELOW && now.y - ROUNDING_M <= height + slope &&
+           height - slope <= now.y + 1.5 * fallen + ROUNDING_M;
 }
 
 // Without branches, see above.
