@@ -56,6 +56,9 @@ virga_cell_gpu cell_of(uint place)
     return virga_cell_gpu(words.x, words.y);
 }
 
+// Depth of water, m.
+float depth_at(uint place) { return place == NO_CELL ? 0.0 : float(cell_of(place).free_nl) * tick.m_per_nl; }
+
 bool is_ground(uint place) { return place != NO_CELL && floor_of(place).material != NO_GROUND; }
 
 // Height of the water's surface at a place above a floor, in nanolitres on one cell.

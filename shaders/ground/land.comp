@@ -14,7 +14,6 @@ layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arriva
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
-#define LATER_S 0.1 // (s) within which the splashes fall that a far impact stands for
 #define SPREAD 2.0 // diameter of the spot over that of the drop, on what is porous
 
 // Bits that a spot covers: all within its radius; one that it covers in part, as often as its share.
@@ -58,9 +57,7 @@ void write_spawn(uint index, virga_impact_gpu impact, Piece piece, uint i, Spawn
                        vec3(spawns_head.origin[0], spawns_head.origin[1], spawns_head.origin[2]);
     const vec3 position = plan.position + moved;
     spawn.position = float[3](position.x, position.y, position.z);
-    // What one impact stands for does not fall at one instant.
-    const float later = impact.weight > 1.0 ? LATER_S * virga_unit(virga_hash2(plan.hash, 3u)) / tick.tick_s : 0.0;
-    spawn.share = fract(impact.time_s / tick.tick_s) + later;
+    spawn.share = fract(impact.time_s / tick.tick_s) + later_ticks(impact, plan.hash);
     spawn.velocity = impact.velocity;
     spawn.diameter_m = impact.diameter_m;
     spawn.normal = impact.normal;

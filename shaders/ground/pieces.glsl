@@ -44,6 +44,22 @@ uint piece_count(virga_impact_gpu impact)
     return uint(clamp(ceil(impact.weight - 1e-3), 1.0, float(VIRGA_GROUND_SCATTER)));
 }
 
+#define FIRST_HASH 128u // of the numbers of hashes for what a piece starts: its splash, its ring
+#define PIECES_LATER_S 0.1 // within which the pieces fall of an impact that stands for several drops
+
+uint piece_hash(virga_impact_gpu impact, uint i)
+{
+    // Droplets of one drop may fall in one tick: their water tells them apart.
+    const uint own = head.is_return != 0u ? impact.id ^ impact.water_nl * 0x9e3779b1u : impact.id;
+    return virga_hash4(tick.seed, own, impact.tick, FIRST_HASH + i);
+}
+
+// What one impact stands for does not fall at one instant: ticks from the impact to the splash and ring of a piece.
+float later_ticks(virga_impact_gpu impact, uint hash)
+{
+    return impact.weight > 1.0 ? PIECES_LATER_S * virga_unit(virga_hash2(hash, 3u)) / tick.tick_s : 0.0;
+}
+
 // In units of cells from the window's low corner. The corner is far from the origin, so it comes as two floats.
 vec2 in_window(virga_impact_gpu impact)
 {

@@ -32,6 +32,6 @@ void main()
     const vec2 at =
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     moment = vec3(age, layer_of(ring.depth_m), ring.crater_m);
-    const bool lives = ring.crater_m > 0.0 && age < VIRGA_RING_TIME_S;
+    const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < VIRGA_RING_TIME_S;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -11,7 +11,6 @@ layout(scalar, set = 0, binding = 19) buffer Spawns
 };
 
 #define NO_SPAWN 0xffffffffu
-#define FIRST_HASH 128u // of the numbers of hashes for a piece's splash
 
 struct Spawning {
     uint model;
@@ -31,8 +30,6 @@ uint material_at(uint place, virga_impact_gpu impact)
 {
     return place == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floor_of(place).material;
 }
-
-float depth_at(uint place) { return place == NO_CELL ? 0.0 : float(cell_of(place).free_nl) * tick.m_per_nl; }
 
 // The first piece lies where the drop met the mesh, the others on their cells' floors.
 vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
@@ -64,9 +61,7 @@ Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
 {
     Spawning plan;
     plan.position = piece_position(impact, piece, i);
-    // Droplets of one drop may fall in one tick: their water tells them apart.
-    const uint own = head.is_return != 0u ? impact.id ^ impact.water_nl * 0x9e3779b1u : impact.id;
-    plan.hash = virga_hash4(tick.seed, own, impact.tick, FIRST_HASH + i);
+    plan.hash = piece_hash(impact, i);
     const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
                                       vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
     plan.distance2 = dot(way, way);

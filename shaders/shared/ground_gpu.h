@@ -77,9 +77,9 @@ struct virga_ground_tick_gpu {
 struct virga_ring_gpu {
     int cell[2];         /* of the world, where the drop fell */
     float in_cell[2];    /* [0; 1) */
-    uint tick;           /* in which it fell, and what share of it had passed */
+    uint tick;           /* in which its drop fell, and what share of it had passed; above 1: it begins later */
     float share;
-    float crater_m;      /* depth of the crater; 0: none has been here yet */
+    float crater_m;      /* depth of the crater, more where it stands for several; 0: none has been here yet */
     float depth_m;       /* of the water */
     uint id;             /* of the drop */
 };
