@@ -1,7 +1,7 @@
 // pieces.glsl - where the water of an impact comes to lie.
 //
 // An impact far from the camera stands for many drops. Its water is not poured on one cell but scattered in up to 32
-// pieces over the ground near it, or a distant pavement would be spotted like a leopard.
+// pieces over the ground within a metre of it, or a distant pavement would be spotted like a leopard.
 layout(scalar, set = 0, binding = 2) readonly buffer Impacts
 {
     virga_impacts_gpu head;
@@ -45,6 +45,7 @@ uint piece_count(virga_impact_gpu impact)
 }
 
 #define FIRST_HASH 128u // of the numbers of hashes for what a piece starts: its splash, its ring
+#define MOST_SCATTERED 123.0 // drops, whose pieces lie within a metre
 #define PIECES_LATER_S 0.1 // within which the pieces fall of an impact that stands for several drops
 
 uint piece_hash(virga_impact_gpu impact, uint i)
@@ -99,7 +100,8 @@ Piece get_piece(virga_impact_gpu impact, Piece first, uint i, uint n)
     Piece piece = first;
     if (i > 0u) {
         const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
-        precise float radius = sqrt(virga_unit(h) * float(n)) * 0.09 * tick.inv_cell_m;
+        const float drops = clamp(impact.weight, float(n), MOST_SCATTERED);
+        precise float radius = sqrt(virga_unit(h) * drops) * 0.09 * tick.inv_cell_m;
         precise float angle = 6.2831853 * virga_unit(virga_hash1(h));
         precise vec2 beside = first.at + radius * vec2(cos(angle), sin(angle));
         const Piece scattered = piece_at(beside, height_m);

@@ -52,9 +52,17 @@ uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, f
     return splashes ? rule.model : VIRGA_SPLASH_NONE;
 }
 
-// Within the radius that the quota gives, all drops splash; beyond, as many as fall on a disc of that radius in each
-// ring of its width.
-float chance_to_show(float distance2, float near_m) { return min(near_m * near_m / max(distance2, 1e-6), 1.0); }
+// Within the radius that the quota gives, all drops of SHOWN_M splash; beyond, as many as fall on a disc of that radius
+// in each ring of its width. Crowns take an area of D^2.75 of the picture (shape.glsl), and are there for longer the
+// larger they are, so larger drops are shown farther out and smaller ones less far. Had all the same chance, heavy rain
+// would spend its splashes on drops of half a millimetre around the camera's feet, and none be seen on a street.
+#define SHOWN_M 0.002
+
+float chance_to_show(float distance2, float near_m, float diameter_m)
+{
+    const float size = diameter_m / SHOWN_M;
+    return min(near_m * near_m * size * size * size / max(distance2, 1e-6), 1.0);
+}
 
 // Of a piece: where it is, the hash of its chances, and the chance that such a splash is shown.
 Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
@@ -65,7 +73,7 @@ Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
     const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
                                       vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
     plan.distance2 = dot(way, way);
-    plan.keep = chance_to_show(plan.distance2, near_m);
+    plan.keep = chance_to_show(plan.distance2, near_m, impact.diameter_m);
     plan.water_nl = 0u;
     plan.model = VIRGA_SPLASH_NONE;
     return plan;

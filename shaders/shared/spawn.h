@@ -33,8 +33,9 @@ struct virga_spawns_gpu {
     uint count;
     uint dropped;        /* that found no room */
     uint capacity;
-    float near_m;        /* drops within this of the camera all splash; farther out some stand for others, so that the
-                          * quota of the rules is met. Kept from tick to tick */
+    float near_m;        /* drops of 2 mm within this of the camera all splash, larger ones farther out, by the 1.5th
+                          * power of their size; of others some stand for all, so that the quota of the rules is met.
+                          * Kept from tick to tick */
     float origin[3];     /* of positions, in the world */
     float tick_s;
     uint group_count[3]; /* ceil(count / 64), 1, 1: for an indirect dispatch */

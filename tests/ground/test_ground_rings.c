@@ -161,7 +161,8 @@ static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state
     const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
     const double in_a_life = head->total * (VIRGA_RING_TIME_S * 60) / 60;
     assert_true(in_a_life <= VIRGA_RINGS && in_a_life > 0.75 * VIRGA_RINGS);
-    /* There is room for pieces that begin a tenth of a second later, too. In the order of time: the place after the newest holds the oldest. */
+    /* There is room for pieces that begin a tenth of a second later, too. */
+    /* In the order of time: the place after the newest holds the oldest. */
     for (uint32_t i = 1; i < head->total && i < VIRGA_RINGS; i++)
         assert_true(rings[(head->total - i) % VIRGA_RINGS].tick >= rings[(head->total - i - 1) % VIRGA_RINGS].tick ||
                     head->total < VIRGA_RINGS);

@@ -248,6 +248,31 @@ static void test_splashes_without_room_are_counted_and_their_water_stays(void **
     ground_fixture_close(&f);
 }
 
+/* Three metres away, where at first drops of 2 mm just splash one by one: a fifth of those of 1.2 mm, for all of them. */
+static void test_where_there_are_too_many_the_larger_drops_splash(void **state)
+{
+    (void)state;
+    enum { SMALL = 1800, LARGE = 200 };
+    uint32_t small = 0, large = 0;
+    double stands_for = 0;
+    begin(VIRGA_MATERIAL_ASPHALT, NULL);
+    flood(VIRGA_MATERIAL_ASPHALT, 5 * MM_NL);
+    for (uint32_t i = 0; i < SMALL + LARGE; i++)
+        ground_fixture_drop(&f, 59, (int)(i % 3) - 1, 0, 900)->diameter_m = i < SMALL ? 1.2e-3f : 3e-3f;
+    ground_fixture_step(&f, 1);
+    for (uint32_t i = 0; i < f.spawns_head->count; i++) {
+        const bool is_small = f.spawns[i].diameter_m < 2e-3f;
+        small += is_small;
+        large += !is_small;
+        stands_for += is_small ? (double)f.spawns[i].weight : 0;
+        assert_true(is_small ? f.spawns[i].weight > 4 : f.spawns[i].weight == 1);
+    }
+    assert_int_equal(large, LARGE);
+    assert_true(small > SMALL / 8 && small < SMALL / 3);
+    assert_float_equal(stands_for / SMALL, 1, 0.15); /* four standard deviations */
+    ground_fixture_close(&f);
+}
+
 /* Random water, drops that differ; some stand for many, some are not on the ground. */
 static void rain_at_random(uint32_t seed, uint32_t count, bool backwards)
 {
@@ -532,6 +557,7 @@ int main(void)
         cmocka_unit_test(test_an_impact_of_many_drops_makes_a_splash_for_each_piece),
         cmocka_unit_test(test_on_what_is_not_ground_drops_splash_as_on_wet_ground),
         cmocka_unit_test(test_splashes_without_room_are_counted_and_their_water_stays),
+        cmocka_unit_test(test_where_there_are_too_many_the_larger_drops_splash),
         cmocka_unit_test(test_the_order_of_drops_does_not_matter),
         cmocka_unit_test(test_without_rules_nothing_flies_and_the_ground_is_as_ever),
         cmocka_unit_test(test_droplets_that_fall_back_make_dots_at_most),
