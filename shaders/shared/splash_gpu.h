@@ -117,7 +117,8 @@ struct virga_sprite_gpu {
     uint alpha_body;     /* coverage; length of the thing itself (px) */
     uint light[3];       /* radiance in the middle (rgb), then at the edge (rgb) */
     uint kind;           /* VIRGA_SPRITE_... */
-    uint solid;          /* (pile) share of its length that is there all of the time; - */
+    uint shares;         /* (pile) share of its length that is there all of the time; (puff) share of its way that
+                          * each of its columns is high. Then the number of these */
     uint id;
 };
 

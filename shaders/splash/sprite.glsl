@@ -38,6 +38,7 @@ struct Sprite {
     float body;            // m; 0: its whole length
     float gain, weight;
     float solid;
+    float spread;          // (puff) m around it where the drops lie that it stands for
     uint id;
 };
 
@@ -52,6 +53,7 @@ Sprite empty_sprite()
     sprite.gain = 1.0;
     sprite.weight = 0.0;
     sprite.solid = 1.0;
+    sprite.spread = 0.0;
     sprite.id = 0u;
     return sprite;
 }
@@ -102,8 +104,12 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     return sprite;
 }
 
+#define SPREAD_M 0.09 // radius of the place of one drop among those that a splash stands for, as pieces.glsl has it
+#define MOST_SPREAD_M 1.0
+
 // A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they
-// are not followed one by one (a seventh of the drop's water in a dozen of them).
+// are not followed one by one (a seventh of the drop's water in a dozen of them). One that stands for several shows
+// them side by side.
 Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 {
     Sprite sprite = empty_sprite();
@@ -119,6 +125,8 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.tail = crown.centre;
     sprite.head = crown.centre + crown.normal * up;
     sprite.widths = vec2(across);
+    sprite.body = across;
+    sprite.spread = min(SPREAD_M * sqrt(max(crown.weight - 1.0, 0.0)), MOST_SPREAD_M);
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
     sprite.id = splash.id;
@@ -142,7 +150,25 @@ struct Projected {
     vec4 head, tail;  // clip
     float width_px, way_px, body_px;
     float coverage;   // of its middle; 0: not to be seen
+    float columns;    // (puff) of how many beside each other; each has its own height
+    float spread_px;  // that they are wider than one
+    float one_share;  // of the way that one of them is high
 };
+
+// Several puffs lie on an ellipse, that of a disc on the ground seen from the eye.
+void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
+{
+    const float wide_px = pixels(2.0 * sprite.spread, nearest), each_px = max(1.5 * p.width_px, 2.0 * drawn);
+    p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MOST_COLUMNS));
+    if (p.columns < 2.0)
+        return;
+    const float deep_px = wide_px * abs(dot(normalize(sprite.tail), normalize(sprite.head - sprite.tail)));
+    const vec2 away = 0.5 * deep_px * up * 2.0 / vec2(view.viewport[2], view.viewport[3]);
+    p.head.xy += away * p.head.w;
+    p.tail.xy -= away * p.tail.w;
+    p.spread_px = wide_px;
+    p.one_share = p.way_px / (p.way_px + deep_px);
+}
 
 Projected project_sprite(Sprite sprite)
 {
@@ -153,26 +179,33 @@ Projected project_sprite(Sprite sprite)
     else
         p.tail = project(to_mat(view.clip_from_rel), sprite.tail);
     p.coverage = 0.0;
-    p.width_px = p.way_px = p.body_px = 0.0;
+    p.width_px = p.way_px = p.body_px = p.spread_px = 0.0;
+    p.columns = p.one_share = 1.0;
     const float nearest = min(p.head.w, p.tail.w);
     if (sprite.weight <= 0.0 || nearest < NEAR_W)
         return p;
     const vec2 moved = (p.head.xy / p.head.w - p.tail.xy / p.tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     p.way_px = length(moved);
     p.width_px = pixels(max(sprite.widths.x, sprite.widths.y), nearest);
-    if (sprite.kind == VIRGA_SPRITE_PUFF && p.way_px < 0.2 * p.width_px) {
-        // Seen from above it shows its width instead of its height.
-        const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
-        p.way_px = 0.2 * p.width_px;
-        p.head.xy = (p.tail.xy / p.tail.w + up * p.way_px * 2.0 / vec2(view.viewport[2], view.viewport[3])) * p.head.w;
-    }
+    const float drawn = max(view.min_width_px, 1e-3);
     p.body_px = pixels(sprite.body, nearest);
-    const vec2 margin = (p.width_px + 2.0) * max(p.head.w, p.tail.w) / vec2(view.viewport[2], view.viewport[3]);
+    if (sprite.kind == VIRGA_SPRITE_PUFF) {
+        const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
+        // Seen from above it shows its width instead of its height.
+        if (p.way_px < 0.2 * p.width_px) {
+            p.way_px = 0.2 * p.width_px;
+            p.head.xy =
+                (p.tail.xy / p.tail.w + up * p.way_px * 2.0 / vec2(view.viewport[2], view.viewport[3])) * p.head.w;
+        }
+        p.body_px = max(p.width_px, drawn);
+        spread_out(sprite, nearest, drawn, up, p);
+    }
+    const float beyond = (p.width_px + p.spread_px + 2.0) * max(p.head.w, p.tail.w);
+    const vec2 margin = beyond / vec2(view.viewport[2], view.viewport[3]);
     const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w),
                low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
     if (any(greaterThan(high, margin)) || any(greaterThan(low, margin)))
         return p;
-    const float drawn = max(view.min_width_px, 1e-3);
     const float mean_px =
         sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
     float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
@@ -186,7 +219,7 @@ Projected project_sprite(Sprite sprite)
         const float wide_px = max(p.width_px, drawn);
         shown = one *= p.way_px / (p.way_px + 1.0) * wide_px / (wide_px + 0.5);
     }
-    const float many = max(sprite.weight, 0.0);
+    const float many = sprite.weight / p.columns;
     const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
     const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);
     p.coverage = min(all, max(look.gain, 1.0)) * fade * near_fade(0.5 * (sprite.head + sprite.tail));

@@ -13,7 +13,7 @@ layout(location = 0) noperspective out vec4 place; // px from the middle line; p
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
-layout(location = 4) flat out vec4 turn;           // direction of its way on the picture; solid share; -
+layout(location = 4) flat out vec4 turn; // direction of its way on the picture; share; columns, and a fraction by lot
 
 void set_corner(uint vertex)
 {
@@ -46,7 +46,8 @@ void set_corner(uint vertex)
     centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
     rim_kind = vec4(light[1].y, light[2], float(kind));
     shape = vec4(0.5 * widths, way_px, alpha_body.y);
-    turn = vec4(along, unpackHalf2x16(rest.z).x, 0.0);
+    const vec2 shares = unpackHalf2x16(rest.z);
+    turn = vec4(along, shares.x, shares.y + float(rest.w & 1023u) / 1024.0);
     // The same w at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

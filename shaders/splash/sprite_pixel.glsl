@@ -44,15 +44,31 @@ float pile_cover()
     return clamp(pile_half_width() + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends;
 }
 
-// A crown from afar: it flares, its sides are looked along and so are thicker, its rim is torn.
+// A crown from afar: it flares, its sides are looked along and so are thicker, its rim is torn. It covers half of its
+// rectangle.
+float crown_cover(vec2 at, float half_wide, float high, float chance)
+{
+    const float v = clamp((at.y + 0.5) / (high + 1.0), 0.0, 1.0);
+    const float flare = mix(0.3, 0.45, clamp(half_wide - 0.5, 0.0, 1.0)); // a thin one is to miss no pixel
+    const float half_width = (half_wide + 0.25) * (1.0 - flare + flare * v), x = min(abs(at.x) / half_width, 1.0);
+    const float torn = half_wide > 1.5 ? 0.3 * sin(7.0 * at.x / half_width + 40.0 * chance) : 0.0;
+    const float across = (1.0 - smoothstep(0.6, 1.0, x)) * (0.4 + x * x);
+    const float up = smoothstep(0.0, 0.2, v) * (1.0 - smoothstep(0.45 + torn, 1.0, v));
+    return 1.7 / (1.0 - 0.5 * flare) * across * up;
+}
+
+// Several stand on an ellipse, each in a column of its own and as far up as chance has it.
 float puff_cover()
 {
-    const float v = clamp((place.y + 0.5) / (shape.z + 1.0), 0.0, 1.0);
-    const float half_width = (shape.x + 0.25) * (0.7 + 0.3 * v), x = min(abs(place.x) / half_width, 1.0);
-    const float torn = shape.x > 2.0 ? 0.25 * sin(9.0 * place.x / half_width + 7.0 * fract(shape.x)) : 0.0;
-    const float across = (1.0 - smoothstep(0.6, 1.0, x)) * (0.6 + 0.7 * x * x);
-    const float up = smoothstep(0.0, 0.2, v) * (1.0 - smoothstep(0.45 + torn, 1.0, v));
-    return 1.6 * across * up;
+    const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns;
+    const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
+    const float chance = fract(sin(12.9898 * column + 78.233 * fract(turn.w)) * 43758.547);
+    const float half_wide = min(0.5 * shape.w, shape.x), high = turn.z * shape.z;
+    const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, room = shape.z - high;
+    const float foot = room * (0.5 + (chance - 0.5) * sqrt(1.0 - from_middle * from_middle));
+    const float beside = max(0.5 * column_px - half_wide - 0.25, 0.0) * (2.0 * fract(chance * 64.0) - 1.0);
+    const float x = place.x + shape.x - (column + 0.5) * column_px - (columns > 1.5 ? beside : 0.0);
+    return crown_cover(vec2(x, place.y - foot), half_wide, high, chance);
 }
 
 float sprite_cover()

@@ -325,11 +325,18 @@ static inline void put_pile(shot *s, float age_s)
 }
 
 /* A drop of 2 mm on deep water, at the start of the newest tick. It lets nothing go. */
-static inline void put_crown(shot *s)
+static inline void put_crowns(shot *s, float weight)
 {
     splash_fixture_clear(&s->f);
-    splash_fixture_spawn(&s->f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_10)->water_nl = 0;
+    virga_spawn_gpu *spawn = splash_fixture_spawn(&s->f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_10);
+    spawn->water_nl = 0;
+    spawn->weight = weight;
     splash_fixture_step(&s->f, 1);
+}
+
+static inline void put_crown(shot *s)
+{
+    put_crowns(s, 1);
 }
 
 #endif

@@ -263,8 +263,9 @@ static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
     close_shot(&s);
 }
 
-/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. */
-static double blob_alpha(shot *s, double distance_m)
+/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. It shows as `most`
+ * pieces at most. */
+static double blob_alpha(shot *s, double distance_m, uint32_t most)
 {
     const double pixel = pixel_m(s, distance_m);
     double sum = 0;
@@ -274,8 +275,9 @@ static double blob_alpha(shot *s, double distance_m)
         aim(s, (const double[3]){right, 0.5 * distance_m + up, 0.8660254 * distance_m},
             (const double[3]){right, up, 0});
         const float *pixels = draw_frame(s);
+        const uint32_t count = pieces(s, pixels);
         sum += sum_of(s, pixels, 3) / (BLOB_PLACES * BLOB_PLACES);
-        assert_int_equal(pieces(s, pixels), 1);
+        assert_true(count > most / 3 && count <= most);
         assert_int_equal(prepared(s)->sprites, 1);
         assert_int_equal(prepared(s)->crowns.instance_count, 0);
     }
@@ -285,10 +287,10 @@ static double blob_alpha(shot *s, double distance_m)
 /* Times the square of the distance it stays the same, from blobs of 9 pixels to those of less than one. */
 static void check_blob(shot *s, double first_m)
 {
-    const double at_first = blob_alpha(s, first_m) * first_m * first_m;
+    const double at_first = blob_alpha(s, first_m, 1) * first_m * first_m;
     double worst = 0;
     for (int i = 1; i < 5; i++) {
-        const double distance = ldexp(first_m, i), share = blob_alpha(s, distance) * distance * distance / at_first;
+        const double distance = ldexp(first_m, i), share = blob_alpha(s, distance, 1) * distance * distance / at_first;
         printf("from %.2f m: %.3f of the blob\n", distance, share);
         worst = fmax(worst, fabs(share - 1));
     }
@@ -316,6 +318,23 @@ static void a_disk_far_away_is_a_blob_that_covers_what_its_size_gives(void **sta
     close_shot(&s);
 }
 
+/* They cover what as many would one by one. */
+static void a_splash_that_stands_for_several_shows_them_side_by_side(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_crown(&s);
+    const double one = blob_alpha(&s, 2, 1);
+    for (uint32_t weight = 3; weight <= 12; weight += 3) {
+        put_crowns(&s, (float)weight);
+        const double share = blob_alpha(&s, 2, weight) / (weight * one);
+        printf("%u drops: %.3f of what each covers\n", weight, share);
+        assert_true(fabs(share - 1) < 0.1);
+    }
+    close_shot(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -326,6 +345,7 @@ int main(void)
         cmocka_unit_test(a_disk_lies_flat_and_stays_for_two_seconds),
         cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
         cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
+        cmocka_unit_test(a_splash_that_stands_for_several_shows_them_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
