@@ -126,7 +126,9 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.head = crown.centre + crown.normal * up;
     sprite.widths = vec2(across);
     sprite.body = across;
-    sprite.spread = min(SPREAD_M * sqrt(max(crown.weight - 1.0, 0.0)), MOST_SPREAD_M);
+    // What is not ground, a leaf or a railing, may end beside the drop.
+    const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
+    sprite.spread = ground ? min(SPREAD_M * sqrt(max(crown.weight - 1.0, 0.0)), MOST_SPREAD_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
     sprite.id = splash.id;
