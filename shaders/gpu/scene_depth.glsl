@@ -8,8 +8,8 @@ float buffer_depth(vec2 pixel) { return texelFetch(scene_depth, ivec2(pixel), 0)
 float view_depth(float stored) { return view.depth_b / (view.depth_a + stored); }
 
 // 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it. The terms are
-// depth_a, depth_b, far_depth and soft_m of the view, from a vertex: software Vulkan reads a uniform buffer lane by lane
-// in a fragment shader.
+// depth_a, depth_b, far_depth and soft_m of the view, from a vertex: in a fragment shader software Vulkan reads a
+// uniform buffer lane by lane.
 float soft_edge(float distance, vec4 terms)
 {
     const float stored = buffer_depth(gl_FragCoord.xy);

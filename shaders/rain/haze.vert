@@ -1,5 +1,5 @@
-// haze.vert - one triangle over the viewport, and what is alike for all of its pixels: words of a uniform buffer are read
-// lane by lane in a fragment shader on software Vulkan, flat inputs are not.
+// haze.vert - one triangle over the viewport, and what is alike for all of its pixels: in a fragment shader software
+// Vulkan reads words of a uniform buffer lane by lane, and flat inputs at once.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,7 +7,7 @@
 #include "view.glsl"
 
 layout(location = 0) noperspective out vec3 ray; // as long as it takes to a view depth of 1 m
-layout(location = 1) flat out vec4 depth_and_reach; // depth_a, depth_b and far_depth of the view; half of the innermost box's side
+layout(location = 1) flat out vec4 depth_and_reach; // depth_a, depth_b, far_depth of the view; half the innermost box
 layout(location = 2) flat out vec4 per_m[HAZE_VECTORS]; // extinction in each box and beyond the last
 layout(location = 6) flat out vec4 sky[SKY_VECTORS]; // coefficients of the environment, red, green, blue, red and so on
 

@@ -248,7 +248,7 @@ static void test_splashes_without_room_are_counted_and_their_water_stays(void **
     ground_fixture_close(&f);
 }
 
-/* Three metres away, where at first drops of 2 mm just splash one by one: a fifth of those of 1.2 mm, for all of them. */
+/* Three metres away, where at first drops of 2 mm just splash one by one: a fifth of those of 1.2 mm, for all. */
 static void test_where_there_are_too_many_the_larger_drops_splash(void **state)
 {
     (void)state;

@@ -127,8 +127,8 @@ VIRGA_API VkDeviceSize virga_rain_estimate(const virga_rain_def *def);
 
 /* Draws the meshes into the occlusion maps around the camera position. Outside rendering. Every frame for moving
  * things, or when the camera has moved; without a call the last maps stay in use, where they reach.
- * Costs a draw of depth and normal of each mesh per map, dearer where a mesh has holes (cover); settings.occlusion_turns
- * shares that among calls. VIRGA_NOT_READY if the rain was made without occlusion. */
+ * Costs a draw of depth and normal of each mesh per map, dearer where a mesh has holes (cover);
+ * settings.occlusion_turns shares that among calls. VIRGA_NOT_READY if the rain was made without occlusion. */
 VIRGA_API virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
                                             const virga_occluder *occluders, uint32_t count);
 
