@@ -392,6 +392,24 @@ void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count)
         *first = rain ? (uint32_t)rain->ticks - (run ? run - 1 : 0) : 0;
 }
 
+void virga_rain_fall_get(const virga_rain *rain, virga_rain_fall *fall)
+{
+    if (!fall)
+        return;
+    *fall = (virga_rain_fall){0};
+    if (!rain)
+        return;
+    double squares = 0, cubes = 0;
+    for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
+        const rain_class *c = &rain->classes->classes[k];
+        const double landing = rain->classes->per_m3[k] * c->terminal_m_s * c->diameter_m * c->diameter_m;
+        squares += landing;
+        cubes += landing * c->diameter_m;
+    }
+    fall->rate_mm_h = (float)rain->classes->rate_mm_h;
+    fall->drop_m = squares > 0 ? (float)(cubes / squares) : 0;
+}
+
 void virga_rain_wind(const virga_rain *rain, float wind_m_s[3])
 {
     for (int axis = 0; wind_m_s && axis < 3; axis++)

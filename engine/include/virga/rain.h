@@ -186,6 +186,15 @@ VIRGA_API void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_
 /* The uniform wind of the newest tick (m/s), gust included. */
 VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
 
+/* The rain of the newest tick, as level open ground gets it. */
+typedef struct virga_rain_fall {
+    float rate_mm_h; /* eased where settings change */
+    float drop_m;    /* mean diameter of the drops that land, by surface: the sum of d^3 over that of d^2. 0: none do */
+} virga_rain_fall;
+
+/* Costs nothing. All zero for NULL. Thread-safety: as the rain. */
+VIRGA_API void virga_rain_fall_get(const virga_rain *rain, virga_rain_fall *fall);
+
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
 /* Selects and shades what a view sees at `time_s` (normally virga_rain_time; any time within a tick or two of it is
