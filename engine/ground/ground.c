@@ -2,6 +2,8 @@
 #include "ground/ground_internal.h"
 
 #include "shaders/ground_adopt_comp.spv.h"
+#include "shaders/ground_far_floor_comp.spv.h"
+#include "shaders/ground_far_map_comp.spv.h"
 #include "shaders/ground_flow_comp.spv.h"
 #include "shaders/ground_forget_comp.spv.h"
 #include "shaders/ground_land_comp.spv.h"
@@ -29,6 +31,7 @@ virga_ground_def virga_default_ground_def(void)
                               .cells = 1024,
                               .cell_m = 0.05f,
                               .kept_tiles = 1024,
+                              .far_cells = 512,
                               .tick_s = 1.0 / 60,
                               .flow_ticks = 4,
                               .ripple_texels = 1024,
@@ -54,6 +57,13 @@ static uint32_t least_kept(uint32_t tiles, uint32_t asked)
     return asked > 2 * tiles * tiles ? asked : 2 * tiles * tiles;
 }
 
+/* Whole groups of cells, and twice as wide as the window. */
+static uint32_t fit_far(uint32_t cells, uint32_t asked)
+{
+    const uint32_t least = 2 * cells / VIRGA_GROUND_FAR_CELL > 128 ? 2 * cells / VIRGA_GROUND_FAR_CELL : 128;
+    return !asked ? 0 : asked < least ? least : asked / VIRGA_GROUND_TILE * VIRGA_GROUND_TILE;
+}
+
 static virga_result check_def(const virga_log *log, const virga_ground_def *given, virga_ground_def *def)
 {
     const virga_result result =
@@ -70,6 +80,8 @@ static virga_result check_def(const virga_log *log, const virga_ground_def *give
     def->cell_m = virga_clamp_setting_float(log, "ground_def.cell_m", def->cell_m, 0.01f, 0.1f, NULL);
     def->kept_tiles = virga_clamp_setting_u32(log, "ground_def.kept_tiles", def->kept_tiles, 0, 60000, NULL);
     def->kept_tiles = least_kept(def->cells / VIRGA_GROUND_TILE, def->kept_tiles);
+    def->far_cells = virga_clamp_setting_u32(log, "ground_def.far_cells", def->far_cells, 0, 2048, NULL);
+    def->far_cells = fit_far(def->cells, def->far_cells);
     if (virga_settings_finite(log, "ground_def.ripple_texel_m", &def->ripple_texel_m, 1))
         return VIRGA_ERROR_INVALID;
     def->ripple_texels = virga_clamp_setting_u32(log, "ground_def.ripple_texels", def->ripple_texels, 64, 4096, NULL);
@@ -100,8 +112,8 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
     return cells * a_cell + (VkDeviceSize)def.kept_tiles * VIRGA_GROUND_TILE_CELLS * 16 +
            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
            (VkDeviceSize)def.max_spawns * sizeof(virga_spawn_gpu) + sizeof(virga_splash_rules_gpu) +
-           (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 + VIRGA_RINGS * sizeof(virga_ring_gpu) +
-           2ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
+           ground_far_estimate(&def) + (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 +
+           VIRGA_RINGS * sizeof(virga_ring_gpu) + 2ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
 }
@@ -159,6 +171,7 @@ static virga_result create_images(virga_ground *ground)
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.blank_materials", &ground->blank_materials));
     TRY(virga_mesh_map_create(ground->context, cells, 1, ground->def.occluder_strides, "ground.survey", &ground->needed,
                               &ground->survey));
+    TRY(ground_far_create(ground));
 error:
     return result;
 }
@@ -190,6 +203,10 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 20 swings */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 21 floors as texels */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 22 cells as texels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 23 far floors */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 24 far survey: depth */
+    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 25 far survey: surface */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                               /* 26 far map */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -242,7 +259,11 @@ static void write_set(virga_ground *ground, uint32_t source)
         whole(ground->spawns),
         whole(ground->swings),
         {.texels = ground->floors->texels},
-        {.texels = ground->cells->texels}};
+        {.texels = ground->cells->texels},
+        whole(ground->far.floors),
+        {.sampler = nearest, .view = ground->far.survey->depth->view, .image_layout = read_only},
+        {.sampler = nearest, .view = ground->far.survey->surface->view, .image_layout = read_only},
+        {.view = ground->far.map->view, .image_layout = general}};
     ground->sets[source] = virga_bindings_write(ground->context, ground->bindings, source, bound);
 }
 
@@ -267,6 +288,8 @@ static virga_result create_pipelines(virga_ground *ground)
         {&ground->ring, VIRGA_SPIRV(ground_ring_comp), "ground.ring"},
         {&ground->measure, VIRGA_SPIRV(ground_measure_comp), "ground.measure"},
         {&ground->map, VIRGA_SPIRV(ground_map_comp), "ground.map"},
+        {&ground->far.find_floors, VIRGA_SPIRV(ground_far_floor_comp), "ground.far_floor"},
+        {&ground->far.draw, VIRGA_SPIRV(ground_far_map_comp), "ground.far_map"},
     };
     const virga_compute_def kept = {.shader = VIRGA_SPIRV(ground_measure_comp),
                                     .layout = ground->bindings->layout,
@@ -309,7 +332,8 @@ static virga_result make(virga_context *context, const void *def, void **ground)
     made->def = *(const virga_ground_def *)def;
     const uint32_t tiles = made->def.cells / VIRGA_GROUND_TILE;
     made->def.kept_tiles = least_kept(tiles, made->def.kept_tiles);
-    made->settings = virga_default_ground_settings();
+    made->def.far_cells = fit_far(made->def.cells, made->def.far_cells);
+    made->settings = virga_default_ground_settings(); /* dry: as memory of zeros is */
     context->effects++;
     const virga_result result = init(made);
     if (result < 0)
@@ -325,9 +349,10 @@ static virga_result make_in_budget(virga_context *context, virga_ground_def *def
         {"cells", &def->cells, 128, 0},
         {"kept_tiles", &def->kept_tiles, 0, 1},
         {"ripple_texels", &def->ripple_texels, 64, 1},
+        {"far_cells", &def->far_cells, 0, VIRGA_GROUND_TILE},
     };
     void *made = NULL;
-    const virga_result result = virga_make_in_budget(context, "the ground", pools, 3, make, def, &made);
+    const virga_result result = virga_make_in_budget(context, "the ground", pools, 4, make, def, &made);
     *ground = made;
     return result;
 }
@@ -372,9 +397,11 @@ void virga_ground_destroy(virga_ground **ground)
         return;
     virga_ground *dying = *ground;
     virga_context *context = dying->context;
-    virga_pipeline **pipelines[] = {&dying->adopt, &dying->forget,     &dying->land,       &dying->share,
-                                    &dying->soak,  &dying->flow,       &dying->measure,    &dying->map,
-                                    &dying->ring,  &dying->spawn_find, &dying->spawn_scan, &dying->measure_kept};
+    virga_pipeline **pipelines[] = {&dying->adopt,           &dying->forget,     &dying->land,
+                                    &dying->share,           &dying->soak,       &dying->flow,
+                                    &dying->measure,         &dying->map,        &dying->ring,
+                                    &dying->spawn_find,      &dying->spawn_scan, &dying->measure_kept,
+                                    &dying->far.find_floors, &dying->far.draw};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         VIRGA_RETIRE(context, *pipelines[i]);
     virga_buffer **buffers[] = {&dying->floors,     &dying->cells,         &dying->arrivals, &dying->spots,
@@ -387,6 +414,7 @@ void virga_ground_destroy(virga_ground **ground)
     VIRGA_RETIRE(context, dying->spot_map);
     VIRGA_RETIRE(context, dying->blank_materials);
     virga_mesh_map_retire(context, &dying->survey);
+    ground_far_retire(dying);
     ground_ripples_retire(context, &dying->ripples);
     VIRGA_RETIRE(context, dying->bindings);
     virga_free(&context->heap, dying->window.kept);
@@ -417,8 +445,16 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
         return result;
     virga_ground_settings taken = *settings;
     result = ground_check_settings(log, &taken);
-    if (result >= 0)
-        ground->settings = taken;
+    if (result < 0)
+        return result;
+    const bool other = taken.start_wetness != ground->settings.start_wetness ||
+                       taken.start_water_mm != ground->settings.start_water_mm;
+    ground->settings = taken;
+    if (other || !ground->started) {
+        virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+        ground_fill_soils(&taken, (double)ground->def.cell_m, soils);
+        ground_standing_start(ground->standing, &taken, soils);
+    }
     return result;
 }
 
@@ -446,6 +482,8 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     maps->ripples = ground->ripples->map->layer_views[0];
     maps->ripple_texels = ground->def.ripple_texels;
     maps->ripple_texel_m = ground->def.ripple_texel_m;
+    maps->reach_m = (float)((0.5 * ground->window.tiles - 1.5) * tile_m);
+    ground_far_maps(ground, maps);
     for (int axis = 0; axis < 2; axis++) {
         maps->ripple_low_m[axis] = ground->ripple_low_m[axis];
         maps->low_m[axis] = ground->window.low[axis] * tile_m;

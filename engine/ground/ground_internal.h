@@ -3,6 +3,8 @@
  *   ground.c          create, destroy, settings, what others read
  *   materials.c       what materials do with water
  *   ground_window.c   which tiles are in the window, kept or forgotten
+ *   standing.c        water where no drop is counted
+ *   ground_far.c      the map of ground beyond the window
  *   ring_table.c      waves on shallow water
  *   ground_rings.c    the map of rings on puddles
  *   ground_step.c     ticks: passes in their order
@@ -21,6 +23,29 @@ void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATER
 virga_result ground_check_settings(const virga_log *log, virga_ground_settings *settings);
 void ground_fill_soils(const virga_ground_settings *settings, double cell_m,
                        virga_soil_gpu soils[VIRGA_GROUND_MATERIALS]);
+
+/* ---- standing.c */
+
+/* A cell that drops are not counted for. */
+typedef struct ground_standing {
+    double held_nl, film_nl, level_um, spots; /* see virga_standing_gpu */
+} ground_standing;
+
+/* What a tick brings and takes. */
+typedef struct ground_weather {
+    double rain_nl, spots; /* on a cell in the open, and the dark spots that come with it */
+    double evaporation_nl, tick_s;
+    double nl_per_um;
+} ground_weather;
+
+enum { GROUND_STANDING = 2 * VIRGA_GROUND_MATERIALS }; /* in the open by material, then under cover */
+
+void ground_standing_start(ground_standing cells[GROUND_STANDING], const virga_ground_settings *settings,
+                           const virga_soil_gpu soils[VIRGA_GROUND_MATERIALS]);
+void ground_standing_tick(ground_standing cells[GROUND_STANDING], const virga_soil_gpu soils[VIRGA_GROUND_MATERIALS],
+                          const ground_weather *weather);
+void ground_standing_fill(const ground_standing cells[GROUND_STANDING],
+                          const virga_soil_gpu soils[VIRGA_GROUND_MATERIALS], virga_standing_gpu out[GROUND_STANDING]);
 
 /* ---- ground_window.c: the bookkeeping, on the host */
 
@@ -78,6 +103,34 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
 /* Draws all living rings; ground's set must be bound for graphics. Leaves the map in GENERAL. */
 void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples);
 
+/* ---- ground_far.c */
+
+#define GROUND_SURVEY_TOP_M  256.0 /* above the base */
+#define GROUND_SURVEY_DEEP_M 512.0
+
+typedef struct ground_far {
+    virga_buffer *floors;
+    virga_image_2d *map;    /* and in a row of its own below, level open ground by material */
+    virga_mesh_map *survey; /* ground; all meshes */
+    virga_pipeline *find_floors, *draw;
+    int32_t low[2]; /* in far cells */
+    bool placed, drawn;
+    uint64_t drawn_at; /* in ticks */
+} ground_far;
+
+virga_result ground_far_create(virga_ground *ground);
+void ground_far_retire(virga_ground *ground);
+VkDeviceSize ground_far_estimate(const virga_ground_def *def);
+
+/* Whether it is to be surveyed at another place. */
+bool ground_far_follow(virga_ground *ground, const double camera_m[3]);
+void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
+
+/* Where that is due. */
+void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd);
+void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
+void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps);
+
 /* ---- the object */
 
 /* Where a tick's water comes from: rain's impacts, or what splashes gave back. */
@@ -108,6 +161,8 @@ struct virga_ground {
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *survey;
     ground_ripples *ripples;
+    ground_far far;
+    ground_standing standing[GROUND_STANDING];
     double ripple_low_m[2]; /* in the world */
     uint32_t last_tick;
     virga_bindings *bindings;

@@ -1,15 +1,15 @@
 /* ground/ground_step.c - a step: the window follows, drops land, water flows, maps are written. */
 #include "ground/ground_internal.h"
 
+#include <virga/drops.h>
+
 #include <math.h>
 #include <string.h>
 
-#define COPY          (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
-#define SURVEY_TOP_M  256.0 /* above the base */
-#define SURVEY_DEEP_M 512.0
-#define NEVER_SEEN    0x80000000u /* as in shaders/ground/adopt.comp */
-#define FLOW_PASSES   4           /* a round: through all four sides of each cell, see flow.comp */
-#define TILE_GROUPS   (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
+#define COPY        (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
+#define NEVER_SEEN  0x80000000u /* as in shaders/ground/adopt.comp */
+#define FLOW_PASSES 4           /* a round: through all four sides of each cell, see flow.comp */
+#define TILE_GROUPS (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 
 static uint32_t ring_bytes(size_t size)
 {
@@ -103,6 +103,15 @@ static void fill_material_map(const virga_ground *ground, virga_ground_tick_gpu 
     }
 }
 
+/* Drops of the one diameter that stands for all of the rain. */
+static void fill_rain(const virga_ground *ground, virga_ground_tick_gpu *out)
+{
+    const double diameter = (double)ground->info.open_drop_m;
+    out->rain_drop_m = (float)diameter;
+    if (diameter > 0)
+        out->rain_per_m2_s = (float)((double)ground->info.open_rain_mm_h / 3.6e6 / virga_drop_volume(diameter));
+}
+
 static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_tick_gpu *out)
 {
     const double cell = (double)ground->def.cell_m, area = cell * cell;
@@ -122,8 +131,8 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->seed = ground->def.seed;
     out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);
     out->evaporation_nl_s = (float)((double)ground->settings.evaporation_mm_h / 3600 * area * 1e9);
-    out->survey_top_m = (float)SURVEY_TOP_M;
-    out->survey_height_m = (float)SURVEY_DEEP_M;
+    out->survey_top_m = (float)GROUND_SURVEY_TOP_M;
+    out->survey_height_m = (float)GROUND_SURVEY_DEEP_M;
     out->base_m = (float)ground->base_m;
     const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
@@ -132,8 +141,6 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->ripple_side_m = (float)side_m;
     out->tick_s = (float)ground->def.tick_s;
     out->last_tick = tick ? tick : ground->last_tick;
-    out->start_wetness = ground->settings.start_wetness;
-    out->start_water_um = ground->settings.start_water_mm * 1e3f;
     out->max_spawns = ground->info.splash_rules ? ground->def.max_spawns : 0;
     out->max_impacts = ground->def.max_impacts;
     out->max_returns = ground->def.max_returns;
@@ -142,6 +149,9 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
         out->camera[axis] = (float)ground->info.camera_m[axis];
     fill_material_map(ground, out);
     ground_fill_soils(&ground->settings, cell, out->soils);
+    ground_standing_fill(ground->standing, out->soils, out->standing);
+    ground_far_fill(ground, out);
+    fill_rain(ground, out);
 }
 
 static void push_tick(virga_ground *ground, uint32_t tick)
@@ -237,12 +247,12 @@ static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
 static void survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
 {
     const double side = ground->def.cells * (double)ground->def.cell_m;
-    virga_map_view view = {.half_m = 0.5 * side, .height_m = SURVEY_DEEP_M, .ground_only = true};
+    virga_map_view view = {.half_m = 0.5 * side, .height_m = GROUND_SURVEY_DEEP_M, .ground_only = true};
     for (int axis = 0; axis < 2; axis++)
         view.origin_m[axis * 2] =
             ground->window.low[axis] * (double)VIRGA_GROUND_TILE * (double)ground->def.cell_m + 0.5 * side;
     view.origin_m[1] = ground->base_m;
-    view.top_m = SURVEY_TOP_M;
+    view.top_m = GROUND_SURVEY_TOP_M;
     virga_mesh_map_draw(ground->context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
     dispatch_cells(ground, cmd, ground->adopt, ground->move.entering_count * TILE_GROUPS);
     virga_compute_barrier(ground->context, cmd);
@@ -276,19 +286,23 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     ground_window_wanted(&ground->window, info->camera_m, tile_m, low);
     ground_window_move(&ground->window, low, &ground->move);
     const bool moved = ground->move.entering_count > 0;
-    if (!moved && !ground->survey_all)
+    const bool far = ground_far_follow(ground, info->camera_m) || (ground->survey_all && ground->def.far_cells);
+    if (!moved && !far && !ground->survey_all)
         return;
     const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.window");
     write_lists(ground);
     push_tick(ground, 0);
     bind(ground, cmd);
+    if (far)
+        ground_far_survey(ground, cmd, info);
     if (moved)
         move_tiles(ground, cmd);
     if (ground->survey_all && !moved) {
         enter_all(&ground->move, ground->window.tiles);
         write_lists(ground);
     }
-    survey(ground, cmd, info);
+    if (moved || ground->survey_all)
+        survey(ground, cmd, info);
     ground->survey_all = ground->survey_all && moved; /* all of them in the next step */
     virga_pass_end(ground->context, cmd, scope);
 }
@@ -348,8 +362,25 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
     }
 }
 
+/* Where no drop is counted it rains as well. A drop of diameter d leaves a spot of pi d^2, and has pi d^3 / 6. */
+static void stand_in_rain(virga_ground *ground)
+{
+    const double cell = (double)ground->def.cell_m, mm_nl = cell * cell * 1e9, hours = ground->def.tick_s / 3600;
+    const double rain_mm = (double)ground->info.open_rain_mm_h * hours;
+    const double drop_mm = (double)ground->info.open_drop_m * 1e3;
+    const ground_weather weather = {.rain_nl = rain_mm * mm_nl,
+                                    .spots = drop_mm > 0 ? 6 * rain_mm / drop_mm : 0,
+                                    .evaporation_nl = (double)ground->settings.evaporation_mm_h * hours * mm_nl,
+                                    .tick_s = ground->def.tick_s,
+                                    .nl_per_um = ground_nl_per_um(ground)};
+    virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+    ground_fill_soils(&ground->settings, cell, soils);
+    ground_standing_tick(ground->standing, soils, &weather);
+}
+
 static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
 {
+    stand_in_rain(ground);
     push_tick(ground, tick);
     if (ground->info.splash_rules && ground->def.max_spawns)
         find_spawns(ground, cmd);
@@ -405,6 +436,7 @@ static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.map");
     dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
+    ground_far_draw(ground, cmd);
     virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -422,10 +454,12 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
                                      VK_ACCESS_SHADER_WRITE_BIT};
     virga_image_barrier(context, cmd, ground->wet_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_image_barrier(context, cmd, ground->far.map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                     VK_ACCESS_SHADER_READ_BIT};
     virga_image_barrier(context, cmd, ground->blank_materials->image, VK_IMAGE_ASPECT_COLOR_BIT, before, read);
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
+    virga_mesh_map_first_layouts(context, cmd, ground->far.survey);
     ground_ripples_upload(context, cmd, ground->ripples);
     virga_buffer *const zero[] = {ground->rings,    ground->stirs,  ground->swings,  ground->cells,
                                   ground->arrivals, ground->spots,  ground->counts,  ground->kept_cells,
@@ -475,6 +509,8 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
     if (virga_ticks_check(log, info->first_tick, info->ticks, ground->ticks ? &ground->last_tick : NULL) ||
         virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
+        virga_settings_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
+        virga_settings_finite(log, "step_info.open_drop_m", &info->open_drop_m, 1) ||
         virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
         virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
         check_buffers(ground, info))
@@ -494,6 +530,8 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     ground->ring_frame = context->frame_index;
     ground->ring_ticks = 0;
     ground->info = *info;
+    ground->info.open_rain_mm_h = fminf(fmaxf(info->open_rain_mm_h, 0), 1000);
+    ground->info.open_drop_m = fminf(fmaxf(info->open_drop_m, 0), 0.01f);
     ground->tick_in_step = 0;
     ground_write_sets(ground);
     /* What read maps, landings and cells in the frame before is done with them. */

@@ -250,6 +250,10 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
         info.focus_m[axis] = frame->focus_m[axis];
     }
     virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
+    virga_rain_fall fall;
+    virga_rain_fall_get(scene->rain, &fall);
+    info.open_rain_mm_h = fall.rate_mm_h;
+    info.open_drop_m = fall.drop_m;
     if (scene->splash) {
         virga_splash_buffer rules, returns;
         virga_splash_rules(scene->splash, &rules);
@@ -445,8 +449,8 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     const bool seen = frame->view && !checked;
     virga_result result = checked;
     if (frame->occluders)
-        result = worst(result, virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders,
-                                                    frame->occluder_count));
+        result = worst(
+            result, virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count));
     virga_rain_step_info step = {.dt_s = frame->dt_s};
     for (int axis = 0; axis < 3; axis++)
         step.camera_m[axis] = frame->camera_m[axis];

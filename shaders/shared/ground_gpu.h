@@ -12,6 +12,8 @@
 #define uint virga_uint
 typedef struct virga_arrivals_gpu virga_arrivals_gpu;
 typedef struct virga_soil_gpu virga_soil_gpu;
+typedef struct virga_standing_gpu virga_standing_gpu;
+typedef struct virga_far_floor_gpu virga_far_floor_gpu;
 typedef struct virga_ground_tick_gpu virga_ground_tick_gpu;
 typedef struct virga_ground_count_gpu virga_ground_count_gpu;
 typedef struct virga_ring_gpu virga_ring_gpu;
@@ -20,6 +22,8 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 
 #define VIRGA_GROUND_GROUP      256
 #define VIRGA_GROUND_PAIRS_EACH 4 /* pairs of cells for an invocation of a flow pass */
+#define VIRGA_GROUND_QUARTERS   -1.52, -0.42, 0.42, 1.52 /* means of quarters of all bumps, over their bumps_um */
+#define VIRGA_GROUND_FAR_CELL   8 /* cells of the window along the side of one of the far map */
 
 /* Water on its way within a tick; zero between ticks. */
 struct virga_arrivals_gpu {
@@ -37,6 +41,21 @@ struct virga_soil_gpu {
     float bumps_um;     /* standard deviation of its unevenness, and how many cells a bump is wide */
     float bump_cells;
     uint drain;         /* 1: takes all water away */
+};
+
+/* What a cell of a material has on it and in it that no drop was counted for: that stood in the same rain elsewhere. */
+struct virga_standing_gpu {
+    float held;       /* [0; 1] share of its pores that is full */
+    float film_nl;    /* on it, humps and hollows alike */
+    float level_um;   /* up to which hollows are full, from where humps begin */
+    float spots;      /* dark spots of first drops, by their area: [0; ...) times the ground's */
+};
+
+/* What a cell of the far map is. */
+struct virga_far_floor_gpu {
+    int height_um;    /* above the ground's base_m, without its unevenness */
+    uint traits;      /* material (8 bits), share that rain reaches and that is level enough for puddles (4 bits each),
+                       * and its unevenness (16 bits, signed, FAR_BUMP_UM) */
 };
 
 /* All that a tick's passes need. */
@@ -61,8 +80,6 @@ struct virga_ground_tick_gpu {
     float tick_s;
     uint rings;              /* 0: no ripple map */
     uint last_tick;          /* the newest tick */
-    float start_wetness;
-    float start_water_um;
     uint max_spawns;         /* 0: nothing splashes */
     uint max_impacts;        /* landings of returns lie behind so many */
     uint max_returns;
@@ -70,7 +87,15 @@ struct virga_ground_tick_gpu {
     uint tick_in_step;
     float material_scale[2]; /* from cells behind the window's low corner to the material map [0; 1) */
     float material_offset[2];
+    int far_low[2];          /* low corner of the far map, in its cells from the world's origin */
+    uint far_cells;          /* along its side; 0: none */
+    float far_material_offset[2]; /* as above, from the far map's low corner */
+    float far_camera[2];     /* in cells of the far map, from its low corner */
+    float far_even[2];       /* as far from there, in such cells: puddles begin to even out, and have */
+    float rain_per_m2_s;     /* drops that land on open ground, and their diameter */
+    float rain_drop_m;
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+    virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* in the open, then under cover */
 };
 
 /* A ring on a puddle, 36 bytes. */
@@ -119,7 +144,9 @@ VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_soil_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_ring_gpu, 36);
 VIRGA_ASSERT_SIZE(virga_rings_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 156 + 32 * VIRGA_GROUND_MATERIALS);
+VIRGA_ASSERT_SIZE(virga_standing_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_far_floor_gpu, 8);
+VIRGA_ASSERT_SIZE(virga_ground_tick_gpu, 192 + (32 + 2 * 16) * VIRGA_GROUND_MATERIALS);
 VIRGA_ASSERT_SIZE(virga_ground_count_gpu, 8);
 #undef uint
 #endif

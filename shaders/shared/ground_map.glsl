@@ -5,6 +5,10 @@
 // camera and added to here, so that it stays exact far from the origin. `low_cell` is the number of that corner's cell,
 // floor(low_m / cell_m), modulo `cells`.
 
+// Beyond the window: virga_ground_far_at, with `far_at` in far cells from far_low_m. From the window to there goes
+//     virga_ground_mix(far, near, virga_ground_near_share(at - camera_at, reach_m / cell_m))
+// and from there to the horizon virga_ground_open of the surface's material, or nothing where a host knows none.
+
 struct virga_ground_wetness {
     float wet;         // [0; 1] how far pores are filled, or a film covers the place
     float depth_mm;    // of water
@@ -66,4 +70,48 @@ virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ive
                                      own * virga_ground_spots(spot_map, low_cell, cells, at, pixel_cells));
     }
     return found;
+}
+
+// ---- beyond the window
+
+virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetness b, float t)
+{
+    return virga_ground_wetness(mix(a.wet, b.wet, t), mix(a.depth_mm, b.depth_mm, t), mix(a.slope2, b.slope2, t),
+                                mix(a.spot, b.spot, t));
+}
+
+// The window's share of what a place so many cells from the camera shows; `reach` in cells too.
+float virga_ground_near_share(vec2 off, float reach)
+{
+    return 1.0 - smoothstep(0.7 * reach, reach, max(abs(off.x), abs(off.y)));
+}
+
+// Level open ground of a material (virga_occluder.material).
+virga_ground_wetness virga_ground_open(sampler2D far_map, int far_cells, uint material)
+{
+    const vec4 texel = texelFetch(far_map, ivec2(min(material, 31u), far_cells), 0);
+    return virga_ground_wetness(texel.x, texel.y, max(texel.z, 0.0), max(-texel.z, 0.0));
+}
+
+// What a place shows there, as virga_ground_at; `open` is what there is where this map ends.
+virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 far_at, float height_m,
+                                         virga_ground_wetness open)
+{
+    const vec2 middle = far_at - 0.5;
+    const ivec2 low = clamp(ivec2(floor(middle)), ivec2(0), ivec2(max(far_cells - 2, 0)));
+    const vec2 t = clamp(middle - vec2(low), 0.0, 1.0);
+    vec4 sum = vec4(0.0);
+    float found = 1e-6;
+    for (int i = 0; i < 4; i++) {
+        const ivec2 corner = ivec2(i & 1, i >> 1);
+        const vec4 texel = texelFetch(far_map, low + corner, 0);
+        const vec2 side = mix(1.0 - t, t, vec2(corner));
+        const float share = side.x * side.y * float(abs(texel.a - height_m) < 0.2);
+        sum += vec4(texel.xy, max(texel.z, 0.0), max(-texel.z, 0.0)) * share;
+        found += share;
+    }
+    sum /= found;
+    const vec2 inside = min(far_at, float(far_cells) - far_at);
+    const float share = smoothstep(0.5, 16.0, min(inside.x, inside.y));
+    return virga_ground_mix(open, virga_ground_wetness(sum.x, sum.y, sum.z, sum.w), share);
 }

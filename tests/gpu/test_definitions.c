@@ -76,6 +76,7 @@ static void ground_def_fields(void **state)
         F(cells, CLAMPED, 128, 4096),
         F(cell_m, CLAMPED, 0.01, 0.1),
         F(kept_tiles, CLAMPED, 0, 60000),
+        F(far_cells, CLAMPED, 0, 2048),
         F(ripple_texels, CLAMPED, 64, 4096),
         F(ripple_texel_m, CLAMPED, 0.002, 0.05),
         F(tick_s, CLAMPED, 1e-3, 0.05),

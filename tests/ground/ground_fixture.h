@@ -30,6 +30,7 @@ typedef struct ground_fixture {
     VkDeviceSize list_offset; /* of them in their buffer, with their exact size then */
     uint32_t told;            /* drops that the list's head tells of; 0: those that are there */
     double camera[3];
+    float open_rain_mm_h, open_drop_m; /* on ground that no drops are counted on */
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
     virga_floor_gpu *floors; /* read back */
@@ -90,6 +91,7 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
+    def.far_cells = 0;
     def.kept_tiles = 0;
     def.max_impacts = MOST_DROPS;
     if (given)
@@ -218,7 +220,9 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .impacts_offset = f->list_offset,
                                    .impacts_size = f->list_offset ? sizeof *head + sizeof f->drops : 0,
                                    .first_tick = f->tick,
-                                   .ticks = ticks};
+                                   .ticks = ticks,
+                                   .open_rain_mm_h = f->open_rain_mm_h,
+                                   .open_drop_m = f->open_drop_m};
     ground_fixture_ask_splash(f, &info);
     REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
     if (f->flying)

@@ -10,6 +10,11 @@
  * their water until def.kept_tiles are; then those that left longest ago are forgotten, and their water is counted as
  * that. A place has one cell: of surfaces above one another the highest that is ground.
  *
+ * Beyond the window there is a wider map without water of its own (def.far_cells). It and cells that come into the
+ * window for the first time show what has stood in the rain for as long as the ground is there, in the open or under
+ * cover: the host tells in each step how much rain that is (step_info.open_rain_mm_h). Blend from one map to the other,
+ * and the road is wet as far as it is seen.
+ *
  * A frame: after virga_rain_step, and outside rendering,
  *
  *     virga_ground_step(ground, cmd, &info);
@@ -46,6 +51,11 @@ typedef struct virga_ground_def {
     float cell_m;           /* [0.01; 0.1] side of a cell. Default 0.05 */
     uint32_t kept_tiles;    /* [0; 60000] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */
+    uint32_t far_cells;     /* [0; 2048] along the side of the map of ground beyond the window, in cells of 8 x cell_m;
+                             * raised to twice the window's side, else rounded down to whole 64. 32 bytes of device
+                             * memory each; all meshes are drawn into it twice whenever the camera has gone 32 to 64 of
+                             * its cells. 0: there is none, and no cover for cells that come into the window. Default
+                             * 512: 205 m at cells of 5 cm */
     uint32_t ripple_texels; /* [64; 4096] along the side of the map of ripples around the camera. Default 1024 */
     float ripple_texel_m;   /* [0.002; 0.05] its texel; shorter waves than about three texels are smoothed away. Default
                              * 0.005 */
@@ -81,9 +91,11 @@ typedef struct virga_ground_settings {
                               * window; the rest is live */
     float evaporation_mm_h; /* [0; 100] from a free surface. 0.1 in rain, 0.5 on a mild day, 5 in sun and wind.
                               * Default 0.2 */
-    float start_wetness;    /* [0; 1] share of their capacity that pores of cells never seen before hold. Default 0 */
-    float start_water_mm;   /* [0; 50] rain of that depth has gathered in the hollows of their bumps, all pores are full
-                             * and half of what roughness holds back is on the humps. Default 0: dry */
+    float start_wetness;    /* [0; 1] share of their capacity that pores held when the ground was made: of the cells
+                             * that are there then, and of what comes into the window later as it would be by now.
+                             * Other values of this or the next set anew what comes from then on. Default 0 */
+    float start_water_mm;   /* [0; 50] rain of that depth had gathered in the hollows of their bumps, all pores were
+                             * full and half of what roughness holds back was on the humps. Default 0: dry */
     bool measure;           /* sums the water of all cells in each step, for the statistics: one pass over all cells.
                               * Default true */
 } virga_ground_settings;
@@ -142,6 +154,11 @@ typedef struct virga_ground_step_info {
     VkBuffer returns; /* (optional) water that splashes gave back: laid out as impacts, with is_return. It lands in the
                        * first tick of the step; give each return to one step with ticks only */
     VkDeviceSize returns_offset, returns_size; /* as of the impacts */
+    float open_rain_mm_h; /* [0; 1000] rain that lands on level open ground during the step, for ground that no impacts
+                           * are counted on: what comes into the window, and the far map. See virga_rain_fall_get. 0:
+                           * it stays as at the start, and dries */
+    float open_drop_m;    /* [0; 0.01] the mean diameter of its drops, by surface: their spots and how much they stir
+                           * puddles. 0: neither */
 } virga_ground_step_info;
 
 /* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read
@@ -152,7 +169,7 @@ VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer c
 /* Surveys all of the window anew in the next step: after meshes were changed. Water stays. */
 VIRGA_API void virga_ground_survey(virga_ground *ground);
 
-/* What materials read. Both images are cells x cells (spots: twice as wide), and wrap around: the
+/* What materials read. Wet and spots are cells x cells (spots: twice as wide), and wrap around: the
  * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL, and
  * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. */
 typedef struct virga_ground_maps {
@@ -169,6 +186,14 @@ typedef struct virga_ground_maps {
     float base_m;       /* height in the world: the camera's at the first step, in whole metres (as far as a float has
                          * them) */
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
+    float reach_m;      /* as far from the step's camera, in x and in z, there is window all around: blend into the far
+                         * map before that */
+    VkImageView far;    /* R16G16B16A16_SFLOAT, like `wet` but for b: where no water lies it is minus the share of dark
+                         * spots. Texel (0, 0) lies at far_low_m; it does not wrap. A row of VIRGA_GROUND_MATERIALS
+                         * texels more, y = far_cells, has level open ground by material, for what is beyond */
+    uint32_t far_cells; /* along its side; 0: only that row, y = 0 */
+    float far_cell_m;
+    double far_low_m[2]; /* its low corner in x and z; changes every frame */
 } virga_ground_maps;
 
 VIRGA_API void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps);
@@ -204,7 +229,7 @@ VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer,
  *     start + landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
 typedef struct virga_ground_stats {
     uint64_t frame_index;             /* 0: none yet */
-    uint64_t start_nl;                /* that cells came with, see start_wetness */
+    uint64_t start_nl;                /* that cells came with when they were first in the window */
     uint64_t landed_nl, elsewhere_nl; /* on cells; on what is not ground, or outside of the window. Without what flew up
                                        * again and has not fallen back */
     uint64_t flown_nl, returned_nl;   /* up in splashes; fallen back: flown - returned is in the air */

@@ -1,0 +1,130 @@
+/* ground/ground_far.c - the map of ground beyond the window: a wider one, of cells eight times as wide that hold no
+ * water of their own but show what has stood there in the rain, see standing.c. */
+#include "ground/ground_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define STEP      32 /* far cells by which the map moves, when the camera is farther than that from its middle */
+#define MAP_TICKS 15 /* from one drawing of the map to the next: what it shows changes within minutes */
+
+static double cell_m(const virga_ground *ground)
+{
+    return VIRGA_GROUND_FAR_CELL * (double)ground->def.cell_m;
+}
+
+/* Half of its side less what the camera may be off its middle (m). */
+static double reach_m(const virga_ground *ground)
+{
+    return ((double)ground->def.far_cells / 2 - 1.5 * STEP) * cell_m(ground);
+}
+
+virga_result ground_far_create(virga_ground *ground)
+{
+    virga_result result = VIRGA_OK;
+    virga_context *context = ground->context;
+    ground_far *far = &ground->far;
+    const uint32_t cells = ground->def.far_cells;
+    const VkDeviceSize floors = (VkDeviceSize)cells * cells * sizeof(virga_far_floor_gpu);
+    const virga_buffer_row wanted = {&far->floors, floors ? floors : sizeof(virga_far_floor_gpu),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_HEAP_DEVICE, "ground.far_floors"};
+    const VkExtent2D extent = {cells > VIRGA_GROUND_MATERIALS ? cells : VIRGA_GROUND_MATERIALS, cells + 1};
+    TRY(virga_buffers_create(context, &wanted, 1));
+    TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, extent, 1,
+                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.far_map", &far->map));
+    TRY(virga_mesh_map_create(context, cells, 2, ground->def.occluder_strides, "ground.far_survey", &ground->needed,
+                              &far->survey));
+error:
+    return result;
+}
+
+void ground_far_retire(virga_ground *ground)
+{
+    virga_context *context = ground->context;
+    VIRGA_RETIRE(context, ground->far.floors);
+    VIRGA_RETIRE(context, ground->far.map);
+    virga_mesh_map_retire(context, &ground->far.survey);
+}
+
+VkDeviceSize ground_far_estimate(const virga_ground_def *def)
+{
+    const VkDeviceSize cells = (VkDeviceSize)def->far_cells * def->far_cells;
+    return cells * (sizeof(virga_far_floor_gpu) + 8 /* map */ + 2 * 8 /* survey */) + VIRGA_GROUND_MATERIALS * 8;
+}
+
+bool ground_far_follow(virga_ground *ground, const double camera_m[3])
+{
+    ground_far *far = &ground->far;
+    int32_t low[2];
+    bool moves = !far->placed;
+    if (!ground->def.far_cells)
+        return false;
+    for (int axis = 0; axis < 2; axis++) {
+        const double most = INT32_MAX / STEP / VIRGA_GROUND_FAR_CELL - 2.0 * ground->def.far_cells;
+        const double at = floor(camera_m[axis * 2] / (STEP * cell_m(ground)));
+        low[axis] = (int32_t)fmin(fmax(at, -most), most) * STEP - (int32_t)ground->def.far_cells / 2;
+        moves = moves || abs(low[axis] - far->low[axis]) > STEP;
+    }
+    if (moves) {
+        far->low[0] = low[0];
+        far->low[1] = low[1];
+    }
+    far->placed = true;
+    return moves;
+}
+
+void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+{
+    ground_far *far = &ground->far;
+    const uint32_t cells = ground->def.far_cells;
+    virga_map_view view = {
+        .half_m = 0.5 * cells * cell_m(ground), .height_m = GROUND_SURVEY_DEEP_M, .top_m = GROUND_SURVEY_TOP_M};
+    for (int axis = 0; axis < 2; axis++)
+        view.origin_m[axis * 2] = far->low[axis] * cell_m(ground) + view.half_m;
+    view.origin_m[1] = ground->base_m;
+    for (uint32_t layer = 0; layer < 2; layer++) {
+        view.ground_only = layer == 0;
+        virga_mesh_map_draw(ground->context, cmd, far->survey, layer, &view, info->meshes, info->mesh_count);
+    }
+    virga_dispatch(ground->context, cmd, far->find_floors, cells * cells / VIRGA_GROUND_GROUP);
+    virga_compute_barrier(ground->context, cmd);
+    far->drawn = false;
+}
+
+void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd)
+{
+    ground_far *far = &ground->far;
+    const uint32_t cells = ground->def.far_cells;
+    if (far->drawn && ground->ticks - far->drawn_at < MAP_TICKS)
+        return;
+    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.far");
+    virga_dispatch(ground->context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
+    virga_pass_end(ground->context, cmd, scope);
+    far->drawn = true;
+    far->drawn_at = ground->ticks;
+}
+
+void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out)
+{
+    const virga_ground_material_map *materials = &ground->info.materials;
+    const ground_far *far = &ground->far;
+    out->far_cells = ground->def.far_cells;
+    for (int axis = 0; axis < 2; axis++) {
+        const double corner = far->low[axis] * cell_m(ground), size = materials->high_m[axis] - materials->low_m[axis];
+        const bool given = materials->image.view && size > 0;
+        out->far_low[axis] = far->low[axis];
+        out->far_material_offset[axis] = given ? (float)((corner - materials->low_m[axis]) / size) : -1;
+        out->far_camera[axis] = (float)((ground->info.camera_m[axis * 2] - corner) / cell_m(ground));
+        out->far_even[axis] = (float)((0.3 + 0.6 * axis) * reach_m(ground) / cell_m(ground));
+    }
+}
+
+void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps)
+{
+    maps->far = ground->far.map->layer_views[0];
+    maps->far_cells = ground->def.far_cells;
+    maps->far_cell_m = (float)cell_m(ground);
+    for (int axis = 0; axis < 2; axis++)
+        maps->far_low_m[axis] = ground->far.low[axis] * cell_m(ground);
+}
