@@ -83,6 +83,7 @@ static void ground(void **state)
         SAME(cells);
         SAME(cell_m);
         SAME(kept_tiles);
+        SAME(far_cells);
     }
     const virga_ground_settings def = virga_default_ground_settings();
     SAME(evaporation_mm_h);

@@ -245,6 +245,7 @@ bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t
     mesh->primitives[0] = (host_primitive){.index_count = index_count, .cover = 1.0f};
     memcpy(mesh->primitives[0].name, material->name, sizeof mesh->primitives[0].name);
     mesh->primitives[0].surface = host_material_word(material->name);
+    mesh->primitives[0].ground = host_is_ground(material->name, mesh->primitives[0].surface);
     mesh->material_count = mesh->primitive_count = 1;
     for (int c = 0; c < 3; c++) {
         mesh->low[c] = FLT_MAX;
@@ -288,7 +289,7 @@ uint32_t host_mesh_occluders(const host_mesh *mesh, virga_occluder *occluders, u
             .index_count = primitive->index_count,
             .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
             .material = primitive->surface,
-            .ground = host_is_ground(primitive->name, primitive->surface),
+            .ground = primitive->ground,
             .cover = primitive->cover > 0.01f ? primitive->cover : 0.01f, /* 0 would mean 1 */
         };
     }

@@ -36,6 +36,7 @@ typedef struct host_primitive {
     uint32_t first_index, index_count;
     uint32_t material;      /* into host_mesh::materials */
     uint32_t surface;       /* host_material_word of its names, for impacts */
+    bool ground;            /* host_is_ground of its name */
     float cover;            /* share of the surface that is there; below 1 for cut-outs */
     float low[3], high[3];  /* bounds */
 } host_primitive;

@@ -189,6 +189,7 @@ static bool add_primitive(host_mesh_build *build, const struct aiNode *node, uin
         primitive->surface = host_material_word(mesh->mName.data);
     if (primitive->surface == 0)
         primitive->surface = host_material_word(node->mName.data);
+    primitive->ground = host_is_ground(primitive->name, primitive->surface);
     repair_normals(build->vertices, build->vertex_count, mesh->mNumVertices, build->indices + build->index_count,
                    index_count);
     find_bounds(build->vertices + build->vertex_count, mesh->mNumVertices, primitive->low, primitive->high);

@@ -36,6 +36,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
     write_image(r, r->frame_set, 5, r->point_sampler, &r->blank_spots);
     write_image(r, r->frame_set, 6, r->volume_sampler, &r->white);
     write_image(r, r->frame_set, 7, r->volume_sampler, &r->white);
+    write_image(r, r->frame_set, 8, r->point_sampler, &r->white);
     return true;
 }
 
@@ -169,6 +170,8 @@ void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
         host_set_write_image(r->device, r->frame_set, 4, r->point_sampler, maps->wet, general);
         host_set_write_image(r->device, r->frame_set, 5, r->point_sampler, maps->spots, general);
         host_set_write_image(r->device, r->frame_set, 6, r->volume_sampler, maps->ripples, general);
+        if (maps->far)
+            host_set_write_image(r->device, r->frame_set, 8, r->point_sampler, maps->far, general);
     }
 }
 
@@ -267,6 +270,13 @@ static void fill_ground(const virga_ground_maps *maps, const host_camera *camera
     frame->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
     frame->ground_low[3] = 1.0f / maps->cell_m;
     frame->ground_wrap[2] = (float)maps->cells;
+    frame->ground_wrap[3] = maps->reach_m / maps->cell_m;
+    if (maps->far) {
+        frame->ground_far[1] = 1.0f / maps->far_cell_m;
+        frame->ground_far[3] = (float)maps->far_cells;
+    }
+    for (int axis = 0; axis < 2; axis++)
+        frame->ground_far[axis * 2] = (float)(maps->far_low_m[axis] - camera->position_m[axis * 2]);
     const float side_m = (float)maps->ripple_texels * maps->ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
         frame->ripples[axis] = (float)(maps->ripple_low_m[axis] - camera->position_m[axis * 2]);
@@ -318,12 +328,14 @@ static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const stru
                        VK_ACCESS_UNIFORM_READ_BIT);
 }
 
-static void fill_surface(const host_material *material, uint32_t id, struct host_surface_gpu *out)
+static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id,
+                         struct host_surface_gpu *out)
 {
     float bits = 0.0f;
     bits += material->base_texture >= 0 ? HOST_HAS_BASE_TEXTURE : 0;
     bits += material->emissive_texture >= 0 ? HOST_HAS_EMISSIVE_TEXTURE : 0;
     bits += material->alpha == HOST_ALPHA_GLASS ? HOST_IS_GLASS : 0;
+    bits += primitive->ground ? HOST_GROUND * (1 + primitive->surface) : 0;
     memcpy(out->base_color, material->base_color, sizeof out->base_color);
     memcpy(out->emissive, material->emissive, 3 * sizeof(float));
     out->emissive[3] = fmaxf(material->roughness, MIN_ROUGHNESS);
@@ -365,7 +377,7 @@ static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_e
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[kind][bound]);
         }
         struct host_surface_gpu surface;
-        fill_surface(material, entry->first_id + i, &surface);
+        fill_surface(primitive, material, entry->first_id + i, &surface);
         vkCmdPushConstants(cmd, r->layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 1, 1,
                                 &entry->sets[primitive->material], 0, NULL);

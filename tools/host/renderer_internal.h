@@ -18,8 +18,8 @@ typedef enum host_pipeline {
     HOST_PIPELINE_COUNT,
 } host_pipeline;
 
-/* Sets of a frame: its numbers, sky, reflection, skylight, the ground's wetness, spots and ripples, the mirror. Sets of
- * a material: its two textures. */
+/* Sets of a frame: its numbers, sky, reflection, skylight, the ground's wetness, spots and ripples, the mirror, the
+ * ground beyond the window. Sets of a material: its two textures. */
 extern const host_set_shape host_frame_shape, host_material_shape;
 
 typedef struct host_entry { /* a mesh that was added */

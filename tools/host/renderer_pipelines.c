@@ -17,9 +17,9 @@
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
 static const VkDescriptorType types[] = {
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
 
-const host_set_shape host_frame_shape = {types, 8, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
+const host_set_shape host_frame_shape = {types, 9, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
 const host_set_shape host_material_shape = {types + 1, 2, VK_SHADER_STAGE_FRAGMENT_BIT};
 
 static bool create_layouts(host_renderer *r, char *error, size_t error_size)

@@ -123,6 +123,7 @@ typedef struct scene_ground {
     uint32_t cells;
     double cell_m;
     uint32_t kept_tiles;
+    uint32_t far_cells;
     double evaporation_mm_h;
     double start_wetness, start_water_mm;
     scene_ground_rule *materials; /* the first that matches counts; none: words in names decide */

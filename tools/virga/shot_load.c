@@ -70,11 +70,11 @@ bool shot_check_materials(const scene_file *scene, char *error, size_t error_siz
 }
 
 /* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
-static void apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *occluders, uint32_t count)
+static void apply_rules(const shot *s, host_mesh *mesh)
 {
     const scene_ground *ground = &s->scene->ground;
-    for (uint32_t i = 0; i < count; i++) {
-        const host_primitive *primitive = &mesh->primitives[i];
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        host_primitive *primitive = &mesh->primitives[i];
         const scene_ground_rule *rule = ground->materials, *end = rule + ground->material_count;
         while (rule < end && !host_name_contains(primitive->name, rule->match) &&
                !host_name_contains(mesh->materials[primitive->material].name, rule->match))
@@ -82,8 +82,8 @@ static void apply_rules(const shot *s, const host_mesh *mesh, virga_occluder *oc
         if (rule == end)
             continue;
         if (rule->material)
-            host_material_find(rule->material, &occluders[i].material);
-        occluders[i].ground = rule->walkable;
+            host_material_find(rule->material, &primitive->surface);
+        primitive->ground = rule->walkable;
     }
 }
 
@@ -100,11 +100,10 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size)
         if (!shot_blame_input(s, host_mesh_load(&s->device, path, transform, &s->meshes[i], error, error_size)))
             return false;
         s->meshes_loaded++;
+        apply_rules(s, &s->meshes[i]);
         const uint32_t room = SHOT_MAX_OCCLUDERS - s->occluder_count;
         const uint32_t more = host_mesh_occluders(&s->meshes[i], s->occluders + s->occluder_count, room);
-        const uint32_t taken = more < room ? more : room;
-        apply_rules(s, &s->meshes[i], s->occluders + s->occluder_count, taken);
-        s->occluder_count += taken;
+        s->occluder_count += more < room ? more : room;
         if (s->renderer && !host_renderer_add(s->renderer, &s->meshes[i], error, error_size))
             return false;
     }

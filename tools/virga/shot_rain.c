@@ -146,6 +146,7 @@ static virga_scene_def define_scene(const shot *s)
     def.ground.cells = s->scene->ground.cells;
     def.ground.cell_m = (float)s->scene->ground.cell_m;
     def.ground.kept_tiles = s->scene->ground.kept_tiles;
+    def.ground.far_cells = s->scene->ground.far_cells;
     /* A close-up sees finer waves of a smaller place. */
     def.ground.ripple_texel_m = (float)fmax(0.006 * shot_ripples_ahead(s, 0) / SHOT_RIPPLES_AHEAD_M, 0.002);
     def.with_splash = s->scene->splash.on;

@@ -39,7 +39,10 @@ struct host_frame_gpu {
     HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
     HOST_VEC4 ground_low;     /* low corner of the wet ground's window relative to the camera, y: height that its map
                                 * counts from; w: 1 / side of a cell, 0 for no ground */
-    HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells */
+    HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells; w: how many of them the window
+                               * reaches at least from the camera */
+    HOST_VEC4 ground_far;     /* low corner of the map beyond the window relative to the camera, y: 1 / side of its
+                               * cells, 0 for no map; w: cells */
     HOST_VEC4 ripples; /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
     HOST_VEC4 mirror;  /* height of the mirror's plane relative to the camera, how much smaller than the picture's its
                         * clip space is drawn; z: 1, or 0 for no mirror */
@@ -50,7 +53,8 @@ struct host_frame_gpu {
 struct host_surface_gpu { /* push constants */
     HOST_VEC4 base_color; /* alpha: times the texture's */
     HOST_VEC4 emissive;   /* w: roughness */
-    HOST_VEC4 traits;     /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass */
+    HOST_VEC4 traits;     /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass;
+                           * from 8 on, for ground, 1 + its material */
 };
 
 /* ---- skylight: how much of the sky each place around the camera sees ---------------------------------------- */
@@ -76,5 +80,6 @@ struct host_skylight_draw_gpu { /* push constants */
 #define HOST_HAS_BASE_TEXTURE     1
 #define HOST_HAS_EMISSIVE_TEXTURE 2
 #define HOST_IS_GLASS             4
+#define HOST_GROUND               8 /* times 1 + the material */
 
 #endif

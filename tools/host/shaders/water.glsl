@@ -9,6 +9,7 @@
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
 layout(set = 0, binding = 5) uniform usampler2D spot_map;
 layout(set = 0, binding = 6) uniform sampler2D ripple_map;
+layout(set = 0, binding = 8) uniform sampler2D far_map;
 
 struct Water {
     float damp;     // [0; 1] of the pores
@@ -31,14 +32,28 @@ vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
     return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
 
+// What lies beyond the window, and on ground even beyond the map of that.
+virga_ground_wetness far_water(vec3 relative, float height_m)
+{
+    const int cells = int(frame.ground_far.w), material = (int(surface.traits.w) / HOST_GROUND) - 1;
+    virga_ground_wetness open = virga_ground_wetness(0.0, 0.0, 0.0, 0.0);
+    if (material >= 0)
+        open = virga_ground_open(far_map, cells, uint(material));
+    const vec2 at = (relative.xz - frame.ground_far.xz) * frame.ground_far.y;
+    return virga_ground_far_at(far_map, cells, at, height_m, open);
+}
+
 Water water_at(vec3 relative, vec3 n)
 {
     const float inv_cell = frame.ground_low.w;
     const vec2 at = (relative.xz - frame.ground_low.xz) * inv_cell;
     const float pixel = max(length(dFdx(at)), length(dFdy(at)));
-    const virga_ground_wetness wet =
-        virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy), max(int(frame.ground_wrap.z), 1), at,
-                        relative.y - frame.ground_low.y, pixel);
+    const float height_m = relative.y - frame.ground_low.y;
+    virga_ground_wetness wet = virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy),
+                                               max(int(frame.ground_wrap.z), 1), at, height_m, pixel);
+    const float near = virga_ground_near_share(relative.xz * inv_cell, frame.ground_wrap.w);
+    if (frame.ground_far.y > 0.0 && near < 1.0)
+        wet = virga_ground_mix(far_water(relative, height_m), wet, near);
     const float level = inv_cell > 0.0 ? smoothstep(0.3, 0.6, n.y) : 0.0;
     Water water;
     water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
