@@ -68,8 +68,12 @@ static void tell_ground(const stage_camera *camera, const virga_ground_maps *map
                      position = camera->position_m[2 * axis];
         to->ground_low[2 * axis] = (float)(maps->low_m[axis] - position);
         to->ground_wrap[axis] = (float)(cell - floor(cell / maps->cells) * maps->cells);
+        to->ground_far[2 * axis] = (float)(maps->far_low_m[axis] - position);
         to->ripples[axis] = (float)(maps->ripple_low_m[axis] - position);
     }
+    to->ground_wrap[3] = maps->reach_m / maps->cell_m;
+    to->ground_far[1] = 1 / maps->far_cell_m;
+    to->ground_far[3] = (float)maps->far_cells;
     to->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
     to->ground_low[3] = 1 / maps->cell_m;
     to->ground_wrap[2] = (float)maps->cells;
@@ -208,7 +212,6 @@ static void tell_material(const host_material *material, float sky, struct drive
     surface->traits[0] = material->metallic;
     surface->traits[1] = material->alpha == HOST_ALPHA_MASK ? material->cutoff : -1;
     surface->traits[2] = sky;
-    surface->traits[3] = 0;
 }
 
 /* The primitives that are glass, or those that are not. */
@@ -222,6 +225,7 @@ static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_dra
         if (sky < 0 || (material->alpha == HOST_ALPHA_GLASS) != glass)
             continue;
         tell_material(material, sky, surface);
+        surface->traits[3] = primitive->ground ? (float)(1 + primitive->surface) : 0;
         if (glass)
             vkCmdSetBlendConstants(cmd, (const float[4]){through, through, through, 0});
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 1, 1, &sets[primitive->material],
@@ -340,6 +344,7 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
         host_set_write_image(s->device, set, 4, s->nearest, maps->spots, general);
         host_set_write_image(s->device, set, 5, s->smooth, maps->ripples, general);
         host_set_write_image(s->device, set, 6, s->smooth, s->behind.view, read);
+        host_set_write_image(s->device, set, 7, s->nearest, maps->far, general);
     }
     host_set_write_image(s->device, s->show_set, 0, s->nearest, s->color.view, read);
 }

@@ -62,12 +62,13 @@ static bool create_passes(stage *s, char *error, size_t error_size)
 
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
-static const VkDescriptorType types[7] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
+static const VkDescriptorType types[8] = {
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
 
 static bool create_layouts(stage *s, char *error, size_t error_size)
 {
     const VkShaderStageFlags drawing = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    const host_set_shape frame = {types, 7, drawing}, material = {types + 1, 2, drawing},
+    const host_set_shape frame = {types, 8, drawing}, material = {types + 1, 2, drawing},
                          show = {types + 1, 1, drawing};
     if (!host_set_layout_create(s->device, &frame, &s->frame_layout, error, error_size) ||
         !host_set_layout_create(s->device, &material, &s->material_layout, error, error_size) ||

@@ -10,6 +10,7 @@ layout(set = 0, binding = 3) uniform sampler2D wet_map;
 layout(set = 0, binding = 4) uniform usampler2D spot_map;
 layout(set = 0, binding = 5) uniform sampler2D ripple_map;
 layout(set = 0, binding = 6) uniform sampler2D last_picture; // of the frame before, dry; alpha: 1 / distance
+layout(set = 0, binding = 7) uniform sampler2D far_map;
 layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
 layout(push_constant) uniform Surface { drive_surface_gpu surface; };
@@ -87,6 +88,24 @@ float beside_car(vec3 place, float up)
     return 1.0 - 0.88 * under * under * smoothstep(0.5, 0.8, up) * (1.0 - smoothstep(0.05, 0.16, abs(at.y)));
 }
 
+// Water in the window around the camera; beyond, where rain alone has said how wet it is; and on to the horizon.
+virga_ground_wetness water_at(vec2 at, float pixel)
+{
+    float height_m = in_relative.y - frame.ground_low.y, reach = frame.ground_wrap.w;
+    virga_ground_wetness near =
+        virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy), max(int(frame.ground_wrap.z), 1), at, height_m,
+                        pixel);
+    float share = virga_ground_near_share(in_relative.xz * frame.ground_low.w, reach);
+    if (share >= 1.0)
+        return near;
+    int cells = int(frame.ground_far.w);
+    virga_ground_wetness open = virga_ground_wetness(0.0, 0.0, 0.0, 0.0);
+    if (surface.traits.w > 0.0)
+        open = virga_ground_open(far_map, cells, uint(surface.traits.w) - 1u);
+    vec2 far_at = (in_relative.xz - frame.ground_far.xz) * frame.ground_far.y;
+    return virga_ground_mix(virga_ground_far_at(far_map, cells, far_at, height_m, open), near, share);
+}
+
 // Lamps: Lambert, and GGX with the visibility of Hammon 2017.
 vec3 lamps(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v)
 {
@@ -133,9 +152,7 @@ void main()
     // The water here. Pores darken what is rough (Lagarde 2013), a film shines, a puddle is a mirror of its own.
     vec2 at = (in_relative.xz - frame.ground_low.xz) * frame.ground_low.w;
     float pixel = max(length(dFdx(at)), length(dFdy(at)));
-    virga_ground_wetness water =
-        virga_ground_at(wet_map, spot_map, ivec2(frame.ground_wrap.xy), max(int(frame.ground_wrap.z), 1), at,
-                        in_relative.y - frame.ground_low.y, pixel);
+    virga_ground_wetness water = water_at(at, pixel);
     float level = smoothstep(0.3, 0.6, n.y);
     float damp = level * max(0.85 * water.spot, smoothstep(0.15, 0.8, water.wet));
     float film = level * smoothstep(0.01, 0.25, water.depth_mm);
