@@ -483,6 +483,8 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     maps->ripple_texels = ground->def.ripple_texels;
     maps->ripple_texel_m = ground->def.ripple_texel_m;
     maps->reach_m = (float)((0.5 * ground->window.tiles - 1.5) * tile_m);
+    if (ground->info.impacts_reach_m > 0 && ground->info.impacts_reach_m < maps->reach_m)
+        maps->reach_m = ground->info.impacts_reach_m;
     ground_far_maps(ground, maps);
     for (int axis = 0; axis < 2; axis++) {
         maps->ripple_low_m[axis] = ground->ripple_low_m[axis];

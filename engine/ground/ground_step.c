@@ -511,6 +511,7 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
         virga_settings_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
         virga_settings_finite(log, "step_info.open_drop_m", &info->open_drop_m, 1) ||
+        virga_settings_finite(log, "step_info.impacts_reach_m", &info->impacts_reach_m, 1) ||
         virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
         virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
         check_buffers(ground, info))

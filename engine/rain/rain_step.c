@@ -407,6 +407,7 @@ void virga_rain_fall_get(const virga_rain *rain, virga_rain_fall *fall)
         cubes += landing * c->diameter_m;
     }
     fall->rate_mm_h = (float)rain->classes->rate_mm_h;
+    fall->reach_m = rain->def.range_m;
     fall->drop_m = squares > 0 ? (float)(cubes / squares) : 0;
 }
 

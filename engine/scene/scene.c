@@ -254,6 +254,7 @@ static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const v
     virga_rain_fall_get(scene->rain, &fall);
     info.open_rain_mm_h = fall.rate_mm_h;
     info.open_drop_m = fall.drop_m;
+    info.impacts_reach_m = fall.reach_m;
     if (scene->splash) {
         virga_splash_buffer rules, returns;
         virga_splash_rules(scene->splash, &rules);

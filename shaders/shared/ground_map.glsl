@@ -80,10 +80,11 @@ virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetne
                                 mix(a.spot, b.spot, t));
 }
 
-// The window's share of what a place so many cells from the camera shows; `reach` in cells too.
+// The window's share of what a place so many cells from the camera shows; `reach` in cells too. It falls early: the
+// farther, the more drops each impact stands for, so that single cells get wet by chance there.
 float virga_ground_near_share(vec2 off, float reach)
 {
-    return 1.0 - smoothstep(0.7 * reach, reach, max(abs(off.x), abs(off.y)));
+    return 1.0 - smoothstep(0.5 * reach, reach, max(abs(off.x), abs(off.y)));
 }
 
 // Level open ground of a material (virga_occluder.material).

@@ -31,6 +31,7 @@ typedef struct ground_fixture {
     uint32_t told;            /* drops that the list's head tells of; 0: those that are there */
     double camera[3];
     float open_rain_mm_h, open_drop_m; /* on ground that no drops are counted on */
+    float impacts_reach_m;
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
     virga_floor_gpu *floors; /* read back */
@@ -222,7 +223,8 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
                                    .first_tick = f->tick,
                                    .ticks = ticks,
                                    .open_rain_mm_h = f->open_rain_mm_h,
-                                   .open_drop_m = f->open_drop_m};
+                                   .open_drop_m = f->open_drop_m,
+                                   .impacts_reach_m = f->impacts_reach_m};
     ground_fixture_ask_splash(f, &info);
     REQUIRE(virga_ground_step(f->ground, cmd, &info) == VIRGA_OK);
     if (f->flying)

@@ -30,7 +30,7 @@ static void begin(uint32_t material)
     f.meshes[1].ground = false;
     ground_fixture_ground(&f, &def);
     f.settings.materials[ROUGH] = (virga_ground_material){
-        .capacity_mm = 0.1f, .retention_mm = 0.5f, .manning_n = 0.013f, .bumps_mm = 0, .bump_m = 1};
+        .capacity_mm = 0.1f, .retention_mm = 0.3f, .manning_n = 0.013f, .bumps_mm = 0, .bump_m = 1};
     REQUIRE(virga_ground_set(f.ground, &f.settings) == VIRGA_OK);
     REQUIRE(host_buffer_create(&f.gpu.device, 256 * 257 * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
                                "far map", &picture, f.gpu.error, sizeof f.gpu.error));
@@ -238,6 +238,14 @@ static void test_the_map_shows_what_stands_there(void **state)
     end();
 }
 
+/* Variance of slope that the rain keeps up on water of that depth: drops a second and square metre, by 3 pi / 2 times the
+ * square of the crater, by the time that it lasts. */
+static float stirred_by(double depth_mm)
+{
+    const double drops = (double)RAIN_H / 3.6e6 / (atan(1) * 4 / 6 * 8e-9), crater = 0.5 * 4e-6 / 0.0025;
+    return (float)(drops * 4.71239 * crater * crater * 0.333 * (1 - exp(-pow(depth_mm / 2.9, 1.5))));
+}
+
 /* Half wet pores, spots, then a puddle that drops stir. */
 static void test_the_map_shows_first_drops_and_stirred_puddles(void **state)
 {
@@ -252,11 +260,24 @@ static void test_the_map_shows_first_drops_and_stirred_puddles(void **state)
     set();
     rain(1, 16);
     read_picture();
-    /* Drops a second and square metre, by 3 pi / 2 times the square of the crater, by what they keep up. */
-    const double drops = (double)RAIN_H / 3.6e6 / (atan(1) * 4 / 6 * 8e-9), crater = 0.5 * 4e-6 / 0.0025;
-    const double calm = 0.333 * (1 - exp(-pow(4 / 2.9, 1.5)));
-    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 4, (float)(drops * 4.71239 * crater * crater * calm));
-    assert_true(drops * 4.71239 * crater * crater * calm > 0.002);
+    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 4, stirred_by(4));
+    assert_true(stirred_by(4) > 0.002f);
+    end();
+}
+
+static void test_the_window_reaches_as_far_as_drops_land(void **state)
+{
+    (void)state;
+    virga_ground_maps maps;
+    begin(ROUGH);
+    rain(1, 1);
+    virga_ground_maps_get(f.ground, &maps);
+    assert_float_equal(maps.reach_m, 6.4 - 4.8, 1e-5); /* the camera may be a tile and a half off the middle */
+    f.impacts_reach_m = 1;
+    rain(1, 1);
+    virga_ground_maps_get(f.ground, &maps);
+    assert_float_equal(maps.reach_m, 1, 0);
+    f.impacts_reach_m = 0;
     end();
 }
 
@@ -322,6 +343,7 @@ int main(void)
         cmocka_unit_test(test_spots_come_in_as_many_as_drops_leave),
         cmocka_unit_test(test_the_map_shows_what_stands_there),
         cmocka_unit_test(test_the_map_shows_first_drops_and_stirred_puddles),
+        cmocka_unit_test(test_the_window_reaches_as_far_as_drops_land),
         cmocka_unit_test(test_the_map_follows_the_camera),
         cmocka_unit_test(test_steps_do_not_matter),
         cmocka_unit_test(test_without_a_far_map_there_are_materials),

@@ -61,6 +61,58 @@ static void less_rain_eases_out(void **state)
     check_transition(60, 5);
 }
 
+/* The sum of d^3 over that of d^2, of all that lands, in steps of 1 um. */
+static double mean_diameter(double rate_mm_h)
+{
+    enum { STEPS = 6600 };
+    static double diameters[STEPS], densities[STEPS];
+    const virga_sizes sizes = {.kind = VIRGA_SIZES_MARSHALL_PALMER};
+    double squares = 0, cubes = 0;
+    for (int i = 0; i < STEPS; i++)
+        diameters[i] = VIRGA_DROP_MIN_M + (i + 0.5) * 1e-6;
+    assert_int_equal(virga_sizes_densities(&sizes, rate_mm_h, 0, STEPS, diameters, densities), VIRGA_OK);
+    for (int i = 0; i < STEPS; i++) {
+        const double d = diameters[i], landing = densities[i] * virga_drop_terminal_speed(d, 0) * d * d;
+        squares += landing;
+        cubes += landing * d;
+    }
+    return cubes / squares;
+}
+
+/* What lands on open ground goes from one rain to the other in a straight line. */
+static void what_open_ground_gets_is_told(void **state)
+{
+    (void)state;
+    rain_fixture f;
+    host_buffer read = {0};
+    virga_rain_fall fall;
+    open_sky(&f, 10, (float)(20 * tick_s));
+    rain_fixture_points_step(&f, 15.001 * tick_s, &read); /* so that sums of floats do not fall a tick short */
+    virga_rain_fall_get(f.rain, &fall);
+    assert_float_equal(fall.rate_mm_h, 10, 1e-4);
+    assert_float_equal(fall.drop_m / mean_diameter(10), 1, 0.01);
+    assert_float_equal(fall.reach_m, f.rain->def.range_m, 0);
+    f.settings.rate_mm_h = 50;
+    set(&f);
+    rain_fixture_points_step(&f, 10 * tick_s, &read);
+    virga_rain_fall_get(f.rain, &fall);
+    assert_float_equal(fall.rate_mm_h, 30, 1e-3);
+    rain_fixture_points_step(&f, 10 * tick_s, &read);
+    virga_rain_fall_get(f.rain, &fall);
+    assert_float_equal(fall.rate_mm_h, 50, 1e-4);
+    assert_float_equal(fall.drop_m / mean_diameter(50), 1, 0.01);
+    f.settings.rate_mm_h = 0;
+    set(&f);
+    for (int i = 0; i < 2; i++)
+        rain_fixture_points_step(&f, 15.001 * tick_s, &read);
+    virga_rain_fall_get(f.rain, &fall);
+    assert_true(fall.rate_mm_h == 0 && fall.drop_m == 0);
+    virga_rain_fall_get(NULL, &fall);
+    assert_true(fall.reach_m == 0);
+    host_buffer_destroy(&f.gpu.device, &read);
+    rain_fixture_close(&f);
+}
+
 static bool in_the_middle(const virga_point_gpu *point)
 {
     const float *p = point->position;
@@ -213,6 +265,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(more_rain_eases_in),
+        cmocka_unit_test(what_open_ground_gets_is_told),
         cmocka_unit_test(less_rain_eases_out),
         cmocka_unit_test(single_drops_fade_too),
         cmocka_unit_test(a_change_in_the_middle_of_another_makes_no_jump),

@@ -159,6 +159,8 @@ typedef struct virga_ground_step_info {
                            * it stays as at the start, and dries */
     float open_drop_m;    /* [0; 0.01] the mean diameter of its drops, by surface: their spots and how much they stir
                            * puddles. 0: neither */
+    float impacts_reach_m; /* (optional) as far from the camera impacts land; what lies farther in the window is not
+                            * rained on, see virga_ground_maps.reach_m. 0: all over the window */
 } virga_ground_step_info;
 
 /* Takes in the impacts and runs the ticks, then writes the maps. Outside rendering. Impacts must be ready to be read
@@ -174,7 +176,7 @@ VIRGA_API void virga_ground_survey(virga_ground *ground);
  * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. */
 typedef struct virga_ground_maps {
     VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
-                        * ripples, a height of the floor above base_m (m) */
+                        * ripples, a height of the floor above base_m (m). */
     VkImageView spots;   /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
     VkImageView ripples; /* R16G16_SFLOAT: slope of the water's surface in x and z at the newest tick, where there is
                           * water (it goes on under what is dry: use it where the depth is not zero). Does not wrap */
@@ -186,8 +188,8 @@ typedef struct virga_ground_maps {
     float base_m;       /* height in the world: the camera's at the first step, in whole metres (as far as a float has
                          * them) */
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
-    float reach_m;      /* as far from the step's camera, in x and in z, there is window all around: blend into the far
-                         * map before that */
+    float reach_m;      /* as far from the step's camera, in x and in z, there is window all around and impacts land:
+                         * blend into the far map before that */
     VkImageView far;    /* R16G16B16A16_SFLOAT, like `wet` but for b: where no water lies it is minus the share of dark
                          * spots. Texel (0, 0) lies at far_low_m; it does not wrap. A row of VIRGA_GROUND_MATERIALS
                          * texels more, y = far_cells, has level open ground by material, for what is beyond */

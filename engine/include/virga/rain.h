@@ -190,6 +190,7 @@ VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
 typedef struct virga_rain_fall {
     float rate_mm_h; /* eased where settings change */
     float drop_m;    /* mean diameter of the drops that land, by surface: the sum of d^3 over that of d^2. 0: none do */
+    float reach_m;   /* as far from the camera they land: def.range_m */
 } virga_rain_fall;
 
 /* Costs nothing. All zero for NULL. Thread-safety: as the rain. */
