@@ -79,6 +79,14 @@ uint cell_state(virga_cell_gpu cell, uint material)
     return saturated && um >= 20u ? VIRGA_GROUND_WET : VIRGA_GROUND_DRY;
 }
 
+// Water on a cell that nobody sees: what is held back by more than the grain of paving is among blades of grass and
+// clods, and has no surface.
+uint hidden_nl(virga_soil_gpu soil)
+{
+    const float retention_mm = float(soil.retention_nl) * tick.m_per_nl * 1e3;
+    return uint(float(soil.retention_nl) * smoothstep(0.35, 1.0, retention_mm));
+}
+
 void count_water(uint index, uint nl)
 {
     const uint old = atomicAdd(counts[index].low, nl);

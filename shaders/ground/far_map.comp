@@ -26,7 +26,7 @@ float stirred(float water_m, float open_share)
 vec3 look_of(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
 {
     const virga_cell_gpu cell = water_standing(standing, soil, bump_um);
-    const float depth_m = float(cell.free_nl) * tick.m_per_nl;
+    const float depth_m = float(cell.free_nl - min(hidden_nl(soil), cell.free_nl)) * tick.m_per_nl;
     const float held = min(float(cell.held_nl) / max(float(soil.capacity_nl), 1.0), 1.0);
     return vec3(max(held, clamp(depth_m / 0.00005, 0.0, 1.0)), depth_m, float(depth_m >= LEAST_WATER_M));
 }

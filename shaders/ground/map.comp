@@ -39,8 +39,9 @@ void main()
         const virga_cell_gpu state = cell_of(place);
         const uint capacity = tick.soils[own.material].capacity_nl;
         const float held = float(state.held_nl) / max(float(capacity), 1.0);
-        const float free_mm = float(state.free_nl) * tick.m_per_nl * 1e3;
-        const float depth_mm = state.free_nl > 0u ? max(free_mm - float(swing_um(swings[place])) * 1e-3, 0.0) : 0.0;
+        const uint open_nl = state.free_nl - min(hidden_nl(tick.soils[own.material]), state.free_nl);
+        const float free_mm = float(open_nl) * tick.m_per_nl * 1e3;
+        const float depth_mm = open_nl > 0u ? max(free_mm - float(swing_um(swings[place])) * 1e-3, 0.0) : 0.0;
         const uint stir = calmed(place, depth_mm * 1e-3);
         stirs[place] = stir;
         const float film = clamp(depth_mm / 0.05, 0.0, 1.0);

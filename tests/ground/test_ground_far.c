@@ -265,6 +265,25 @@ static void test_the_map_shows_first_drops_and_stirred_puddles(void **state)
     end();
 }
 
+/* 0.1 mm on pores that are full: among blades of grass, which hold 2 mm, nobody sees it. */
+static void test_the_map_hides_what_is_among_blades(void **state)
+{
+    (void)state;
+    begin(ROUGH);
+    f.settings.materials[ROUGH].retention_mm = 2;
+    set();
+    rain(STEPS, 16);
+    read_picture();
+    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 0, -(float)(1 - exp(-6 * 0.2 / 2)));
+    f.settings.start_water_mm = 5;
+    set();
+    rain(1, 16);
+    read_picture();
+    assert_true(from_half(((const uint16_t *)picture.mapped)[4 * (256 * 256 + ROUGH) + 1]) > 2.99f);
+    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 3, stirred_by(3));
+    end();
+}
+
 static void test_the_window_reaches_as_far_as_drops_land(void **state)
 {
     (void)state;
@@ -343,6 +362,7 @@ int main(void)
         cmocka_unit_test(test_spots_come_in_as_many_as_drops_leave),
         cmocka_unit_test(test_the_map_shows_what_stands_there),
         cmocka_unit_test(test_the_map_shows_first_drops_and_stirred_puddles),
+        cmocka_unit_test(test_the_map_hides_what_is_among_blades),
         cmocka_unit_test(test_the_window_reaches_as_far_as_drops_land),
         cmocka_unit_test(test_the_map_follows_the_camera),
         cmocka_unit_test(test_steps_do_not_matter),

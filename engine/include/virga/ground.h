@@ -176,7 +176,9 @@ VIRGA_API void virga_ground_survey(virga_ground *ground);
  * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. */
 typedef struct virga_ground_maps {
     VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
-                        * ripples, a height of the floor above base_m (m). */
+                        * ripples, a height of the floor above base_m (m). Water that is hidden between blades of grass
+                        * and clods has no depth here: what materials hold back, where that is 1 mm and more (none of it
+                        * up to 0.35 mm) */
     VkImageView spots;   /* R32_UINT: two texels a cell, 8 x 8 bits of dark spots, row by row */
     VkImageView ripples; /* R16G16_SFLOAT: slope of the water's surface in x and z at the newest tick, where there is
                           * water (it goes on under what is dry: use it where the depth is not zero). Does not wrap */
