@@ -286,7 +286,8 @@ void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virg
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     for (uint32_t i = 0; i < count; i++)
-        if (meshes[i].index_count && (!view->ground_only || meshes[i].ground))
+        if (meshes[i].index_count && (!view->ground_only || meshes[i].ground) &&
+            (!view->still_only || !meshes[i].moves))
             draw_mesh(context, cmd, map, view, &meshes[i], &bound);
     context->vk.CmdEndRenderPass(cmd);
 }

@@ -34,6 +34,7 @@ typedef struct virga_map_view {
     double top_m;     /* height of depth 0 */
     double height_m;  /* down to depth 1 */
     bool ground_only; /* only meshes that are ground */
+    bool still_only;  /* only those that do not move */
 } virga_map_view;
 
 /* Images of size x size texels (0: one texel that nothing is drawn into), two pipelines for each vertex stride

@@ -83,6 +83,7 @@ void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_gr
     for (int axis = 0; axis < 2; axis++)
         view.origin_m[axis * 2] = far->low[axis] * cell_m(ground) + view.half_m;
     view.origin_m[1] = ground->base_m;
+    view.still_only = true;
     for (uint32_t layer = 0; layer < 2; layer++) {
         view.ground_only = layer == 0;
         virga_mesh_map_draw(ground->context, cmd, far->survey, layer, &view, info->meshes, info->mesh_count);

@@ -124,6 +124,17 @@ static void test_under_a_roof_it_comes_in_dry(void **state)
     end();
 }
 
+static void test_what_moves_leaves_no_dry_place(void **state)
+{
+    (void)state;
+    begin(ROUGH);
+    f.meshes[1].moves = true;
+    rain(STEPS, 16);
+    go(19.5);
+    assert_int_equal(cell_at(410, 0).held_nl, 0.1 * MM);
+    end();
+}
+
 static void test_without_rain_it_comes_in_as_at_the_start(void **state)
 {
     (void)state;
@@ -357,6 +368,7 @@ int main(void)
         cmocka_unit_test(test_what_comes_in_has_stood_in_the_rain),
         cmocka_unit_test(test_what_comes_back_is_as_it_was),
         cmocka_unit_test(test_under_a_roof_it_comes_in_dry),
+        cmocka_unit_test(test_what_moves_leaves_no_dry_place),
         cmocka_unit_test(test_without_rain_it_comes_in_as_at_the_start),
         cmocka_unit_test(test_hollows_come_in_with_what_fell),
         cmocka_unit_test(test_spots_come_in_as_many_as_drops_leave),

@@ -272,6 +272,7 @@ static uint32_t fill_occluders(drive *d)
         *cover = of_car[i];
         cover->material = part == CAR_COVER && still ? VIRGA_MATERIAL_STEEL : VIRGA_MATERIAL_GLASS;
         cover->ground = false;
+        cover->moves = true;
         for (int row = 0; row < 3; row++) {
             for (int column = 0; column < 3; column++)
                 cover->world_from_mesh[4 * row + column] = d->car.axes[3 * column + row];

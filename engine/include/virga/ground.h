@@ -139,7 +139,8 @@ typedef struct virga_ground_step_info {
                                    * of its height at the first step, up and down */
     double focus_m[3];            /* middle of the map of ripples: on the ground some metres ahead of the camera, where
                                    * they can be seen */
-    const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves */
+    const virga_occluder *meshes; /* all of the host's; those with `ground` are surveyed where the window moves, and all
+                                   * that stand still where the far map does, for what they keep dry */
     uint32_t mesh_count;
     virga_ground_material_map materials; /* (optional) looked at where the window moves, see virga_ground_survey */
     VkBuffer impacts; /* as virga_rain_impacts tells: virga_impacts_gpu and what follows */

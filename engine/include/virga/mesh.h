@@ -25,6 +25,8 @@ typedef struct virga_occluder {
     uint32_t material;         /* [0; 255] given to impacts */
     float cover;               /* [0; 1] share of the surface that stops drops; leaves about 0.6. 0 means 1 */
     bool ground;               /* its upper side gets cells of the ground effect. Default false */
+    bool moves;                /* it leaves no dry place behind: ground beyond the window is not asked whether this
+                                * keeps rain off it. Cars, people; the camera's own car above all. Default false */
 } virga_occluder;
 
 #ifdef __cplusplus
