@@ -249,8 +249,8 @@ static void test_the_map_shows_what_stands_there(void **state)
     end();
 }
 
-/* Variance of slope that the rain keeps up on water of that depth: drops a second and square metre, by 3 pi / 2 times the
- * square of the crater, by the time that it lasts. */
+/* Variance of slope that the rain keeps up on water of that depth: drops a second and square metre, by 3 pi / 2 times
+ * the square of the crater, by the time that it lasts. */
 static float stirred_by(double depth_mm)
 {
     const double drops = (double)RAIN_H / 3.6e6 / (atan(1) * 4 / 6 * 8e-9), crater = 0.5 * 4e-6 / 0.0025;
