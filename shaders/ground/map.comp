@@ -8,15 +8,17 @@
 #include "swing.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
-layout(scalar, set = 0, binding = 7) readonly buffer Spots { uvec2 spots[]; };
+layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2DArray wet_map;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray spot_map;
 
-// Spots fade with the water that made them: a cell that dries loses its bits one by one, in the order of a hash.
-uvec2 spots_left(uint place, uvec2 bits, float held_share)
+// Spots are gone with the water that made them: those of the next rain are others.
+uvec2 spots_left(uint place, float held_share)
 {
-    const float shown = clamp(held_share * 64.0, 0.0, 1.0);
-    return shown > 0.0 ? bits : uvec2(0u);
+    const uvec2 bits = spots[place];
+    if (held_share <= 0.0 && (bits.x | bits.y) != 0u)
+        spots[place] = uvec2(0u);
+    return held_share > 0.0 ? bits : uvec2(0u);
 }
 
 // What the step's drops stirred calms down, in all cells at once: a pass that has cells by turns leaves their pattern.
@@ -47,7 +49,7 @@ void main()
         const float film = clamp(depth_mm / 0.05, 0.0, 1.0);
         wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stir) * 1e-6, 0.1),
                    float(own.height_um) * 1e-6);
-        bits = spots_left(place, spots[place], capacity > 0u ? held : film);
+        bits = spots_left(place, capacity > 0u ? held : film);
     }
     imageStore(wet_map, ivec3(texel, 0), wet);
     imageStore(spot_map, ivec3(2 * texel.x, texel.y, 0), uvec4(bits.x, 0u, 0u, 0u));

@@ -171,17 +171,10 @@ static void test_hollows_come_in_with_what_fell(void **state)
     end();
 }
 
-static void test_spots_come_in_as_many_as_drops_leave(void **state)
+/* Bits of dark spots in all of the window. */
+static uint32_t count_spots(void)
 {
-    (void)state;
-    begin(ROUGH);
-    f.settings.materials[ROUGH].capacity_mm = 1;
-    set();
-    rain(10, 16); /* 1/30 mm in drops of 2 mm: a tenth of the ground */
-    f.camera[0] = 9.7;
-    VkCommandBuffer cmd;
-    ground_fixture_step(&f, 0);
-    cmd = effect_fixture_begin(&f.gpu, f.context);
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
     ground_fixture_copy(cmd, f.ground->spots->buffer, 0, f.download.buffer, 0, f.ground->spots->size);
     ground_fixture_submit(&f);
     host_buffer_invalidate(&f.gpu.device, &f.download);
@@ -189,7 +182,35 @@ static void test_spots_come_in_as_many_as_drops_leave(void **state)
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 2 * 256 * 256; i++)
         bits += (uint32_t)__builtin_popcount(words[i]);
-    assert_float_equal(bits / (192.0 * 256 * 64), 1 - exp(-6 * (RAIN_H / 3600 * 160 / 60) / 2), 0.008); /* in 64ths */
+    return bits;
+}
+
+static void test_spots_go_when_their_water_has(void **state)
+{
+    (void)state;
+    begin(ROUGH);
+    ground_fixture_drop(&f, 5, 5, 0, 4000);
+    ground_fixture_step(&f, 1);
+    assert_true(count_spots() > 0);
+    f.settings.evaporation_mm_h = 100;
+    f.settings.materials[ROUGH].drying = 10;
+    set();
+    for (int i = 0; i < 40 && count_spots() > 0; i++)
+        ground_fixture_step(&f, 16);
+    assert_int_equal(count_spots(), 0);
+    end();
+}
+
+static void test_spots_come_in_as_many_as_drops_leave(void **state)
+{
+    (void)state;
+    begin(ROUGH);
+    f.settings.materials[ROUGH].capacity_mm = 1;
+    set();
+    rain(10, 16); /* 1/30 mm in drops of 2 mm: a tenth of the ground */
+    go(9.7);
+    assert_float_equal(count_spots() / (192.0 * 256 * 64), 1 - exp(-6 * (RAIN_H / 3600 * 160 / 60) / 2),
+                       0.008); /* in 64ths */
     end();
 }
 
@@ -371,6 +392,7 @@ int main(void)
         cmocka_unit_test(test_what_moves_leaves_no_dry_place),
         cmocka_unit_test(test_without_rain_it_comes_in_as_at_the_start),
         cmocka_unit_test(test_hollows_come_in_with_what_fell),
+        cmocka_unit_test(test_spots_go_when_their_water_has),
         cmocka_unit_test(test_spots_come_in_as_many_as_drops_leave),
         cmocka_unit_test(test_the_map_shows_what_stands_there),
         cmocka_unit_test(test_the_map_shows_first_drops_and_stirred_puddles),
