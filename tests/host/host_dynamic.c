@@ -420,7 +420,8 @@ static void state_is_that_of_the_offline_renderer(void **state)
 
 /* Water is shaded once a pixel and cut at its four samples, where the offline picture has five of its own: the pixel
  * lies between them, but for 0.02 of half floats and soft edges, in all but 0.2 % of the picture. The root mean square
- * from their average stays below 0.0125: drops on the pane are lenses, of which one place is not the average. */
+ * from their average stays below 0.014: drops on the pane are lenses, and crowns seen from afar are torn, of which one
+ * place is not the average. */
 static void picture_is_that_of_the_offline_renderer(void **state)
 {
     (void)state;
@@ -434,7 +435,7 @@ static void picture_is_that_of_the_offline_renderer(void **state)
         outside += !inside;
     }
     printf("%.2f %% of pixels lie outside, rms %.5f\n", 100.0 * outside / WORLD_PIXELS, rms);
-    assert_true(outside < 0.002 * WORLD_PIXELS && rms < 0.0125);
+    assert_true(outside < 0.002 * WORLD_PIXELS && rms < 0.014);
 }
 
 /* In the left part of the picture: in the right part lies the pane, whose drops at rest have motion but no reactive
