@@ -30,6 +30,7 @@ typedef struct host_camera {
     float clip_from_view[16];       /* with jitter; Vulkan clip space, y down, depth 0 near to 1 far */
     float clip_from_view_plain[16]; /* without */
     float jitter_px[2];             /* moves the picture right and down */
+    uint32_t samples; /* pictures of as many jitters that are averaged; 0 is 1, as host_camera_at has it */
     double near_m, far_m;
     uint32_t width, height;
 } host_camera;

@@ -154,6 +154,7 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     host_camera now, open, frame_ago;
     host_camera_jitter(sample, s->options.samples, jitter);
     host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &now);
+    now.samples = s->options.samples;
     host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
     host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
 
