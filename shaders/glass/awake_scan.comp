@@ -14,7 +14,7 @@ layout(scalar, set = 0, binding = 14) readonly buffer Impacts { virga_impacts_gp
 
 uint[3] groups_of(uint invocations)
 {
-    return uint[3]((invocations + VIRGA_GLASS_GROUP - 1u) / VIRGA_GLASS_GROUP, 1u, 1u);
+    return uint[3]((invocations + VIRGA_GLASS_FEW_GROUP - 1u) / VIRGA_GLASS_FEW_GROUP, 1u, 1u);
 }
 
 void main()

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
+#define FEW
 #include "alive.glsl"
 
 #define RUN_TOUCH 0.9 // of the sum of both radii: rims of those in motion flow into each other a little after they meet

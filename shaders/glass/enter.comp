@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #include "count.glsl"
+#define FEW
 #include "alive.glsl"
 #include "rounds.glsl"
 

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #include "count.glsl"
+#define FEW
 #include "alive.glsl"
 #include "blades.glsl"
 #include "parts.glsl"

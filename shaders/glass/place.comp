@@ -8,7 +8,7 @@
 #include "seeds.glsl"
 #include "shared/compact.h"
 
-layout(local_size_x = VIRGA_GLASS_GROUP) in;
+layout(local_size_x = VIRGA_GLASS_FEW_GROUP) in;
 layout(scalar, set = 0, binding = 4) readonly buffer List
 {
     virga_list_gpu list;

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
+#define FEW
 #include "alive.glsl"
 #include "parts.glsl"
 #include "blades.glsl"

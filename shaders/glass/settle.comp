@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #include "seeds.glsl"
+#define FEW
 #include "alive.glsl"
 
 // Mass and momentum add up (section 4.1), and the middle is that of all the water. Only the place that is drawn: the

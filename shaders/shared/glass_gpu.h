@@ -19,6 +19,7 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #endif
 
 #define VIRGA_GLASS_GROUP      256
+#define VIRGA_GLASS_FEW_GROUP  64 /* of passes over what happens to something in a tick, and over seeds */
 #define VIRGA_GLASS_BLADES     8  /* the same as VIRGA_GLASS_MAX_WIPERS */
 #define VIRGA_GLASS_SIZES      64 /* bins of the sizes that land */
 #define VIRGA_GLASS_NODES      33 /* along each side of the grid that a pane's shape is given on */
