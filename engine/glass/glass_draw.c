@@ -23,7 +23,8 @@
 #define BLOCK        VIRGA_GLASS_MIST_BLOCK
 #define PI           3.14159265358979323846
 #define GRAVITY      9.80665
-#define LEAST_TEXELS 64u /* of the map, along the longer side, however far away the pane is */
+#define UNSEEN       0.0078 /* texels: pixels that lie so near to a dry one are not drawn for the wet one beside it */
+#define LEAST_TEXELS 64u    /* of the map, along the longer side, however far away the pane is */
 
 /* ---- the pane, as a view has it */
 
@@ -99,6 +100,42 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
     look->written_columns = picture->max_tile_columns;
 }
 
+/* The least of the pane, in pixels, that a metre of it is long at one of the 9 points that outline it, in whatever
+ * direction; 0 where one lies behind the camera. The least singular value of the projection's derivative. */
+static double least_pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
+{
+    double least = 1e12;
+    for (int i = 0; i < 9; i++) {
+        double clip[4], ways[2][2];
+        project(block, glass->outline[i], clip);
+        if (clip[3] < 0.02)
+            return 0;
+        for (int along = 0; along < 2; along++) {
+            const int step = along ? 3 : 1, at_end = along ? i > 5 : i % 3 == 2;
+            const double metres = 0.5 * (double)(along ? glass->def.height_m : glass->def.width_m);
+            double next[4];
+            project(block, glass->outline[at_end ? i - step : i + step], next);
+            for (int axis = 0; axis < 2; axis++)
+                ways[along][axis] = (next[axis] - clip[axis] * next[3] / clip[3]) / clip[3] / metres * 0.5 *
+                                    (double)block->view.viewport[2 + axis];
+        }
+        const double sum =
+            ways[0][0] * ways[0][0] + ways[0][1] * ways[0][1] + ways[1][0] * ways[1][0] + ways[1][1] * ways[1][1];
+        const double area = ways[0][0] * ways[1][1] - ways[0][1] * ways[1][0];
+        least = fmin(least, sqrt(fmax(sum - sqrt(fmax(sum * sum - 4 * area * area, 0)), 0) / 2));
+    }
+    return least;
+}
+
+/* What a pixel shows is between four texels, so a texel's water shows up to the middles of those beside it. A pixel
+ * covers more where the pixel beside it has other water: where one is wider than a texel that is as much farther. */
+static void fit_boxes(const virga_glass *glass, glass_view_block *block)
+{
+    const double texel = fmin((double)block->look.texel_m[0], (double)block->look.texel_m[1]);
+    const double pixels = least_pixels_per_metre(glass, block) * texel;
+    block->look.beside = (float)(0.5 - UNSEEN + fmin(fmax(1 / fmax(pixels, 1e-6) - 1, 0), TILE));
+}
+
 /* A cell to a texel, or where cells are much smaller than pixels so many that a texel is about one. */
 static void fit_mist(const virga_glass *glass, virga_glass_picture_gpu *look)
 {
@@ -169,6 +206,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->max_tiles = glass->picture->max_tile_columns * glass->picture->max_tile_rows;
     look->max_blocks = glass->picture->max_mist.width / BLOCK * (glass->picture->max_mist.height / BLOCK);
     look->max_entries = glass->picture->max_entries;
+    look->box_word = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
     look->whole_map = glass->picture->whole_map;
     look->sheets = s->style != VIRGA_GLASS_STYLE_PAPER || look->whole_map;
@@ -184,6 +222,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fill_look(glass, &filled.look);
     glass_fill_before(view, pose, &filled.look);
     fit_map(glass, &filled);
+    fit_boxes(glass, &filled);
     fit_mist(glass, &filled.look);
     glass->picture->columns = filled.look.map_columns;
     glass->picture->rows = filled.look.map_rows;
@@ -286,6 +325,12 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
+/* Workgroups of a pass over all tiles in use. */
+static uint32_t tile_groups(const struct glass_picture *picture)
+{
+    return (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP;
+}
+
 /* Balls, and the list of each tile's. */
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 {
@@ -295,8 +340,7 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_dispatch_indirect(context, cmd, picture->ball_pass, glass->state->buffer,
                             offsetof(virga_glass_state_gpu, shown_groups));
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->list_pass,
-                   (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+    virga_dispatch(context, cmd, picture->list_pass, tile_groups(picture));
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
@@ -353,11 +397,11 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     virga_indirect_barrier(context, cmd); /* both say how much the next has to do */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
-    if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER) {
-        virga_indirect_barrier(context, cmd);
+    virga_indirect_barrier(context, cmd);
+    virga_dispatch(context, cmd, picture->box_pass, tile_groups(picture));
+    if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER)
         over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0],
                   offsetof(virga_glass_work_gpu, relief_groups));
-    }
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);

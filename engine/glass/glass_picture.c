@@ -3,6 +3,7 @@
 
 #include "shaders/glass_picture_balls_comp.spv.h"
 #include "shaders/glass_picture_blocks_comp.spv.h"
+#include "shaders/glass_picture_boxes_comp.spv.h"
 #include "shaders/glass_picture_copy_comp.spv.h"
 #include "shaders/glass_picture_fill_comp.spv.h"
 #include "shaders/glass_picture_film_comp.spv.h"
@@ -57,7 +58,7 @@ static void fill_sizes(const virga_glass_def *def, struct glass_picture *picture
     picture->max_mist.height = blocks_of(glass_cells_along(def->height_m, def->cell_m)) * VIRGA_GLASS_MIST_BLOCK;
 }
 
-enum { BUFFERS = 8, PASSES = 7 };
+enum { BUFFERS = 8, PASSES = 8 };
 
 static void list_buffers(const virga_glass_def *def, uint32_t frames, struct glass_picture *picture,
                          virga_buffer_row rows[BUFFERS])
@@ -76,7 +77,7 @@ static void list_buffers(const virga_glass_def *def, uint32_t frames, struct gla
         {&picture->written, tiles * 4, storage, VIRGA_HEAP_DEVICE, "glass.written"},
         {&picture->work, sizeof(virga_glass_work_gpu) + (3 * tiles + 2 * blocks) * 4,
          storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.work"},
-        {&picture->corners, (tiles + blocks) * 6 * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
+        {&picture->corners, (tiles * 8 + blocks * 6) * 4, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
          "glass.corners"},
         {&picture->view_ring, (VkDeviceSize)frames * VIRGA_GLASS_MAX_VIEWS * glass_view_bytes(),
          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, VIRGA_HEAP_UPLOAD,
@@ -128,7 +129,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE | FRAGMENT},                    /* 16 scene colour */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 17 what tiles hold */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 18 work */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 19 corners to be drawn */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT},          /* 19 what is to be drawn */
     {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE},                                        /* 20 relief, written */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, FRAGMENT},                              /* 21 mist, read */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                                       /* 22 state of the pane */
@@ -235,6 +236,7 @@ static void list_passes(struct glass_picture *picture, virga_compute_row rows[PA
         {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
         {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
         {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
+        {&picture->box_pass, VIRGA_SPIRV(glass_picture_boxes_comp), "glass.boxes"},
         {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
         {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
     };

@@ -62,7 +62,7 @@ struct glass_picture {
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *block_pass, *film_pass, *list_pass, *fill_pass, *copy_pass, *shrink_pass;
+    virga_pipeline *ball_pass, *block_pass, *film_pass, *list_pass, *fill_pass, *box_pass, *copy_pass, *shrink_pass;
     virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];             /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */

@@ -30,9 +30,3 @@ Corner place_corner(vec2 share)
     return Corner(position, world_from_pane * pane.along_u, world_from_pane * pane.along_v);
 }
 
-// The corner of a tile with this number: they are counted along rows of the grid of all tiles.
-Corner place_tile_corner(uint number)
-{
-    const uint columns = look.tile_columns + 1u;
-    return place_corner(vec2(number % columns, number / columns) / vec2(look.tile_columns, look.tile_rows));
-}

@@ -65,7 +65,7 @@ float unit_m, reach; // heights are over the first, distances over a ball's radi
 #ifndef SHUFFLE
 shared Ball batch[LANES];
 #endif
-shared uint bead_count;
+shared uint bead_count, found_by_all;
 shared vec3 beads[MOST_CELLS * MOST_CELLS * BEADS]; // in any order, as sums have none
 
 Ball ball_of(uint entry)
@@ -156,9 +156,12 @@ vec2 blended(ivec4 sum)
     return sum.y > 0 ? vec2(density, height) : vec2(weighted ? 0.0 : s.x / ONE, 0.0);
 }
 
-// Writes a texel; true if it may have anything to show. Red: density, compressed. Green: height (m). Blue: mist.
-// Alpha: thickness of the sheet of film (m).
-bool put(ivec2 at, Texel texel)
+#define SHOWN 1u // there may be something to show
+#define WET   2u // there is any water
+
+// Writes a texel; returns SHOWN and WET. Red: density, compressed. Green: height (m). Blue: mist. Alpha: thickness of
+// the sheet of film (m).
+uint put(ivec2 at, Texel texel)
 {
     const vec2 water = blended(texel.sums);
     const float density = compressed(water.x), drops_mist = min(float(texel.mist) / ONE, 1.0);
@@ -166,28 +169,24 @@ bool put(ivec2 at, Texel texel)
     const bool shown = density > 0.2 * look.threshold || drops_mist > 1.0 / 512.0;
     if (PAPER)
         imageStore(words_out, at, uvec4(word_of(density, drops_mist, is_glass(at))));
+    const uint found = (shown ? SHOWN : 0u) | (density > 0.0 || drops_mist > 0.0 ? WET : 0u);
     if (!HEIGHTS)
-        return shown;
+        return found;
     const float sheet = sheet_at(texel.place), film_there = smoothstep(0.0, 3e-6, sheet);
     imageStore(map_out, at, vec4(density, mix(water.y, max(water.y, 0.0), film_there) + sheet,
                                  WITH_MAP ? min(drops_mist + film_mist(at), 1.0) : drops_mist, sheet));
-    return shown || (!PAPER && sheet > 1e-6);
+    return PAPER || sheet <= 0.0 ? found : found | WET | (sheet > 1e-6 ? SHOWN : 0u);
 }
 
-// Lists the tile for the next pass, or for the draw, by the first lane that finds a reason.
-void list_tile(uint number, bool shown)
+// Lists the tile for the next pass. By one lane, which does it once for a tile that is done twice.
+void list_tile(uint number, uint before)
 {
-    const uint before = atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u));
-    if ((before & VIRGA_GLASS_LISTED) != 0u)
+    if (PAPER || (before & VIRGA_GLASS_LISTED) != 0u)
         return;
-    if (PAPER)
-        draw_tile(number);
-    else {
-        const uint turn = atomicAdd(work.relief_tiles, 1u);
-        wet[2u * look.max_tiles + look.max_blocks + turn] = number;
-        atomicMax(work.relief_groups[0], min(turn + 1u, VIRGA_GLASS_TILE_ROW));
-        atomicMax(work.relief_groups[1], turn / VIRGA_GLASS_TILE_ROW + 1u);
-    }
+    const uint turn = atomicAdd(work.relief_tiles, 1u);
+    wet[2u * look.max_tiles + look.max_blocks + turn] = number;
+    atomicMax(work.relief_groups[0], min(turn + 1u, VIRGA_GLASS_TILE_ROW));
+    atomicMax(work.relief_groups[1], turn / VIRGA_GLASS_TILE_ROW + 1u);
 }
 
 // The tile of this workgroup. One beyond the list's end does the last tile once more.
@@ -203,13 +202,40 @@ void begin_texels(ivec2 first)
     FOR_EACH(BEGIN)
 }
 
-// True if any may have something to show.
-bool put_texels(ivec2 first)
+#define SHOWN_BIT 16
+
+// Columns and rows of the tile that have water; and whether any may have something to show.
+uint put_texels(ivec2 first)
 {
-    bool shown = false;
-#define PUT(i) shown = put(first + ivec2(0, i), texel##i) || shown;
+    const uint column = gl_LocalInvocationIndex % TILE, row = gl_LocalInvocationIndex / TILE;
+    uint rows = 0u, shown = 0u;
+#define PUT(i)                                                                                                         \
+    {                                                                                                                  \
+        const uint found = put(first + ivec2(0, i), texel##i);                                                         \
+        shown |= found & SHOWN;                                                                                        \
+        rows |= (found & WET) / WET << i;                                                                              \
+    }
     FOR_EACH(PUT)
-    return shown;
+    return rows == 0u ? 0u : 1u << column | rows << (8u + row) | shown << SHOWN_BIT;
+}
+
+// All bits that any lane has.
+uint of_all(uint own)
+{
+#if defined(SHUFFLE) && LANES == 8
+    // To software Vulkan both are constants, and this is three instructions.
+    if (gl_SubgroupSize == LANES) {
+        for (uint apart = 1u; apart < LANES; apart *= 2u)
+            own |= subgroupShuffle(own, gl_SubgroupInvocationID ^ apart);
+        return own;
+    }
+#endif
+    if (gl_LocalInvocationIndex == 0u)
+        found_by_all = 0u;
+    barrier();
+    atomicOr(found_by_all, own);
+    barrier();
+    return found_by_all;
 }
 
 // No branch around all of it: in one, software Vulkan reads lane by lane.
@@ -228,10 +254,14 @@ void gather()
     add_balls(tiles[number]);
     if (WITH_BEADS)
         add_beads(tile);
-    const bool shown = put_texels(first), leads = gl_LocalInvocationIndex == 0u;
-    const uint relief = PAPER ? 0u : held & VIRGA_GLASS_HOLDS_RELIEF;
-    if (leads)
-        written[holds] = relief | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
-    if (shown || (leads && relief != 0u))
-        list_tile(number, shown);
+    const uint found = of_all(put_texels(first)), relief = PAPER ? 0u : held & VIRGA_GLASS_HOLDS_RELIEF;
+    const bool shown = found >> SHOWN_BIT != 0u;
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    written[holds] = relief | (FILM || count != 0u ? VIRGA_GLASS_HOLDS_WATER : 0u);
+    const uint before =
+        atomicOr(tiles[number].film, VIRGA_GLASS_LISTED | (shown ? VIRGA_GLASS_SHOWN : 0u) |
+                                         (found & 0xffffu) << VIRGA_GLASS_SPANS_BIT);
+    if (shown || relief != 0u)
+        list_tile(number, before);
 }

@@ -5,6 +5,7 @@
 #include "picture.glsl"
 #include "gpu/light.glsl"
 #include "picture_corner.glsl"
+#include "picture_corner_tile.glsl"
 #include "picture_corner_light.glsl"
 
 void main() { light_corner(place_tile_corner(uint(gl_VertexIndex))); }

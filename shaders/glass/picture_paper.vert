@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "picture.glsl"
 #include "picture_corner.glsl"
+#include "picture_corner_tile.glsl"
 #include "picture_paper.glsl"
 
 layout(location = 2) out vec4 pane_ways;

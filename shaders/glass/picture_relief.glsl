@@ -96,9 +96,6 @@ void relief()
     const bool shown = (tiles[number].film & VIRGA_GLASS_SHOWN) != 0u;
     put_tile(tile * TILE, shown);
     const uint holds = uint(tile.x) + uint(tile.y) * look.written_columns;
-    if (gl_LocalInvocationIndex == 0u && turn < work.relief_tiles) {
+    if (gl_LocalInvocationIndex == 0u && turn < work.relief_tiles)
         written[holds] = (written[holds] & VIRGA_GLASS_HOLDS_WATER) | (shown ? VIRGA_GLASS_HOLDS_RELIEF : 0u);
-        if (shown)
-            draw_tile(number);
-    }
 }

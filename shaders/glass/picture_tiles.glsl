@@ -3,7 +3,6 @@
 layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; };
 layout(scalar, set = 0, binding = 7) buffer Tiles { virga_glass_tile_gpu tiles[]; };
 layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; uint wet[]; };
-layout(scalar, set = 0, binding = 19) writeonly buffer Corners { uint corners[]; };
 
 #define TILE VIRGA_GLASS_TILE
 
@@ -33,15 +32,4 @@ uvec2 tiles_reached(vec2 middle, float reach_m)
 float ball_reach(float radius_m, float density_reach)
 {
     return max(radius_m * density_reach, max(look.texel_m[0], look.texel_m[1]));
-}
-
-// A tile as two triangles; corners are numbered along rows of the grid of all tiles.
-void draw_tile(uint number)
-{
-    const uint columns = look.tile_columns + 1u;
-    const uint first = number % look.tile_columns + number / look.tile_columns * columns;
-    const uint six[6] = uint[6](first, first + 1u, first + columns, first + columns, first + 1u, first + columns + 1u);
-    const uint at = atomicAdd(work.drops.index_count, 6u);
-    for (uint i = 0u; i < 6u; i++)
-        corners[at + i] = six[i];
 }

@@ -75,6 +75,8 @@ struct virga_glass_picture_gpu {
                                    * camera that has kept its place on the pane */
     float eye_before[3];    /* where the camera was then, likewise */
     uint view_texel;        /* first of the view among the texels that all views' blocks are */
+    float beside;           /* texels beside one with water that it may show in */
+    uint box_word;          /* (even) first of the boxes of tiles, two words each, behind all indices of corners */
 };
 
 /* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else
@@ -93,6 +95,7 @@ struct virga_glass_picture_gpu {
 /* For the pass that makes slopes; and there is something to draw. */
 #define VIRGA_GLASS_LISTED 2u
 #define VIRGA_GLASS_SHOWN  4u
+#define VIRGA_GLASS_SPANS_BIT 8 /* first of the columns, and behind these of the rows, that have water */
 
 /* What the images hold of a tile since it was last written, and so has to be taken away. */
 #define VIRGA_GLASS_HOLDS_WATER  1u /* the map */
@@ -137,7 +140,7 @@ struct virga_glass_tile_gpu {
     uint count;             /* balls that reach it */
     uint first;             /* entry of its list */
     uint filled;            /* entries so far */
-    uint film;              /* 1: film with a shape, or a sheet of it; and VIRGA_GLASS_LISTED and _SHOWN */
+    uint film;              /* 1: film with a shape, or a sheet of it; and VIRGA_GLASS_LISTED, _SHOWN and spans */
 };
 
 #ifndef VIRGA_GLSL
