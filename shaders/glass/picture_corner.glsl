@@ -29,4 +29,3 @@ Corner place_corner(vec2 share)
     gl_Position = to_mat(view.clip_from_rel) * vec4(position, 1.0);
     return Corner(position, world_from_pane * pane.along_u, world_from_pane * pane.along_v);
 }
-

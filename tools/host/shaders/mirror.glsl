@@ -1,5 +1,7 @@
 // mirror.glsl - what rough level water mirrors of the scene: the picture of the world turned upside down about one
 // plane, looked up where each of a few facets of the water sends the ray.
+#include "mirror_jitter.glsl"
+
 layout(set = 0, binding = 7) uniform sampler2D mirror_picture;
 
 const int MIRROR_TAPS = 8;
@@ -10,7 +12,7 @@ const int MIRROR_TAPS = 8;
 vec4 mirror_at(vec3 place, float level, out float trust)
 {
     const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
-    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y;
+    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter();
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
     return textureLod(mirror_picture, at * 0.5 + 0.5, level);

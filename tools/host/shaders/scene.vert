@@ -6,6 +6,10 @@
 
 layout(set = 0, binding = 0, std140) uniform Frame { host_frame_gpu frame; };
 
+#ifdef MIRROR
+#include "mirror_jitter.glsl"
+#endif
+
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
@@ -30,7 +34,7 @@ void main()
 #endif
     precise vec4 clip = m[0] * place.x + m[1] * place.y + m[2] * place.z + m[3];
 #ifdef MIRROR
-    clip.xy *= frame.mirror.y;
+    clip.xy = clip.xy * frame.mirror.y + clip.w * mirror_jitter();
 #endif
     gl_Position = clip;
     out_relative = relative;

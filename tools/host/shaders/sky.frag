@@ -9,6 +9,7 @@ layout(set = 0, binding = 1) uniform sampler2D sky_texture;
 layout(location = 0) in vec2 in_clip;
 
 #ifdef MIRROR
+#include "mirror_jitter.glsl"
 layout(location = 0) out vec4 out_color;
 #else
 #include "outputs.glsl"
@@ -20,7 +21,7 @@ void main()
 {
     vec2 clip = in_clip;
 #ifdef MIRROR
-    clip /= frame.mirror.y;
+    clip = (clip - mirror_jitter()) / frame.mirror.y;
 #endif
     vec3 ray = frame.ray_z.xyz + clip.x * frame.ray_x.xyz + clip.y * frame.ray_y.xyz;
     vec3 d = normalize(ray);
