@@ -45,7 +45,7 @@ uint piece_count(virga_impact_gpu impact)
 }
 
 #define FIRST_HASH 128u // of the numbers of hashes for what a piece starts: its splash, its ring
-#define MOST_SCATTERED 123.0 // drops, whose pieces lie within a metre
+#define MOST_SCATTERED (VIRGA_GROUND_SCATTER_M / VIRGA_GROUND_DROP_M * VIRGA_GROUND_SCATTER_M / VIRGA_GROUND_DROP_M)
 #define PIECES_LATER_S 0.1 // within which the pieces fall of an impact that stands for several drops
 
 uint piece_hash(virga_impact_gpu impact, uint i)
@@ -100,8 +100,8 @@ Piece get_piece(virga_impact_gpu impact, Piece first, uint i, uint n)
     Piece piece = first;
     if (i > 0u) {
         const uint h = virga_hash4(tick.seed, impact.id, impact.tick, i);
-        const float drops = clamp(impact.weight, float(n), MOST_SCATTERED);
-        precise float radius = sqrt(virga_unit(h) * drops) * 0.09 * tick.inv_cell_m;
+        const float drops = clamp(impact.weight, float(n), float(MOST_SCATTERED));
+        precise float radius = sqrt(virga_unit(h) * drops) * VIRGA_GROUND_DROP_M * tick.inv_cell_m;
         precise float angle = 6.2831853 * virga_unit(virga_hash1(h));
         precise vec2 beside = first.at + radius * vec2(cos(angle), sin(angle));
         const Piece scattered = piece_at(beside, height_m);

@@ -7,7 +7,9 @@
 #define VIRGA_GROUND_MAX_TILES  4096 /* in the window: 64 x 64, a window of 4096 x 4096 cells */
 #define VIRGA_GROUND_MATERIALS  32
 #define VIRGA_GROUND_SPOTS      8    /* a cell's dark spots are this many bits along its side */
-#define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in */
+#define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in, */
+#define VIRGA_GROUND_SCATTER_M  1.0  /* within so far (m) of it at most: */
+#define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a place of this radius (m) */
 
 /* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
 #define VIRGA_RING_DEPTHS   8     /* of water: a ring takes the nearest of them */

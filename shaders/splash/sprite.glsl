@@ -104,9 +104,6 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     return sprite;
 }
 
-#define SPREAD_M 0.09 // radius of the place of one drop among those that a splash stands for, as pieces.glsl has it
-#define MOST_SPREAD_M 1.0
-
 // A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they
 // are not followed one by one (a seventh of the drop's water in a dozen of them). One that stands for several shows
 // them side by side.
@@ -128,7 +125,8 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.body = across;
     // What is not ground, a leaf or a railing, may end beside the drop.
     const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
-    sprite.spread = ground ? min(SPREAD_M * sqrt(max(crown.weight - 1.0, 0.0)), MOST_SPREAD_M) : 0.0;
+    const float beside = VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
+    sprite.spread = ground ? min(beside, VIRGA_GROUND_SCATTER_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
     sprite.id = splash.id;
