@@ -311,7 +311,7 @@ static void fill_frame(const host_renderer *r, const host_target *target, const 
     fill_rays(camera, frame);
     frame->environment[0] = r->environment->rotation / 6.28318531f;
     host_skylight_frame(&r->skylight, camera->position_m, frame);
-    frame->skylight_fade[1] = 1.0f / (float)(camera->samples ? camera->samples : 1);
+    frame->sampling[0] = 1.0f / (float)(camera->samples ? camera->samples : 1);
     fill_irradiance(r->environment->sh, frame->irradiance);
     fill_ground(&r->ground, camera, frame);
     fill_mirror(r, camera, frame);

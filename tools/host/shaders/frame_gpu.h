@@ -36,7 +36,8 @@ struct host_frame_gpu {
     HOST_VEC4 environment;    /* rotation as a part of a full turn */
     HOST_VEC4 skylight_low;   /* low corner of the skylight volume relative to the camera, side of a voxel (m) */
     HOST_VEC4 skylight_scale; /* 1 / size of the volume; w: 1 / distance over which it fades out, 0 for never */
-    HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins; y: 1 / pictures that are averaged */
+    HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
+    HOST_VEC4 sampling;       /* x: 1 / pictures that are averaged */
     HOST_VEC4 ground_low;     /* low corner of the wet ground's window relative to the camera, y: height that its map
                                 * counts from; w: 1 / side of a cell, 0 for no ground */
     HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells; w: how many of them the window

@@ -27,7 +27,7 @@ vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
     const vec2 inside = min(at, 1.0 - at);
     drawn = frame.ripples.w > 0.0 ? smoothstep(0.0, 0.12, min(inside.x, inside.y)) : 0.0;
     // Waves of about 2 cm can not be seen where a sample is as wide.
-    drawn *= 1.0 - smoothstep(0.006, 0.03, pixel_m * sqrt(frame.skylight_fade.y));
+    drawn *= 1.0 - smoothstep(0.006, 0.03, pixel_m * sqrt(frame.sampling.x));
     const vec2 slope = textureLod(ripple_map, at, 0.0).xy * drawn;
     return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
@@ -67,7 +67,7 @@ Water water_at(vec3 relative, vec3 n)
     // Kaplanyan et al. 2016, Filtering distributions of normals for shading antialiasing). Of pictures that
     // are averaged each has to make up for a part of the pixel only.
     const vec2 slope = water.normal.xz / water.normal.y, right = dFdx(slope), down = dFdy(slope);
-    const float within = 0.25 * frame.skylight_fade.y * (dot(right, right) + dot(down, down));
+    const float within = 0.25 * frame.sampling.x * (dot(right, right) + dot(down, down));
     water.roughness = clamp(sqrt(sqrt(2.0 * (wet.slope2 * (1.0 - 0.7 * drawn) + within))), 0.03, 0.5);
     // Thin water still follows the grains below.
     water.roughness = max(water.roughness, 0.34 * (1.0 - smoothstep(0.1, 2.0, wet.depth_mm)));
