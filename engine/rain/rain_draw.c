@@ -2,6 +2,10 @@
  * target (attach), and drawing. */
 #include "rain/rain_internal.h"
 
+#include "core/phase.h"
+
+#include "shaders/rain_glow_frag.spv.h"
+#include "shaders/rain_glow_vert.spv.h"
 #include "shaders/rain_haze_frag.spv.h"
 #include "shaders/rain_haze_vert.spv.h"
 #include "shaders/rain_streak_thin_frag.spv.h"
@@ -83,6 +87,17 @@ static bool wants_motion(const virga_rain *rain)
     return false;
 }
 
+/* Where the glow of lamps takes its light from, see shaders/rain/glow.glsl. */
+static void fill_bent(rain_view_block *out)
+{
+    _Static_assert(VIRGA_RAIN_BENT == VIRGA_PHASE_BINS + 1, "borders of the phase function's bins");
+    double sum = 0;
+    for (int i = 0; i < VIRGA_RAIN_BENT; i++) {
+        out->look.bent[i] = (float)sum;
+        sum += i < VIRGA_PHASE_BINS ? virga_phase_table[i] * 3.14159265358979323846 / VIRGA_PHASE_BINS : 0;
+    }
+}
+
 static void fill_look(const virga_rain *rain, rain_view_block *out)
 {
     const virga_rain_settings *settings = &rain->settings;
@@ -93,7 +108,9 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->view.near_m = settings->near_m;
     out->look.oscillation = settings->oscillation;
     out->look.bodies_min_m = settings->bodies_min_mm * 1e-3f;
+    out->look.glow = settings->glow;
     fill_haze(rain, out);
+    fill_bent(out);
     out->look.max_streaks = rain->def.max_streaks;
     out->look.motion = wants_motion(rain);
 }
@@ -177,6 +194,9 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->frame_stats[rain->context->ring_slot].prepared = true;
     rain->prepared_depth = has_depth;
     rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
+    rain->prepared_glows = rain->prepared_haze && rain->settings.glow > 0 && rain->settings.light_gain > 0
+                               ? rain->settings.lighting.light_count
+                               : 0;
     rain->prepared = true;
     return virga_uploaded(rain->context);
 }
@@ -198,6 +218,7 @@ static void target_clear(virga_rain *rain, rain_target *target)
         VIRGA_RETIRE(rain->context, target->wide[depth]);
     }
     VIRGA_RETIRE(rain->context, target->haze);
+    VIRGA_RETIRE(rain->context, target->glow);
     target->serial = 0;
 }
 
@@ -243,12 +264,26 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
     def.depth_test = false;
     def.name = "rain.haze";
     TRY(virga_target_pipeline(target, def, &slot->haze));
+    def.vertex = VIRGA_SPIRV(rain_glow_vert);
+    def.fragment = VIRGA_SPIRV(rain_glow_frag);
+    def.name = "rain.glow";
+    TRY(virga_target_pipeline(target, def, &slot->glow));
     slot->motion = outputs & VIRGA_OUTPUTS_MOTION;
     slot->serial = target->serial;
     return VIRGA_OK;
 error:
     target_clear(rain, slot);
     return result;
+}
+
+static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t corners,
+                       uint32_t count, const char *name)
+{
+    virga_context *context = rain->context;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    context->vk.CmdDraw(cmd, corners, count, 0, 0);
+    virga_pass_end(context, cmd, scope);
 }
 
 static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
@@ -270,8 +305,9 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     /* What was prepared for an earlier frame lies where a later one writes. */
     if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
         return VIRGA_NOT_READY;
-    const virga_pipeline *used[] = {found->haze, found->thin[rain->prepared_depth], found->wide[rain->prepared_depth]};
-    const virga_result result = virga_pipelines_ready(used, 3);
+    const virga_pipeline *used[] = {found->haze, found->glow, found->thin[rain->prepared_depth],
+                                    found->wide[rain->prepared_depth]};
+    const virga_result result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result)
         return result;
     virga_context *context = rain->context;
@@ -282,12 +318,10 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);
-    if (rain->prepared_haze) {
-        const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.haze");
-        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, found->haze->pipeline);
-        context->vk.CmdDraw(cmd, 3, 1, 0, 0);
-        virga_pass_end(context, cmd, scope);
-    }
+    if (rain->prepared_haze)
+        draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze");
+    if (rain->prepared_glows)
+        draw_plain(rain, cmd, found->glow, 6, rain->prepared_glows, "rain.glow");
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
     context->vk.CmdBindIndexBuffer(cmd, rain->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw_streaks(rain, cmd, found->thin[rain->prepared_depth], offsetof(virga_prepared_gpu, thin));

@@ -86,7 +86,7 @@ typedef struct rain_map {
 typedef struct rain_target {
     uint64_t serial;                   /* of the virga_target; 0: free */
     virga_pipeline *thin[2], *wide[2]; /* without and with the scene's depth to read */
-    virga_pipeline *haze;
+    virga_pipeline *haze, *glow;
     bool motion; /* it has motion vectors */
 } rain_target;
 
@@ -160,6 +160,7 @@ struct virga_rain {
     uint32_t view_slot;
     bool prepared;
     bool prepared_haze, prepared_depth;
+    uint32_t prepared_glows; /* lamps that glow */
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];

@@ -26,6 +26,8 @@ float phase(float cos_angle)
     return mix(view.phase[bin], view.phase[bin + 1], clamp(x - float(bin), 0.0, 1.0));
 }
 
+#define LAMP_RADIUS_M 0.1 // a lamp is no point: nearer to it, light is as there
+
 // Point and spot lights: irradiance on a drop at p (relative to the camera) times its phase function. Looking along d,
 // light that comes straight from ahead is the forward direction: a lamp behind the water glitters most.
 vec3 lamps(vec3 p, vec3 d)
@@ -33,7 +35,7 @@ vec3 lamps(vec3 p, vec3 d)
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < view.light_count; i++) {
         const vec3 way = to_vec(view.lights[i].position) - p;
-        const float distance2 = max(dot(way, way), 1e-4);
+        const float distance2 = max(dot(way, way), LAMP_RADIUS_M * LAMP_RADIUS_M);
         const vec3 towards = way * inversesqrt(distance2);
         const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
         const float ends = clamp(1.0 - x * x, 0.0, 1.0);

@@ -7,6 +7,7 @@
 #include "tick.glsl"
 #include "view.glsl"
 #include "gpu/scene_depth.glsl"
+#include "haze.glsl"
 
 layout(location = 0) noperspective in vec3 ray; // see haze.vert
 layout(location = 1) flat in vec4 depth_and_reach;
@@ -18,17 +19,15 @@ float sky_word(uint word) { return sky[word / 4u][word % 4u]; }
 
 vec3 sh_coefficient(uint i) { return vec3(sky_word(3u * i), sky_word(3u * i + 1u), sky_word(3u * i + 2u)); }
 
+float haze_extinction(uint box) { return per_m[box / 4u][box % 4u]; }
+
 void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
     // The sky is an environment seen through its own rain already.
     const float way =
         stored == depth_and_reach.z ? 0.0 : depth_and_reach.y / (depth_and_reach.x + stored) * length(ray);
-    float thick = 0.0, from = 0.0, to = depth_and_reach.w;
-    for (uint box = 0u; box < VIRGA_RAIN_MAX_LEVELS; box++, from = to, to *= 2.0)
-        thick += per_m[box / 4u][box % 4u] * clamp(way - from, 0.0, to - from);
-    thick += per_m[VIRGA_RAIN_MAX_LEVELS / 4][VIRGA_RAIN_MAX_LEVELS % 4] * max(way - from, 0.0);
-    const float alpha = 1.0 - exp(-thick);
+    const float alpha = 1.0 - exp(-haze_thickness(way, depth_and_reach.w));
     if (alpha <= 0.0)
         discard;
     radiance = vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha);

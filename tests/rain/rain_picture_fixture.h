@@ -297,7 +297,7 @@ static inline uint32_t streak_count(const shot *s)
     return ((const virga_prepared_gpu *)s->prepared.mapped)->streaks;
 }
 
-static const virga_streak_gpu *streak_list(const shot *s)
+static inline const virga_streak_gpu *streak_list(const shot *s)
 {
     return s->streaks.mapped;
 }

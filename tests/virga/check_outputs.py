@@ -362,7 +362,8 @@ def check_stats(paths):
         expect((water["aloft"] > 0) == (i > 0), f"frame {i + 1}: {water['aloft']} microlitres aloft")
         check_splash_stats(line["splash"], splash)
         splash = line["splash"]
-        for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.streaks", "rain.points"):
+        for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.glow", "rain.streaks",
+                     "rain.points"):
             expect(0 <= times.get(name, -1) < 60000, f"milliseconds of {name}: {times.get(name)}")
         expect(line["device_bytes"] > 0, "no device memory")
 

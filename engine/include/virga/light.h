@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* A light that glitters in water. */
+/* A light that glitters in water. It counts as 0.1 m wide: what is nearer is lit as there. */
 typedef struct virga_light {
     double position_m[3];  /* [-1e9; 1e9] */
     float intensity[3];    /* radiant intensity in the host's radiance unit x m^2 (linear RGB), on the axis */
