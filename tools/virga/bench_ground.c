@@ -76,11 +76,11 @@ static void print_passes(uint32_t cells, double times[PASSES][BENCH_RUNS], doubl
 {
     for (int j = 0; j < PASSES; j++) {
         const double ms = bench_median(times[j], BENCH_RUNS);
-        printf("  %-16s %8.3f ms  %6.2f x bare kernel  %7.2f ns a cell", passes[j], ms, ms / bare_ms,
-               ms * 1e6 / ((double)cells * cells));
-        if (j >= STEADY_PASSES)
-            printf(", where the camera has gone %d m", MOVE_M);
-        putchar('\n');
+        if (j < STEADY_PASSES)
+            printf("  %-16s %8.3f ms  %6.2f x bare kernel  %7.2f ns a cell\n", passes[j], ms, ms / bare_ms,
+                   ms * 1e6 / ((double)cells * cells));
+        else
+            printf("  %-16s %8.3f ms  where the camera has gone %d m\n", passes[j], ms, MOVE_M);
     }
 }
 

@@ -91,7 +91,8 @@ typedef struct virga_rain_settings {
     float haze;            /* [0; 4] extinction of the rain's own haze; 1 is physical. Default 1 */
     float glow;            /* [0; 100] multiplies the light of lighting.lights that the haze scatters, beside light_gain:
                             * the glow around lamps in the rain. 1 is physical. Needs the scene's depth, by which lamps
-                            * are found hidden. 0: no glow, and no cost. Default 1 */
+                            * are found hidden. Costs a pass over the pixels around each lamp, at night and near
+                            * ones all of the picture; 0: nothing. Default 1 */
     float bodies_min_mm;   /* [0.2; 2] smaller drops are never drawn one by one, only as haze. They land all the same.
                             * Default 0.4 */
     uint32_t default_material; /* of surfaces that come without (host depth). [0; 255] default 0 */
