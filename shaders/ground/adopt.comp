@@ -8,6 +8,7 @@
 #include "groups.glsl"
 #include "swing.glsl"
 #include "standing.glsl"
+#include "shelter.glsl"
 #include "lie.glsl"
 
 #define NEVER_SEEN 0x80000000u // of an entry in the list: the tile comes without water
@@ -19,17 +20,9 @@ layout(scalar, set = 0, binding = 1) readonly buffer Lists
     uint forgotten[VIRGA_GROUND_MAX_TILES]; // slots of kept tiles
 };
 layout(scalar, set = 0, binding = 7) writeonly buffer Spots { uvec2 spots[]; };
-layout(scalar, set = 0, binding = 23) readonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };
 layout(set = 0, binding = 11) uniform sampler2DArray survey_depth;
 layout(set = 0, binding = 12) uniform usampler2DArray survey_surface;
 layout(set = 0, binding = 17) uniform usampler2D material_map;
-
-float open_at(ivec2 far_cell)
-{
-    const uint side = tick.far_cells;
-    const uint found = far_floors[uint(far_cell.y) * side + uint(far_cell.x)].traits;
-    return far_open(found);
-}
 
 // The share of the rain that reaches a cell: between the middles of the far map's, all where that does not lie.
 float rained_share(ivec2 cell)

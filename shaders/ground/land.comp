@@ -72,15 +72,36 @@ void write_spawn(uint index, virga_impact_gpu impact, Piece piece, uint i, Spawn
     spawns[index] = spawn;
 }
 
-// Water that stays, and its traces. Returns what came to a cell.
+// An equal share of a piece's water and of what it stirs to each cell around, which keeps it; its own has the rest.
+void lie_around(Piece piece, int spread, uint water_nl, uint stir)
+{
+    const uint side = uint(2 * spread + 1), share = water_nl / (side * side), stir_share = stir / (side * side);
+    const int floor_um = floor_of(piece.place).height_um;
+    uint rest = water_nl, rest_stir = stir;
+    for (int z = -spread; z <= spread; z++)
+        for (int x = -spread; x <= spread; x++) {
+            const uint place = x == 0 && z == 0 ? NO_CELL : place_beside(piece, ivec2(x, z), floor_um);
+            if (place == NO_CELL)
+                continue;
+            atomicAdd(arrivals[place].given_nl, share);
+            if (stir_share > 0u)
+                atomicAdd(stirs[place], stir_share);
+            rest -= share;
+            rest_stir -= stir_share;
+        }
+    atomicAdd(arrivals[piece.place].landed_nl, rest);
+    if (rest_stir > 0u)
+        atomicAdd(stirs[piece.place], rest_stir);
+}
+
+// Water that stays, and its traces. Returns what came to cells.
 uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, uint i)
 {
     if (piece.place == NO_CELL)
         return 0u;
-    atomicAdd(arrivals[piece.place].landed_nl, water_nl);
     const float water_m = float(cell_of(piece.place).free_nl) * tick.m_per_nl;
-    if (water_m >= LEAST_WATER_M)
-        atomicAdd(stirs[piece.place], uint(drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6));
+    const float stir = drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6;
+    lie_around(piece, spread_of(drops), water_nl, water_m >= LEAST_WATER_M ? uint(stir) : 0u);
     leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
     return water_nl;
 }

@@ -1,7 +1,10 @@
 // pieces.glsl - where the water of an impact comes to lie.
 //
 // An impact far from the camera stands for many drops. Its water is not poured on one cell but scattered in up to 32
-// pieces over the ground within a metre of it, or a distant pavement would be spotted like a leopard.
+// pieces over the ground within two metres of it, or a distant pavement would be spotted like a leopard.
+#include "standing.glsl"
+#include "shelter.glsl"
+
 layout(scalar, set = 0, binding = 2) readonly buffer Impacts
 {
     virga_impacts_gpu head;
@@ -105,9 +108,26 @@ Piece get_piece(virga_impact_gpu impact, Piece first, uint i, uint n)
         precise float angle = 6.2831853 * virga_unit(virga_hash1(h));
         precise vec2 beside = first.at + radius * vec2(cos(angle), sin(angle));
         const Piece scattered = piece_at(beside, height_m);
-        if (scattered.place != NO_CELL && first.place != NO_CELL)
+        // Not from the open to under a roof.
+        const bool stays_open = !is_sheltered(scattered.cell) || is_sheltered(first.cell);
+        if (scattered.place != NO_CELL && first.place != NO_CELL && stays_open)
             piece = scattered;
     }
     piece.water_nl = impact.water_nl / n + (i == 0u ? impact.water_nl % n : 0u);
     return piece;
+}
+
+// A piece that stands for several drops lies on the cells around it as well, up to so many to each side: one that takes
+// the water of fifty is a pale blot on a wet road, and a dark one on a dry road, for whoever comes by later.
+int spread_of(float drops) { return drops >= 40.0 ? 3 : drops >= 16.0 ? 2 : drops >= 3.0 ? 1 : 0; }
+
+// The cell beside a piece's own where it is ground of about the same height.
+uint place_beside(Piece piece, ivec2 beside, int floor_um)
+{
+    const uint place = cell_place(piece.cell + beside);
+    if (place == NO_CELL)
+        return NO_CELL;
+    const virga_floor_gpu found = floor_of(place);
+    const int most_um = int(SAME_SURFACE_M * 1e6);
+    return found.material != NO_GROUND && abs(found.height_um - floor_um) <= most_um ? place : NO_CELL;
 }

@@ -23,6 +23,17 @@ void soak(uint place)
     cell_words[place] = uvec2(cell.free_nl + (given - taken), cell.held_nl + taken);
 }
 
+// Where land.comp laid a piece that stands for several drops.
+void soak_around(Piece piece, int spread)
+{
+    for (int z = -spread; z <= spread && spread > 0; z++)
+        for (int x = -spread; x <= spread; x++) {
+            const uint place = cell_place(piece.cell + ivec2(x, z));
+            if (is_ground(place))
+                soak(place);
+        }
+}
+
 void main()
 {
     const uint index = gl_GlobalInvocationID.x;
@@ -40,5 +51,6 @@ void main()
             if (is_ground(place))
                 soak(place);
         }
+        soak_around(piece, spread_of(impact.weight / float(n)));
     }
 }

@@ -23,7 +23,8 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 #define VIRGA_GROUND_GROUP      256
 #define VIRGA_GROUND_PAIRS_EACH 4 /* pairs of cells for an invocation of a flow pass */
 #define VIRGA_GROUND_QUARTERS   -1.52, -0.42, 0.42, 1.52 /* means of quarters of all bumps, over their bumps_um */
-#define VIRGA_GROUND_FAR_CELL   8 /* cells of the window along the side of one of the far map */
+#define VIRGA_GROUND_FAR_SHIFT  3
+#define VIRGA_GROUND_FAR_CELL   8 /* cells of the window along the side of one of the far map: 1 << FAR_SHIFT */
 
 /* Water on its way within a tick; zero between ticks. */
 struct virga_arrivals_gpu {

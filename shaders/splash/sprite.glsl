@@ -126,7 +126,7 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     // What is not ground, a leaf or a railing, may end beside the drop.
     const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
     const float beside = VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
-    sprite.spread = ground ? min(beside, VIRGA_GROUND_SCATTER_M) : 0.0;
+    sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
     sprite.id = splash.id;

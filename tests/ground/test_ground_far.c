@@ -135,6 +135,27 @@ static void test_what_moves_leaves_no_dry_place(void **state)
     end();
 }
 
+/* Drops that one impact stands for fall within two metres of it, but not from the open to under the roof. */
+static void test_what_falls_beside_a_roof_stays_out(void **state)
+{
+    (void)state;
+    begin(VIRGA_MATERIAL_OWN);
+    go(19.5);
+    ground_fixture_drop(&f, 390, 0, 0, 3200 * 4189)->weight = 3200;
+    ground_fixture_step(&f, 1);
+    uint32_t in_the_open = 0, under_it = 0;
+    for (int z = -60; z < 60; z++)
+        for (int x = 340; x < 440; x++) {
+            const bool wet = cell_at(x, z).free_nl > 0;
+            in_the_open += wet && x < 400;
+            under_it += wet && x >= 404; /* a piece is seven cells wide */
+        }
+    printf("wet: %u cells in the open, %u under the roof\n", in_the_open, under_it);
+    assert_true(in_the_open > 500 && under_it == 0);
+    assert_int_equal(ground_fixture_sum(&f), 3200 * 4189);
+    end();
+}
+
 static void test_without_rain_it_comes_in_as_at_the_start(void **state)
 {
     (void)state;
@@ -390,6 +411,7 @@ int main(void)
         cmocka_unit_test(test_what_comes_back_is_as_it_was),
         cmocka_unit_test(test_under_a_roof_it_comes_in_dry),
         cmocka_unit_test(test_what_moves_leaves_no_dry_place),
+        cmocka_unit_test(test_what_falls_beside_a_roof_stays_out),
         cmocka_unit_test(test_without_rain_it_comes_in_as_at_the_start),
         cmocka_unit_test(test_hollows_come_in_with_what_fell),
         cmocka_unit_test(test_spots_go_when_their_water_has),

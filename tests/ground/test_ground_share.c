@@ -186,7 +186,7 @@ static void rain_at_random(uint32_t seed, bool backwards)
         virga_impact_gpu *drop =
             ground_fixture_drop(&f, (int)(h & 63) - 32, (int)(h >> 6 & 63) - 32, 0, 1 + virga_hash2(h, 1) % 30000);
         drop->id = k;
-        drop->weight = k % 10 == 0 ? 4 : 1;
+        drop->weight = k % 10 == 0 ? 4 : k % 10 == 1 ? (float)(h % 1000) : 1;
     }
     ground_fixture_step(&f, 1);
 }
@@ -207,6 +207,32 @@ static void test_ten_thousand_drops_lose_no_nanolitre(void **state)
             assert_true(f.cells[i].free_nl < 200000000);
     }
     ground_fixture_close(&f);
+}
+
+/* Cells with water on dry steel after one impact that stands for so many drops. */
+static uint32_t cells_wetted_by(float drops)
+{
+    const uint32_t water_nl = (uint32_t)drops * 4189;
+    begin(VIRGA_MATERIAL_STEEL);
+    ground_fixture_drop(&f, 0, 0, 0, water_nl)->weight = drops;
+    ground_fixture_step(&f, 1);
+    assert_int_equal(ground_fixture_sum(&f), water_nl);
+    uint32_t wet = 0;
+    for (uint32_t i = 0; i < 128 * 128; i++) {
+        wet += f.cells[i].free_nl > 0;
+        assert_true(drops < 100 || f.cells[i].free_nl < water_nl / 100);
+    }
+    ground_fixture_close(&f);
+    return wet;
+}
+
+/* Not in a blot for each of its 32 pieces: on half of the cells within two metres. */
+static void test_an_impact_of_thousands_wets_all_around(void **state)
+{
+    (void)state;
+    const uint32_t few = cells_wetted_by(40), many = cells_wetted_by(3200);
+    printf("of 40 drops: %u cells, of 3200: %u\n", few, many);
+    assert_true(few >= 24 && few <= 5 * 32 && many >= 450);
 }
 
 static void test_the_order_of_drops_does_not_matter(void **state)
@@ -238,6 +264,7 @@ int main(void)
         cmocka_unit_test(test_a_dry_cell_keeps_the_drop_until_it_is_saturated),
         cmocka_unit_test(test_what_a_drop_meets_is_told_by_the_water_before_it),
         cmocka_unit_test(test_ten_thousand_drops_lose_no_nanolitre),
+        cmocka_unit_test(test_an_impact_of_thousands_wets_all_around),
         cmocka_unit_test(test_the_order_of_drops_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
