@@ -4,11 +4,17 @@
 #include <math.h>
 #include <string.h>
 
+/* A sub-frame's views: with its jitter, and as if it had none. The jitter is what smooths the edges of the average;
+ * streaks are smooth by themselves, and one whose parts are all jittered another way is a kinked line. */
+typedef struct sample_views {
+    virga_view jittered, steady;
+} sample_views;
+
 /* Splashes and rain as a view sees them: each into a layer of its own. The worse of the results. */
-static virga_result prepare(shot *s, VkCommandBuffer cmd, const virga_view *view, double time_s)
+static virga_result prepare(shot *s, VkCommandBuffer cmd, const sample_views *views, double time_s)
 {
-    const virga_result splash = s->splash ? virga_splash_prepare(s->splash, cmd, view, time_s) : VIRGA_OK;
-    return splash < 0 ? splash : virga_rain_prepare(s->rain, cmd, view, time_s);
+    const virga_result splash = s->splash ? virga_splash_prepare(s->splash, cmd, &views->jittered, time_s) : VIRGA_OK;
+    return splash < 0 ? splash : virga_rain_prepare(s->rain, cmd, &views->steady, time_s);
 }
 
 static virga_result draw_layers(shot *s, VkCommandBuffer cmd)
@@ -114,16 +120,16 @@ typedef struct moment {
     double late_s;   /* before the newest tick */
 } moment;
 
-static bool record_picture(shot *s, VkCommandBuffer cmd, const virga_view *view, moment at, const host_camera *now,
+static bool record_picture(shot *s, VkCommandBuffer cmd, const sample_views *views, moment at, const host_camera *now,
                            const host_camera *frame_ago, char *error, size_t error_size)
 {
-    if (!shot_ok(s, prepare(s, cmd, view, virga_rain_time(s->rain) - at.late_s), "preparing the rain", error,
+    if (!shot_ok(s, prepare(s, cmd, views, virga_rain_time(s->rain) - at.late_s), "preparing the rain", error,
                  error_size) ||
         !record_plate(s, cmd, at.camera_s, now, frame_ago, error, error_size) ||
         !shot_ok(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
         return false;
     if (s->scene->pane_count &&
-        !shot_ok(s, draw_panes(s, cmd, *view, at.camera_s, at.late_s), "drawing panes", error, error_size))
+        !shot_ok(s, draw_panes(s, cmd, views->jittered, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
     return !s->moving || shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);
 }
@@ -141,6 +147,29 @@ static void set_frame_ago(const shot *s, const host_camera *frame_ago, virga_vie
         temporal->motion_coverage = 0.01f * (float)s->options.water_velocity;
 }
 
+/* The cameras of a sub-frame, where its shutter closes and opens and a frame before, and the view that they make. */
+typedef struct sample_cameras {
+    host_camera now, open, frame_ago;
+} sample_cameras;
+
+static virga_view look_through(const shot *s, double close_s, double part_s, double shot_start, const float *jitter,
+                               sample_cameras *cameras)
+{
+    const host_camera_path eye = shot_eye(s);
+    const uint32_t width = s->options.width, height = s->options.height;
+    host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &cameras->now);
+    cameras->now.samples = s->options.samples;
+    host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &cameras->open);
+    host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter,
+                   &cameras->frame_ago);
+    virga_view view = virga_default_view();
+    view.depth = host_target_depth(&s->target);
+    view.color = host_target_color(&s->target);
+    host_camera_view(&cameras->now, &cameras->open, part_s, &view);
+    set_frame_ago(s, &cameras->frame_ago, &view);
+    return view;
+}
+
 /* The shutter closes at the frame's time. */
 bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double time_s, char *error, size_t error_size)
 {
@@ -149,22 +178,13 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     const double part_s = shutter_s / s->options.samples;
     const double close_s = time_s - part_s * (s->options.samples - 1 - sample);
     const double shot_start = host_camera_shot_start(&eye, time_s);
-    const uint32_t width = s->options.width, height = s->options.height;
     float jitter[2];
-    host_camera now, open, frame_ago;
+    sample_cameras steady, cameras;
     host_camera_jitter(sample, s->options.samples, jitter);
-    host_camera_at(&eye, fmax(close_s, shot_start), width, height, jitter, &now);
-    now.samples = s->options.samples;
-    host_camera_at(&eye, fmax(close_s - part_s, shot_start), width, height, jitter, &open);
-    host_camera_at(&eye, fmax(close_s - 1 / s->scene->frames.fps, shot_start), width, height, jitter, &frame_ago);
-
-    virga_view view = virga_default_view();
-    view.depth = host_target_depth(&s->target);
-    view.color = host_target_color(&s->target);
-    host_camera_view(&now, &open, part_s, &view);
-    set_frame_ago(s, &frame_ago, &view);
+    const sample_views views = {.steady = look_through(s, close_s, part_s, shot_start, NULL, &steady),
+                                .jittered = look_through(s, close_s, part_s, shot_start, jitter, &cameras)};
     const moment at = {fmax(close_s, shot_start), time_s - close_s};
-    return record_picture(s, cmd, &view, at, &now, &frame_ago, error, error_size);
+    return record_picture(s, cmd, &views, at, &cameras.now, &cameras.frame_ago, error, error_size);
 }
 
 static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)

@@ -310,7 +310,9 @@ typedef struct virga_view {
     uint32_t size, cookie;
     double position_m[3];         /* of the camera in the world; double, so that it may be far from the origin */
     float view_from_world[16];    /* rotation part only is read; the translation is taken from position_m */
-    float clip_from_view[16];     /* projection with the jitter in it; Vulkan clip space, y down, depth 0..1 */
+    float clip_from_view[16];     /* projection with the jitter in it; Vulkan clip space, y down, depth 0..1. Who averages
+                                   * sub-frames of one shutter prepares rain without the jitter: its streaks are smooth
+                                   * by themselves, and lines of jittered parts are kinked */
     double open_position_m[3];    /* the same at the start of the shutter time (a game: the previous frame's camera) */
     float open_view_from_world[16];
     float open_clip_from_view[16]; /* with this frame's jitter, so that jitter does not show as motion */
