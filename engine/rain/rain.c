@@ -377,6 +377,7 @@ static virga_result check_finite(const virga_log *log, const virga_rain_settings
                   {"rain.near_m", &s->near_m, 1},
                   {"rain.oscillation", &s->oscillation, 1},
                   {"rain.haze", &s->haze, 1},
+                  {"rain.haze_sky_m", &s->haze_sky_m, 1},
                   {"rain.glow", &s->glow, 1},
                   {"rain.bodies_min_mm", &s->bodies_min_mm, 1}};
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
@@ -409,6 +410,7 @@ static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
                   {"rain.near_m", &s->near_m, 0, 5},
                   {"rain.oscillation", &s->oscillation, 0, 4},
                   {"rain.haze", &s->haze, 0, 4},
+                  {"rain.haze_sky_m", &s->haze_sky_m, 0, 1e5f},
                   {"rain.glow", &s->glow, 0, 100},
                   {"rain.bodies_min_mm", &s->bodies_min_mm, 0.2f, 2}};
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)

@@ -108,6 +108,7 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->view.near_m = settings->near_m;
     out->look.oscillation = settings->oscillation;
     out->look.bodies_min_m = settings->bodies_min_mm * 1e-3f;
+    out->look.sky_m = settings->haze_sky_m;
     out->look.glow = settings->glow;
     fill_haze(rain, out);
     fill_bent(out);

@@ -24,9 +24,9 @@ float haze_extinction(uint box) { return per_m[box / 4u][box % 4u]; }
 void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
-    // The sky is an environment seen through its own rain already.
-    const float way =
-        stored == depth_and_reach.z ? 0.0 : depth_and_reach.y / (depth_and_reach.x + stored) * length(ray);
+    // The sky may be an environment that was seen through its own rain already.
+    const float way = stored == depth_and_reach.z ? sky[SKY_VECTORS - 1u].w
+                                                  : depth_and_reach.y / (depth_and_reach.x + stored) * length(ray);
     const float alpha = 1.0 - exp(-haze_thickness(way, depth_and_reach.w));
     if (alpha <= 0.0)
         discard;

@@ -93,6 +93,7 @@ struct virga_rain_look_gpu {
     float streak_gain;   /* multiplies coverage */
     float oscillation;   /* amplitude of shape oscillation, 1: physical */
     float bodies_min_m;  /* smaller drops are haze */
+    float sky_m;         /* of haze before the sky */
     float glow;          /* multiplies the light of lamps in haze */
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
     float haze_inner_m;  /* radius of the innermost box; each next one is twice as wide */
@@ -163,7 +164,7 @@ VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 340);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 344);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);

@@ -151,7 +151,7 @@ static void haze_thickens_by_beers_law(void **state)
     close_shot(&s);
 }
 
-static void there_is_no_haze_before_the_sky_or_without_depth(void **state)
+static void there_is_haze_before_the_sky_if_asked_for_and_none_without_depth(void **state)
 {
     (void)state;
     shot s;
@@ -161,6 +161,12 @@ static void there_is_no_haze_before_the_sky_or_without_depth(void **state)
     apply_settings(&s);
     aim_level(&s);
     assert_true(sum_of(&s, draw_frame(&s, 0.02), 3) == 0);
+    s.f.settings.haze_sky_m = 100; /* a panorama without rain */
+    apply_settings(&s);
+    const double before_it = sum_of(&s, draw_frame(&s, 0.02), 3) / (s.picture.width * s.picture.height);
+    assert_true(fabs(before_it - (1 - exp(-4 * 100 * virga_rain_extinction(100)))) < 1e-3);
+    s.f.settings.haze_sky_m = 0;
+    apply_settings(&s);
     s.scene_depth = stored_depth(&s, 20);
     assert_true(sum_of(&s, draw_frame(&s, 0.02), 3) > 0);
     s.give_depth = false;
@@ -228,7 +234,7 @@ int main(void)
         cmocka_unit_test(a_thin_streak_covers_its_disc_at_any_resolution),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
-        cmocka_unit_test(there_is_no_haze_before_the_sky_or_without_depth),
+        cmocka_unit_test(there_is_haze_before_the_sky_if_asked_for_and_none_without_depth),
         cmocka_unit_test(streaks_end_at_the_scene_over_soft_m),
         cmocka_unit_test(without_softness_the_scene_cuts),
     };

@@ -139,6 +139,7 @@ static void rain_settings_fields(void **state)
         F(near_m, 0, 5),
         F(oscillation, 0, 4),
         F(haze, 0, 4),
+        F(haze_sky_m, 0, 100000),
         F(glow, 0, 100),
         F(bodies_min_mm, 0.2, 2),
         F(default_material, 0, 255),

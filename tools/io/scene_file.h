@@ -98,7 +98,7 @@ typedef struct scene_rain {
     uint32_t max_drops;
     double range_m;
     uint32_t seed;
-    double streak_gain, light_gain, min_width_px, soft_m, near_m, oscillation, haze, glow, bodies_min_mm;
+    double streak_gain, light_gain, min_width_px, soft_m, near_m, oscillation, haze, haze_sky_m, glow, bodies_min_mm;
     uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_turns;
     scene_rain_key *keys; /* by rising time; linear between them, constant outside; none: rate and wind as above */
     uint32_t key_count;
