@@ -110,6 +110,10 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
         return VIRGA_ERROR_INVALID;
     if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
+    if (!(view->aperture_m >= 0 && view->aperture_m <= 1))
+        return virga_wrong_argument(log, "view.aperture_m: expected 0 to 1 m, got %g", (double)view->aperture_m);
+    if (!(view->focus_m >= 0 && view->focus_m <= 1e6f))
+        return virga_wrong_argument(log, "view.focus_m: expected 0 to 1e6 m, got %g", (double)view->focus_m);
     if (!(view->open_camera_s >= 0 && view->open_camera_s <= MOST_TIME_S))
         return virga_wrong_argument(log, "view.open_camera_s: expected 0 to %g s, got %g", MOST_TIME_S,
                                     view->open_camera_s);
@@ -254,6 +258,8 @@ void virga_view_fill(const virga_view *view, const virga_lighting *lighting, con
     fill_matrices(view, out);
     fill_temporal(view, out);
     fill_rays(view, out);
+    out->lens_px = view->aperture_m / out->pixel_angle;
+    out->inv_focus = view->focus_m > 0 ? 1 / view->focus_m : 0;
     for (int i = 0; i < 3; i++)
         out->origin_offset[i] = (float)(origin_m[i] - view->position_m[i]);
     out->time_close_s = (float)(time_s - state_s);

@@ -41,10 +41,11 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
 {
     const virga_view_gpu *view = &block->view;
     const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
-    const double narrow = width_px < (double)view->min_width_px ? width_px / (double)view->min_width_px : 1;
+    const double blur_px = (double)view->lens_px * fabs((double)view->inv_focus - 1 / distance_m);
+    const double drawn_px = fmax(width_px, fmax((double)view->min_width_px, blur_px));
     const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s);
     const double one = (double)block->look.streak_gain * c->diameter_m / (way > c->diameter_m ? way : c->diameter_m);
-    return (one < 1 ? one : 1) * narrow * drops;
+    return (one < 1 ? one : 1) * width_px / drawn_px * drops;
 }
 
 /* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too

@@ -60,9 +60,9 @@ virga_streak_gpu empty_streak()
 }
 
 // Coverage from the drop's width, length of its way and weight.
-float coverage(float width_px, float body_px, float way_px, float weight)
+float coverage(float width_px, float body_px, float way_px, float blur, float weight)
 {
-    const float one = streak_coverage(width_px, body_px, way_px), all = one * weight;
+    const float one = streak_coverage(width_px, body_px, way_px, blur), all = one * weight;
     return min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
 }
 
@@ -76,15 +76,18 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
     streak.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
-// Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996).
-void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float kept)
+// Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996). Where the lens
+// blurs one wave into the next there is none.
+void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float way_px, float blur, float kept)
 {
     const float radius = 0.5e-3 * diameter_mm;
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
     const float turns = hz * (view.time_close_s - view.time_open_s) * kept;
     streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) +
                                        fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
-    streak.body_wave = halves(body_px, clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) * look.oscillation);
+    const float waves_blurred = blur * turns / max(way_px, 1.0);
+    const float size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
+    streak.body_wave = halves(max(body_px, blur), size * look.oscillation);
 }
 
 // From where the drop's way is on the picture to where it was when the previous frame was drawn: the whole streak,
@@ -99,6 +102,19 @@ void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
     const vec2 at_head = motion_px(clip_head, project(before, head - way));
     const vec2 at_tail = clip_tail.w < NEAR_W ? at_head : motion_px(clip_tail, project(before, tail - way));
     motions[4u * look.max_streaks + index] = vec4(at_head, at_tail);
+}
+
+// A way much shorter than what the lens blurs a point to is drawn as long as 0.7 of that, so that both ends rise slowly:
+// a soft spot, where it would be a square.
+void round_off(inout vec2 head, inout vec2 tail, vec2 way_px, float blur)
+{
+    const float way = length(way_px), wanted = 0.7 * blur;
+    if (way >= wanted)
+        return;
+    const vec2 along = way > 1e-3 ? way_px / way : vec2(0.0, 1.0);
+    const vec2 middle = 0.5 * (head + tail), half_way = along * wanted / vec2(view.viewport[2], view.viewport[3]);
+    head = middle + half_way;
+    tail = middle - half_way;
 }
 
 virga_streak_gpu make_streak(uint slot_index, uint index)
@@ -132,16 +148,19 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
     // A cut streak is as bright along its length as the whole one: the drop passed it at the same speed.
     const float kept = clamp(distance(head, tail) / max(whole_way, 1e-6), 0.02, 1.0);
-    streak.head = float[2](ndc_head.x, ndc_head.y);
-    streak.tail = float[2](ndc_tail.x, ndc_tail.y);
+    const float blur = blur_px(depth);
+    vec2 from = ndc_tail.xy, to = ndc_head.xy;
+    round_off(to, from, way, blur);
+    streak.head = float[2](to.x, to.y);
+    streak.tail = float[2](from.x, from.y);
     streak.depth = float[2](ndc_head.z, ndc_tail.z);
     streak.distance = float[2](clip_head.w, clip_tail.w);
     streak.width_alpha =
-        halves(max(width_px, view.min_width_px), coverage(width_px, body_px, length(way) / kept, weight));
+        halves(drawn_width(width_px, blur), coverage(width_px, body_px, length(way) / kept, blur, weight));
     streak.id = drop.id;
     write_motion(index, head, tail, velocity);
     set_light(streak, 0.5 * (head + tail));
-    set_wave(streak, mm, body_px, kept);
+    set_wave(streak, mm, body_px, length(way), blur, kept);
     return streak;
 }
 

@@ -24,10 +24,19 @@ vec3 sh_coefficient(uint i);
 
 #define WIDE_PX 3.0 // from here on a streak shows the inside of its drop
 
+// Pixels over which the lens blurs what is that far away: by the angle under which its opening is seen from there, less
+// that from where it is sharp.
+float blur_px(float depth) { return view.lens_px * abs(view.inv_focus - 1.0 / max(depth, NEAR_W)); }
+
+// How wide a streak is drawn.
+float drawn_width(float width_px, float blur) { return max(width_px, max(view.min_width_px, blur)); }
+
 // Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it (body / way, and
-// all of the time where it moves by less than its own length), and of the sampling's width where the drop is narrower.
-float streak_coverage(float width_px, float body, float way)
+// all of the time where it moves by less than its own length), and of the width and length that it is drawn over where
+// the drop is narrower than the sampling or out of focus.
+float streak_coverage(float width_px, float body, float way, float blur)
 {
-    const float narrow = min(width_px / view.min_width_px, 1.0);
-    return min(look.streak_gain * body / max(way, body), 1.0) * narrow;
+    const float longer = max(way, body);
+    const float share = width_px / drawn_width(width_px, blur) * longer / max(longer, blur);
+    return min(look.streak_gain * body / longer, 1.0) * share;
 }

@@ -52,6 +52,8 @@ struct virga_view_gpu {
     float motion_coverage;        /* what covers less leaves the motion vector that is there */
     float reactive_gain;
     uint motion_given;
+    float lens_px;                /* what is d away is blurred over lens_px |inv_focus - 1 / d| pixels */
+    float inv_focus;
 };
 
 #define VIRGA_VIEW_SH_WORD 61u /* that `sh` begins with */

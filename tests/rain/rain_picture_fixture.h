@@ -70,6 +70,7 @@ typedef struct shot {
     virga_target_def layer_def;
     host_camera camera, open;
     double shutter_s;
+    float aperture_m, focus_m;
     host_buffer streaks, prepared, slots;
     float scene_depth; /* in the depth buffer's terms */
     bool give_depth, reversed;
@@ -146,6 +147,8 @@ static inline virga_view view_of(const shot *s)
     host_camera_view(&s->camera, &s->open, s->shutter_s, &view);
     if (s->reversed)
         picture_reverse_depth(&view);
+    view.aperture_m = s->aperture_m;
+    view.focus_m = s->focus_m;
     if (s->give_depth)
         view.depth = host_target_depth(&s->picture);
     return view;

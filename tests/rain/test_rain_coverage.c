@@ -78,6 +78,52 @@ static void a_thin_streak_covers_its_disc_at_any_resolution(void **state)
     close_shot(&s);
 }
 
+static double most_of(const shot *s, const float *pixels)
+{
+    double most = 0;
+    for (size_t i = 0; i < (size_t)s->picture.width * s->picture.height; i++)
+        most = fmax(most, (double)pixels[i * 4 + 3]);
+    return most;
+}
+
+/* Where it lies in the list goes by how all of them are seen. */
+static const float *draw_only(shot *s, uint32_t id)
+{
+    s->only = EVERY_STREAK;
+    draw_frame(s, 0);
+    s->only = place_of(s, id);
+    return draw_frame(s, 0);
+}
+
+/* A lens spreads a streak over what it blurs a point to, and none of its coverage is lost; what is as far away as the
+ * lens is focused stays as it was. */
+static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
+{
+    (void)state;
+    shot s;
+    double distance = 0;
+    open_shot(&s, 40);
+    rain_of_big_drops(&s);
+    add_picture(&s, 320, 240);
+    s.f.settings.streak_gain = 100;
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    const uint32_t id = streak_list(&s)[choose_streak(&s, &distance)].id;
+    const float *pixels = draw_only(&s, id);
+    const double sharp = sum_of(&s, pixels, 3), most = most_of(&s, pixels);
+    const double pixel = 2 / (fabs((double)s.camera.clip_from_view[5]) * 240);
+    s.aperture_m = (float)(8 * pixel * distance); /* 8 pixels, in focus at infinity */
+    pixels = draw_only(&s, id);
+    printf("%.1f m away: %.3f in all, at most %.3f; blurred %.3f and %.3f\n", distance, sharp, most,
+           sum_of(&s, pixels, 3), most_of(&s, pixels));
+    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.03 && most_of(&s, pixels) < 0.4 * most);
+    s.focus_m = (float)distance;
+    pixels = draw_only(&s, id);
+    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.01 && fabs(most_of(&s, pixels) / most - 1) < 0.02);
+    close_shot(&s);
+}
+
 static void an_even_environment_gives_its_radiance_times_the_coverage(void **state)
 {
     (void)state;
@@ -232,6 +278,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thin_streak_covers_its_disc_at_any_resolution),
+        cmocka_unit_test(a_streak_out_of_focus_covers_as_much_over_more),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
         cmocka_unit_test(there_is_haze_before_the_sky_if_asked_for_and_none_without_depth),

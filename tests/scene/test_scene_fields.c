@@ -366,6 +366,8 @@ static void view_fields(void **state)
         F(open_position_m, REFUSED, -FAR, FAR),
         F(shutter_s, REFUSED, 0, 1),
         F(open_camera_s, REFUSED, 0, 1e9),
+        F(aperture_m, REFUSED, 0, 1),
+        F(focus_m, REFUSED, 0, 1e6),
         F(viewport[0], REFUSED, (double)limits->viewportBoundsRange[0], (double)limits->viewportBoundsRange[1] - 16),
         F(viewport[2], EMPTY, 1, limits->maxViewportDimensions[0]),
         F(clip_from_view[0], REFUSED, 1e-4, 1e7),

@@ -57,6 +57,7 @@ typedef struct scene_camera_key {
 typedef struct scene_camera {
     double fov_deg; /* of the picture's height */
     double near_m, far_m;
+    double aperture_mm, focus_m; /* of rain's streaks; 0: all is sharp, and sharp at infinity */
     scene_camera_key *keys; /* at least 1, by rising time */
     uint32_t key_count;
 } scene_camera;

@@ -66,6 +66,8 @@ static const cyaml_schema_field_t camera_fields[] = {
     NUMBER(scene_camera, fov_deg),
     NUMBER(scene_camera, near_m),
     NUMBER(scene_camera, far_m),
+    NUMBER(scene_camera, aperture_mm),
+    NUMBER(scene_camera, focus_m),
     LIST("keys", scene_camera, keys, key_count, &camera_key, 1, 100000),
     CYAML_FIELD_END,
 };
@@ -375,6 +377,8 @@ static const scene_rule rules[] = {
     {"camera.fov_deg", 1, 170, "50", LIVE, "angle of view of the picture's height"},
     {"camera.near_m", 1e-4, 1e4, "0.1", LIVE, "what is nearer is not drawn"},
     {"camera.far_m", 1e-3, ANY_M, "2000", LIVE, "what is farther is not drawn"},
+    {"camera.aperture_mm", 0, 1000, "0", LIVE, "width of the lens's opening: streaks out of focus are blurred by it"},
+    {"camera.focus_m", 0, 1e6, "0", LIVE, "distance at which streaks are sharp; 0: infinity"},
     {"camera.keys", 0, 0, NULL, RESTARTS, "places on the camera's path, by rising time"},
     {"camera.keys[].time_s", -ANY_M, ANY_M, "0", RESTARTS, "when the camera is there"},
     {"camera.keys[].position_m", -ANY_M, ANY_M, NULL, RESTARTS, "where the camera is"},

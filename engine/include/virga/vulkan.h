@@ -321,6 +321,10 @@ typedef struct virga_view {
                                    * game of 60 frames a second. With a previous frame's camera as the open one, give
                                    * its time distance here and scale the rain's look with streak settings */
     double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s */
+    float aperture_m;             /* [0; 1] width of the lens's opening: streaks nearer or farther than focus_m are as
+                                   * wide as it blurs a point there, and cover as much in all. A lens of 50 mm at f/2
+                                   * has 0.025. What else water shows is as sharp as the scene. Default 0: all is sharp */
+    float focus_m;                /* [0; 1e6] view depth that is sharp; 0: infinity, the default */
     float viewport[4];            /* x, y, width, height in pixels, within what the device allows */
     bool reversed_depth;          /* must match the target's. Default false */
     bool infinite_far;            /* the projection has no far plane. Default false */
