@@ -482,7 +482,7 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     maps->ripples = ground->ripples->map->layer_views[0];
     maps->ripple_texels = ground->def.ripple_texels;
     maps->ripple_texel_m = ground->def.ripple_texel_m;
-    maps->reach_m = (float)((0.5 * ground->window.tiles - 1.5) * tile_m);
+    maps->reach_m = fmaxf((float)((0.5 * ground->window.tiles - 1.5) * tile_m), 0); /* none of two tiles */
     if (ground->info.impacts_reach_m > 0 && ground->info.impacts_reach_m < maps->reach_m)
         maps->reach_m = ground->info.impacts_reach_m;
     ground_far_maps(ground, maps);

@@ -81,10 +81,12 @@ virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetne
 }
 
 // The window's share of what a place so many cells from the camera shows; `reach` in cells too. It falls early: the
-// farther, the more drops each impact stands for, so that single cells get wet by chance there.
+// farther, the more drops each impact stands for, so that single cells get wet by chance there. All of it where the
+// window has no reach to fall in: between edges that do not rise smoothstep is undefined.
 float virga_ground_near_share(vec2 off, float reach)
 {
-    return 1.0 - smoothstep(0.5 * reach, reach, max(abs(off.x), abs(off.y)));
+    const float edge = max(reach, 1e-3);
+    return reach > 0.0 ? 1.0 - smoothstep(0.5 * edge, edge, max(abs(off.x), abs(off.y))) : 1.0;
 }
 
 // Level open ground of a material (virga_occluder.material).

@@ -353,6 +353,25 @@ static void test_the_window_reaches_as_far_as_drops_land(void **state)
     end();
 }
 
+/* Of two tiles side by side the camera may be in either, and none need lie beyond it. */
+static void test_the_least_window_has_no_reach(void **state)
+{
+    (void)state;
+    virga_ground_maps maps;
+    virga_ground_def def = virga_default_ground_def();
+    def.cells = 128;
+    def.kept_tiles = 0;
+    def.max_impacts = MOST_DROPS;
+    const uint32_t material = ROUGH;
+    ground_fixture_open(&f);
+    ground_fixture_quads(&f, floor_and_roof, &material, 1);
+    ground_fixture_ground(&f, &def);
+    rain(1, 1);
+    virga_ground_maps_get(f.ground, &maps);
+    assert_float_equal(maps.reach_m, 0, 0);
+    ground_fixture_close(&f);
+}
+
 static void test_the_map_follows_the_camera(void **state)
 {
     (void)state;
@@ -420,6 +439,7 @@ int main(void)
         cmocka_unit_test(test_the_map_shows_first_drops_and_stirred_puddles),
         cmocka_unit_test(test_the_map_hides_what_is_among_blades),
         cmocka_unit_test(test_the_window_reaches_as_far_as_drops_land),
+        cmocka_unit_test(test_the_least_window_has_no_reach),
         cmocka_unit_test(test_the_map_follows_the_camera),
         cmocka_unit_test(test_steps_do_not_matter),
         cmocka_unit_test(test_without_a_far_map_there_are_materials),

@@ -192,7 +192,7 @@ typedef struct virga_ground_maps {
                          * them) */
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
     float reach_m;      /* as far from the step's camera, in x and in z, there is window all around and impacts land:
-                         * blend into the far map before that */
+                         * blend into the far map before that. 0: nowhere (def.cells 128), and nothing to blend in */
     VkImageView far;    /* R16G16B16A16_SFLOAT, like `wet` but for b: where no water lies it is minus the share of dark
                          * spots. Texel (0, 0) lies at far_low_m; it does not wrap. A row of VIRGA_GROUND_MATERIALS
                          * texels more, y = far_cells, has level open ground by material, for what is beyond */
