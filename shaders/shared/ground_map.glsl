@@ -101,13 +101,13 @@ virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 
                                          virga_ground_wetness open)
 {
     const vec2 middle = far_at - 0.5;
-    const ivec2 low = clamp(ivec2(floor(middle)), ivec2(0), ivec2(max(far_cells - 2, 0)));
+    const ivec2 last = ivec2(max(far_cells - 1, 0)), low = clamp(ivec2(floor(middle)), ivec2(0), max(last - 1, 0));
     const vec2 t = clamp(middle - vec2(low), 0.0, 1.0);
     vec4 sum = vec4(0.0);
     float found = 1e-6;
     for (int i = 0; i < 4; i++) {
         const ivec2 corner = ivec2(i & 1, i >> 1);
-        const vec4 texel = texelFetch(far_map, low + corner, 0);
+        const vec4 texel = texelFetch(far_map, min(low + corner, last), 0); // inside, also where there is but the row
         const vec2 side = mix(1.0 - t, t, vec2(corner));
         const float share = side.x * side.y * float(abs(texel.a - height_m) < 0.2);
         sum += vec4(texel.xy, max(texel.z, 0.0), max(-texel.z, 0.0)) * share;
