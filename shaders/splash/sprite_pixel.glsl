@@ -1,5 +1,6 @@
 // sprite_pixel.glsl - how much of a pixel a sprite covers.
 #include "gpu/streak_profile.glsl"
+#include "shared/random.h"
 #define SCENE_DEPTH_BINDING 16
 #include "gpu/scene_depth.glsl"
 #include "gpu/temporal.glsl"
@@ -62,7 +63,8 @@ float puff_cover()
 {
     const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns;
     const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
-    const float chance = fract(sin(12.9898 * column + 78.233 * fract(turn.w)) * 43758.547);
+    // Of whole numbers, so that all forms of the shader have the same: a large angle's sine depends on what is fused.
+    const float chance = virga_unit(virga_hash1(uint(fract(turn.w) * 1024.0) << 4 | uint(column)));
     const float half_wide = min(0.5 * shape.w, shape.x), high = turn.z * shape.z;
     const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, room = shape.z - high;
     const float foot = room * (0.5 + (chance - 0.5) * sqrt(1.0 - from_middle * from_middle));

@@ -5,7 +5,9 @@ Every vertex and fragment shader that ships is compiled in all of its forms, and
   - no derivative (nor a sample that takes one) comes after a discard: the pixels beside may be gone, and what is
     derived is undefined (GLSL 4.60, section 8.14.1);
   - every storage buffer and image is readonly: stores in these stages are features (vertexPipelineStoresAndAtomics,
-    fragmentStoresAndAtomics) that Virga does not ask for (VUID-RuntimeSpirv-NonWritable-06340 and -06341).
+    fragmentStoresAndAtomics) that Virga does not ask for (VUID-RuntimeSpirv-NonWritable-06340 and -06341);
+  - no chance is made of a sine's last digits: they are the device's, and of each form of a shader (shared/random.h has
+    numbers that are not).
 
 usage: graphics_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
 """
@@ -74,6 +76,14 @@ def derives_late(code):
     return []
 
 
+def hashes_by_sine(code):
+    numbers = {result: float(words[1]) for result, op, words in code
+               if op == "OpConstant" and re.match(r"-?[0-9.]+(e[-+]?[0-9]+)?$", words[1])}
+    sines = {result for result, op, words in code if op == "OpExtInst" and words[2] in ("Sin", "Cos")}
+    return ["multiplies a sine by %g" % numbers[number] for _, op, words in code if op == "OpFMul"
+            for sine, number in (words[1:], words[:0:-1]) if sine in sines and abs(numbers.get(number, 0)) > 1000]
+
+
 def member_decorations(code, name):
     """{struct: members with the decoration}"""
     found = {}
@@ -117,7 +127,8 @@ def main():
                 run([glslang] + GLSLANG + form + ["-I" + os.path.join(source, "shaders"), "-o", output,
                                                   os.path.join(source, "shaders", shader)])
                 code = instructions(run(["spirv-dis", "--raw-id", output]))
-                wrong += [" ".join([shader] + form) + ": " + text for text in derives_late(code) + writes(code)]
+                wrong += [" ".join([shader] + form) + ": " + text
+                          for text in derives_late(code) + writes(code) + hashes_by_sine(code)]
                 modules += 1
     for text in wrong:
         print("graphics_rules.py: " + text, file=sys.stderr)
