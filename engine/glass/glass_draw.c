@@ -231,6 +231,17 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
 
 /* ---- prepare */
 
+/* What draws filter has to be numbers all over: beside the last texel that a view writes lies one that it does not, and
+ * not a number times a weight of 0 is none. */
+static void record_zeros(virga_glass *glass, VkCommandBuffer cmd, const virga_image_2d *image, virga_image_state before,
+                         virga_image_state after)
+{
+    const VkClearColorValue zero = {.float32 = {0}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    virga_image_barrier(glass->context, cmd, image->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    glass->context->vk.CmdClearColorImage(cmd, image->image, after.layout, &zero, 1, &all);
+}
+
 /* Images get the layout that they keep. */
 static void record_first(virga_glass *glass, VkCommandBuffer cmd)
 {
@@ -243,10 +254,10 @@ static void record_first(virga_glass *glass, VkCommandBuffer cmd)
                                        VK_ACCESS_SHADER_READ_BIT};
     const virga_image_state copied = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                       VK_ACCESS_TRANSFER_WRITE_BIT};
-    virga_image_barrier(context, cmd, picture->relief->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
+    record_zeros(glass, cmd, picture->relief, before, copied);
+    record_zeros(glass, cmd, picture->copies, before, copied);
     virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->words->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
-    virga_image_barrier(context, cmd, picture->copies->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
     virga_image_barrier(context, cmd, picture->mist_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, copied);
     virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
     virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);

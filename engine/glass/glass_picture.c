@@ -311,11 +311,11 @@ static void retire_reliefs(virga_context *context, struct glass_picture *picture
 static virga_result create_images(virga_context *context, struct glass_picture *picture)
 {
     virga_result result = VIRGA_OK;
-    const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
+    const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT, cleared = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkExtent2D one = {1, 1}, map = {picture->max_columns, picture->max_rows},
                      copies = {VIRGA_GLASS_COPY_WIDTH, VIRGA_GLASS_COPY};
     TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
-                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           sampled | cleared | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.relief", &picture->relief));
     TRY(virga_image_create(context, VK_FORMAT_R32G32B32A32_SFLOAT, map, 1,
                            sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -323,7 +323,7 @@ static virga_result create_images(virga_context *context, struct glass_picture *
     TRY(virga_image_create(context, VK_FORMAT_R32_UINT, map, 1, sampled | VK_IMAGE_USAGE_STORAGE_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.words", &picture->words));
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, copies, 1,
-                           sampled | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                           sampled | cleared | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.copies", &picture->copies));
     TRY(virga_image_create(context, VK_FORMAT_R8_UNORM, picture->max_mist, 1, sampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "glass.mist_map", &picture->mist_map));

@@ -83,6 +83,7 @@
     X(CmdBeginRenderPass)           \
     X(CmdEndRenderPass)             \
     X(CmdCopyBufferToImage)         \
+    X(CmdClearColorImage)           \
     X(CmdCopyBuffer)                \
     X(CmdFillBuffer)
 

@@ -245,6 +245,37 @@ static void slopes_are_differences_of_heights(void **state)
     shot_close(&s);
 }
 
+/* A pane far away uses a part of its map. What a draw filters at the border lies beside texels that no view has written:
+ * they count with a weight of 0, which makes nothing of a number alone. */
+static void what_no_view_has_written_is_zero(void **state)
+{
+    (void)state;
+    shot s;
+    ball balls[PLACES];
+    VkCommandBuffer cmd;
+    setenv("LVP_POISON_MEMORY", "true", 1); /* software Vulkan's memory is not zero then */
+    open_small(&s);
+    shot_aim(&s, (const double[3]){0.048, 0.032, 1}, (const double[3]){0.048, 0.032, 0}, 30);
+    put_balls(&s, balls, PLACES);
+    shot_draw(&s, false);
+    const struct glass_picture *picture = s.glass->picture;
+    const VkBufferImageCopy all = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   .imageExtent = {picture->max_columns, picture->max_rows, 1}};
+    assert_true(s.columns < picture->max_columns && s.rows < picture->max_rows);
+    shot_begin(&s, &cmd);
+    vkCmdCopyImageToBuffer(cmd, picture->relief->image, VK_IMAGE_LAYOUT_GENERAL, s.download.buffer, 1, &all);
+    shot_memory(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                VK_ACCESS_HOST_READ_BIT);
+    shot_submit(&s);
+    host_buffer_invalidate(&s.gpu.device, &s.download);
+    const uint32_t *words = s.download.mapped;
+    for (uint32_t row = 0; row < picture->max_rows; row++)
+        for (uint32_t column = 0; column < picture->max_columns; column++)
+            for (uint32_t i = 0; i < 4 && (row >= s.rows || column >= s.columns); i++)
+                assert_int_equal(words[4 * (row * picture->max_columns + column) + i], 0);
+    shot_close(&s);
+}
+
 /* ---- film */
 
 /* Beads too small for a shape: two in a cell cover pi (w / c)^(2/3) (f^(2/3) + (1 - f)^(2/3)) of it, with the water w,
@@ -312,6 +343,7 @@ int main(void)
         cmocka_unit_test(fine_film_covers_what_its_beads_do),
         cmocka_unit_test(a_film_ends_on_the_glass_beside_drops),
         cmocka_unit_test(slopes_are_differences_of_heights),
+        cmocka_unit_test(what_no_view_has_written_is_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
