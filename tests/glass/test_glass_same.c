@@ -37,14 +37,16 @@ static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
     return (float *)all;
 }
 
-/* Drops in the paper's style, by one way of adding up and compressing. */
-static float *paper_frame(bool height_map, virga_glass_blend blend, uint32_t compress_steps)
+/* Drops in the paper's style, by one way of adding up, compressing and handing balls around. */
+static float *paper_frame(bool height_map, virga_glass_blend blend, uint32_t compress_steps, uint32_t lanes)
 {
     shot s;
     ball balls[PLACES];
     virga_glass_def def = shot_def();
     def.height_map = height_map;
     shot_open(&s, &def, WIDTH, HEIGHT, false);
+    if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
+        REQUIRE(glass_picture_take_lanes(s.glass, lanes) == VIRGA_OK);
     shot_face(&s, -1, 30);
     put_places(&s);
     put_balls(&s, balls, 20);
@@ -64,13 +66,28 @@ static void the_paper_shows_the_same_with_heights_and_without(void **state)
     (void)state;
     for (uint32_t i = 0; i < 4; i++) {
         const virga_glass_blend blend = i & 1 ? VIRGA_GLASS_BLEND_WEIGHTED : VIRGA_GLASS_BLEND_SUM;
-        float *with = paper_frame(true, blend, i & 2 ? 9 : 5), *without = paper_frame(false, blend, i & 2 ? 9 : 5);
+        float *with = paper_frame(true, blend, i & 2 ? 9 : 5, OWN_LANES),
+              *without = paper_frame(false, blend, i & 2 ? 9 : 5, OWN_LANES);
         REQUIRE(sum_of_alpha(with, 0, WIDTH) > 1000);
         if (memcmp(with, without, 16ull * WIDTH * HEIGHT))
             fail_msg("other bits with blend %d and %d steps", (int)blend, i & 2 ? 9 : 5);
         free(with);
         free(without);
     }
+}
+
+/* Without heights, and as GPUs do it. */
+static void the_paper_shows_the_same_however_balls_are_handed_around(void **state)
+{
+    (void)state;
+    float *own = paper_frame(false, VIRGA_GLASS_BLEND_SUM, 5, OWN_LANES);
+    for (uint32_t lanes = 0; lanes <= 64; lanes += 64) {
+        float *other = paper_frame(false, VIRGA_GLASS_BLEND_SUM, 5, lanes);
+        if (memcmp(own, other, 16ull * WIDTH * HEIGHT))
+            fail_msg("other bits with %u lanes", lanes);
+        free(other);
+    }
+    free(own);
 }
 
 /* A way to draw the same frame. */
@@ -126,6 +143,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_paper_shows_the_same_with_heights_and_without),
+        cmocka_unit_test(the_paper_shows_the_same_however_balls_are_handed_around),
         cmocka_unit_test(the_same_bits_come_out_every_time),
         cmocka_unit_test(the_same_bits_come_out_however_balls_are_handed_around),
         cmocka_unit_test(only_processors_shuffle),
