@@ -6,6 +6,8 @@ Every vertex and fragment shader that ships is compiled in all of its forms, and
     derived is undefined (GLSL 4.60, section 8.14.1);
   - every storage buffer and image is readonly: stores in these stages are features (vertexPipelineStoresAndAtomics,
     fragmentStoresAndAtomics) that Virga does not ask for (VUID-RuntimeSpirv-NonWritable-06340 and -06341);
+  - what a vertex shader hands on has room in 64 components, gl_Position among them: Vulkan promises no more
+    (maxVertexOutputComponents, maxFragmentInputComponents), and software Vulkan has more;
   - no chance is made of a sine's last digits: they are the device's, and of each form of a shader (shared/random.h has
     numbers that are not).
 
@@ -21,6 +23,7 @@ import tempfile
 GLSLANG = ["-V", "--quiet", "--target-env", "vulkan1.2"]
 FORMS = [[], ["-DMOTION"], ["-DREACTIVE"], ["-DMOTION", "-DREACTIVE"]]
 DISCARDS = ("OpKill", "OpTerminateInvocation", "OpDemoteToHelperInvocation")
+LOCATIONS = 64 // 4 - 1
 DERIVES = re.compile(r"^Op(DPdx|DPdy|Fwidth|Image\w*ImplicitLod|ImageQueryLod)")
 
 
@@ -114,6 +117,24 @@ def writes(code):
     return found
 
 
+def locations(code, vertex):
+    """What the shader's varyings need of them: up to the last that has any."""
+    types = {result: (op, words) for result, op, words in code if result and op.startswith("OpType")}
+    numbers = {result: int(words[1]) for result, op, words in code if op == "OpConstant" and words[1].isdigit()}
+    at = {words[0]: int(words[2]) for _, op, words in code if op == "OpDecorate" and words[1] == "Location"}
+    end = 0
+    for result, op, words in code:
+        if op == "OpVariable" and words[1] == ("Output" if vertex else "Input") and result in at:
+            kind, of = types[types[words[0]][1][1]]
+            end = max(end, at[result] + (numbers[of[1]] if kind == "OpTypeArray" else 1))
+    return end
+
+
+def wide(code, shader):
+    end = locations(code, shader.endswith(".vert"))
+    return ["has varyings in %d locations, of %d" % (end, LOCATIONS)] if end > LOCATIONS else []
+
+
 def main():
     source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
     if not shutil.which("spirv-dis"):
@@ -128,7 +149,7 @@ def main():
                                                   os.path.join(source, "shaders", shader)])
                 code = instructions(run(["spirv-dis", "--raw-id", output]))
                 wrong += [" ".join([shader] + form) + ": " + text
-                          for text in derives_late(code) + writes(code) + hashes_by_sine(code)]
+                          for text in derives_late(code) + writes(code) + hashes_by_sine(code) + wide(code, shader)]
                 modules += 1
     for text in wrong:
         print("graphics_rules.py: " + text, file=sys.stderr)
