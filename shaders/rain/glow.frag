@@ -75,6 +75,7 @@ void main()
     const float ends = stored_view_depth(buffer_depth(gl_FragCoord.xy)) * length(ray);
     const float from = atan(pass.nearest, pass.along), to = atan(pass.nearest, pass.along - ends);
     const bool all_around = spot.w < -1.0 && strength.w == 0.0;
-    const float bent = all_around ? bent_up_to(to) - bent_up_to(from) : lit(pass, direction, from, to);
+    // Not below nothing: where the ray ends near the camera both are nearly one, and a GPU's arc tangent is rough.
+    const float bent = all_around ? max(bent_up_to(to) - bent_up_to(from), 0.0) : lit(pass, direction, from, to);
     radiance = vec4(strength.rgb * (bent * fade * fade * shows() / pass.nearest), 0.0);
 }
