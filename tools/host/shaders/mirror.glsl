@@ -5,14 +5,17 @@
 layout(set = 0, binding = 7) uniform sampler2D mirror_picture;
 
 const int MIRROR_TAPS = 8;
+const int MIRROR_ROW = 5, MIRROR_STRIDE = 3; // of look i, 5 + 3 i modulo 8: all different, and as many left as right
+const float MIRROR_SMOOTH_TEXELS = 0.6;      // the looks' standard deviation where water is a perfect mirror
 
 // The mirrored picture at a place of the mirrored world, relative to the camera. Where its edge is passed, the last it
 // shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
-// a: 1 / distance.
-vec4 mirror_at(vec3 place, float level, out float trust)
+// a: 1 / distance. `off`: in texels.
+vec4 mirror_at(vec3 place, vec2 off, float level, out float trust)
 {
     const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
-    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter();
+    const vec2 texel = 2.0 / vec2(textureSize(mirror_picture, 0));
+    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter() + off * texel;
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
     return textureLod(mirror_picture, at * 0.5 + 0.5, level);
@@ -23,6 +26,20 @@ vec4 mirror_at(vec3 place, float level, out float trust)
 vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
 {
     return relative + vec3(r.x, -r.y, r.z) * way - vec3(0.0, 2.0 * rise, 0.0);
+}
+
+// Where in a normal distribution, in standard deviations of it, a share u of all lies below: near enough, by the
+// logistic distribution's.
+float mirror_quantile(float u) { return 0.56 * log(u / (1.0 - u)); }
+
+// Look i of MIRROR_TAPS at a normal distribution of two dimensions: one in each eighth of it along either (a Latin
+// square). They are alike for all pixels, as a picture of one sample has nothing that would average noise, and each is
+// as blurred as they lie apart; of pictures that are averaged each has its own places in the eighths.
+vec2 mirror_look(int i)
+{
+    const ivec2 eighth = ivec2((MIRROR_ROW + MIRROR_STRIDE * i) % MIRROR_TAPS, i);
+    const vec2 u = (vec2(eighth) + 0.5 + frame.screen.zw) / float(MIRROR_TAPS);
+    return vec2(mirror_quantile(clamp(u.x, 0.004, 0.996)), mirror_quantile(clamp(u.y, 0.004, 0.996)));
 }
 
 // The level of the picture for one look of MIRROR_TAPS. A share of 1 / MIRROR_TAPS of Beckmann's distribution of
@@ -57,18 +74,19 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
     for (int i = 0; i < 2 && near > 0.0; i++) {
         const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
-        way = clamp(1.0 / mirror_at(place, 0.0, trust).a - from, 0.05, way);
+        way = clamp(1.0 / mirror_at(place, vec2(0.0), 0.0, trust).a - from, 0.05, way);
     }
-    // Turned from pixel to pixel (interleaved gradient noise, Jimenez 2014) and from sub-frame to sub-frame.
-    const vec2 pixel = gl_FragCoord.xy + 37.0 * frame.screen.zw;
-    const float turn = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+    // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.
+    const vec2 along = dot(v.xz, v.xz) > 1e-6 ? normalize(v.xz) : vec2(0.0, 1.0), across = vec2(-along.y, along.x);
+    const float alpha = roughness * roughness;
+    // Its picture has two pixels to a texel: magnified, edges in it would be stairs.
+    const float smooth_texels = MIRROR_SMOOTH_TEXELS * sqrt(frame.sampling.x);
     vec4 sum = vec4(0.0);
     float whole = 0.0, mirrored = 0.0;
     for (int i = 0; i < MIRROR_TAPS; i++) {
-        const float u = (float(i) + 0.5) / float(MIRROR_TAPS), alpha = roughness * roughness;
-        const float spread = alpha * sqrt(-log(1.0 - u));
-        const float angle = turn + 2.3999632 * float(i);
-        const vec2 s = slope + spread * vec2(cos(angle), sin(angle));
+        const vec2 look = mirror_look(i);
+        const float u = 1.0 - exp(-0.5 * dot(look, look));
+        const vec2 s = slope + 0.70710678 * alpha * (look.x * across + look.y * along);
         const vec3 facet = normalize(vec3(-s.x, 1.0, -s.y));
         const float cosine = dot(facet, v), seen = max(cosine / facet.y, 0.0);
         const float c = 1.0 - max(cosine, 0.0), c2 = c * c, f = 0.0204 + (1.0 - 0.0204) * c2 * c2 * c;
@@ -77,7 +95,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
         if (near > 0.0 && seen > 0.0) {
             r = reflect(-v, facet);
             const float level = mirror_level(alpha, u, cosine, way, from);
-            const vec3 color = mirror_at(mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise), level, trust).rgb;
+            const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise);
+            const vec3 color = mirror_at(place, smooth_texels * look, level, trust).rgb;
             sum += seen * f * near * trust * vec4(color, 1.0);
         }
     }
