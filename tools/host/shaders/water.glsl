@@ -3,7 +3,8 @@
 // Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes
 // it glossier; from a tenth of a millimetre on water has a level surface of its own over it, with the reflectance of
 // water (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for
-// both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim.
+// both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim. So does what is
+// merely soaked: a street between houses has little of the sky, and wet asphalt is darker than dry.
 #include "shared/ground_map.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
@@ -58,7 +59,8 @@ Water water_at(vec3 relative, vec3 n)
     Water water;
     water.damp = level * max(0.85 * wet.spot, smoothstep(0.15, 0.8, wet.wet));
     water.film = level * smoothstep(0.01, 0.25, wet.depth_mm);
-    water.puddle = level * smoothstep(0.05, 0.4, wet.depth_mm);
+    // Full pores close over: the most that they shine is three quarters of what a film does.
+    water.puddle = level * max(smoothstep(0.05, 0.4, wet.depth_mm), 0.75 * smoothstep(0.3, 0.9, wet.wet));
     water.depth_mm = level * wet.depth_mm;
     float drawn;
     water.normal = water_normal(relative, pixel / max(inv_cell, 1e-6), drawn);
