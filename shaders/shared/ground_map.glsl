@@ -72,6 +72,31 @@ virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ive
     return found;
 }
 
+// ---- stones that stand out
+//
+// depth_mm is a cell's water over its area. Ground is rougher than that: the first of it fills pores between stones,
+// and a puddle's shore runs around each. A host that draws the stones' heights (a height map, noise: 4 to 20 mm wide,
+// and half a millimetre deep on asphalt) asks here which of them are under water. Heights count from their mean, in mm;
+// `rough_mm` (>= 0) is the standard deviation of all of them, taken to be spread by the logistic distribution, for
+// which both answers are closed forms. A few exponentials each, no texture is read.
+
+// How high (mm) the water stands over the stones' mean; below it (< 0) while only the lowest pores are full. Such a
+// level leaves depth_mm on the area: s ln(1 + e^(level / s)) with s = sqrt(3) / pi times rough_mm.
+float virga_ground_level_mm(float depth_mm, float rough_mm)
+{
+    const float s = 0.5513 * max(rough_mm, 1e-3);
+    return depth_mm + s * log(max(1.0 - exp(-depth_mm / s), 1e-6));
+}
+
+// [0; 1] How much of a place is under that level: what lies height_mm over the mean, give or take blur_mm (>= 0;
+// standard deviation), which is what height_mm leaves out: the heights that are too fine to be drawn in a pixel. All of
+// rough_mm at a height of 0 gives the mean over all stones, 1 - e^(-depth_mm / s), so a host may fade from one to the
+// other as pixels get wider than stones and the ground stays as wet.
+float virga_ground_under_water(float level_mm, float height_mm, float blur_mm)
+{
+    return 1.0 / (1.0 + exp(clamp((height_mm - level_mm) / (0.5513 * max(blur_mm, 1e-3)), -60.0, 60.0)));
+}
+
 // ---- beyond the window
 
 virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetness b, float t)

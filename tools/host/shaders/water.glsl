@@ -5,7 +5,12 @@
 // water (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for
 // both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim. So does what is
 // merely soaked: a street between houses has little of the sky, and wet asphalt is darker than dry.
+//
+// What water does not cover are stones (grain.glsl): their film follows them, and mirrors by their slopes. Around each
+// the water climbs a little, and what is shallower than a third of a millimetre does as they do.
 #include "shared/ground_map.glsl"
+
+#include "grain.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2D wet_map;
 layout(set = 0, binding = 5) uniform usampler2D spot_map;
@@ -21,6 +26,10 @@ struct Water {
     vec3 normal;     // of that surface
 };
 
+const float THIN_SLOPE2 = 0.0067;   // variance of the slopes of a film that follows the grains below, along an axis
+const float CLIMB_MM = 0.35;        // water that is shallower is no level
+const float CLIMB_BLUR_MM = 0.15;
+
 // Slope of the rings around the camera, faded out towards the end of their map, where only their variance is left.
 vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
 {
@@ -33,10 +42,13 @@ vec3 water_normal(vec3 relative, float pixel_m, out float drawn)
     return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
 
+// Of the surface; -1 if it is no ground.
+int ground_material() { return (int(surface.traits.w) / HOST_GROUND) - 1; }
+
 // What lies beyond the window, and on ground even beyond the map of that.
 virga_ground_wetness far_water(vec3 relative, float height_m)
 {
-    const int cells = int(frame.ground_far.w), material = (int(surface.traits.w) / HOST_GROUND) - 1;
+    const int cells = int(frame.ground_far.w), material = ground_material();
     virga_ground_wetness open = virga_ground_wetness(0.0, 0.0, 0.0, 0.0);
     if (material >= 0)
         open = virga_ground_open(far_map, cells, uint(material));
@@ -62,17 +74,27 @@ Water water_at(vec3 relative, vec3 n)
     // Full pores close over: the most that they shine is three quarters of what a film does.
     water.puddle = level * max(smoothstep(0.05, 0.4, wet.depth_mm), 0.75 * smoothstep(0.3, 0.9, wet.wet));
     water.depth_mm = level * wet.depth_mm;
+    const float cell_m = 1.0 / max(inv_cell, 1e-6), pixel_m = pixel * cell_m;
     float drawn;
-    water.normal = water_normal(relative, pixel / max(inv_cell, 1e-6), drawn);
+    water.normal = water_normal(relative, pixel_m, drawn);
     // Beckmann's alpha^2 is twice the variance of a slope: that of waves which are not drawn, and that within a pixel
     // of those which are, where they turn from one to the next (a pixel as a normal distribution of half of its side:
     // Kaplanyan et al. 2016, Filtering distributions of normals for shading antialiasing). Of pictures that
     // are averaged each has to make up for a part of the pixel only.
     const vec2 slope = water.normal.xz / water.normal.y, right = dFdx(slope), down = dFdy(slope);
     const float within = 0.25 * frame.sampling.x * (dot(right, right) + dot(down, down));
-    water.roughness = clamp(sqrt(sqrt(2.0 * (wet.slope2 * (1.0 - 0.7 * drawn) + within))), 0.03, 0.5);
-    // Thin water still follows the grains below.
-    water.roughness = max(water.roughness, 0.34 * (1.0 - smoothstep(0.1, 2.0, wet.depth_mm)));
+    const Grain grain =
+        grain_at(at, frame.ground_wrap.xy, int(frame.ground_wrap.z), cell_m, pixel_m * sqrt(frame.sampling.x),
+                 water.puddle > 0.0 ? ground_material() : -1);
+    const float waves2 = wet.slope2 * (1.0 - 0.7 * drawn) + within;
+    // Where stones or thin water give the slope, and where the waves do.
+    const float level_mm = virga_ground_level_mm(wet.depth_mm, grain.spread_mm) - CLIMB_MM;
+    const float still =
+        virga_ground_under_water(level_mm, grain.height_mm, length(vec2(grain.lost_mm, CLIMB_BLUR_MM)));
+    const vec2 mixed = mix(grain.slope, -slope, still);
+    water.normal = normalize(vec3(-mixed.x, 1.0, -mixed.y));
+    const float stones2 = THIN_SLOPE2 - min(grain.drawn_slope2, 0.9 * THIN_SLOPE2);
+    water.roughness = clamp(sqrt(sqrt(2.0 * mix(stones2, waves2, still))), 0.03, 0.5);
     return water;
 }
 
