@@ -85,13 +85,13 @@ Water water_at(vec3 relative, vec3 n)
     const float within = 0.25 * frame.sampling.x * (dot(right, right) + dot(down, down));
     const Grain grain =
         grain_at(at, frame.ground_wrap.xy, int(frame.ground_wrap.z), cell_m, pixel_m * sqrt(frame.sampling.x),
-                 water.puddle > 0.0 ? ground_material() : -1);
-    const float waves2 = wet.slope2 * (1.0 - 0.7 * drawn) + within;
+                 water.puddle > 0.0 ? ground_material() : -1, wet.depth_mm);
+    const float waves2 = wet.slope2 * (1.0 - 0.7 * drawn) + within + grain.stirred2;
     // Where stones or thin water give the slope, and where the waves do.
     const float level_mm = virga_ground_level_mm(wet.depth_mm, grain.spread_mm) - CLIMB_MM;
     const float still =
         virga_ground_under_water(level_mm, grain.height_mm, length(vec2(grain.lost_mm, CLIMB_BLUR_MM)));
-    const vec2 mixed = mix(grain.slope, -slope, still);
+    const vec2 mixed = mix(grain.slope, grain.stirred - slope, still);
     water.normal = normalize(vec3(-mixed.x, 1.0, -mixed.y));
     const float stones2 = THIN_SLOPE2 - min(grain.drawn_slope2, 0.9 * THIN_SLOPE2);
     water.roughness = clamp(sqrt(sqrt(2.0 * mix(stones2, waves2, still))), 0.03, 0.5);
