@@ -113,13 +113,15 @@ struct virga_sprite_gpu {
     float tail[2];
     float depth[2];      /* head, tail: in the buffer's terms */
     float distance[2];   /* head, tail: view depth (m) */
-    uint widths;         /* drawn (px): head, tail */
+    uint widths;         /* drawn (px): head, tail; (puff) in place of the tail's the sine of how far from above it is
+                          * seen */
     uint alpha_body;     /* coverage; length of the thing itself (px) */
     uint light[3];       /* radiance in the middle (rgb), then at the edge (rgb) */
     uint kind;           /* VIRGA_SPRITE_... */
     uint shares;         /* (pile) share of its length that is there all of the time; (puff) share of its way that
-                          * each of its columns is high. Then the number of these */
-    uint id;
+                          * each of those side by side is high. Then the number of columns plus 32 times that of
+                          * rows */
+    uint id;             /* (puff) its low ten bits, then the share of its life, of 1023 */
 };
 
 #define VIRGA_SPRITE_DROPLET 0

@@ -14,7 +14,8 @@ layout(scalar, set = 0, binding = 1) uniform View
 #define LEAST_COVERAGE (1.0 / 400.0)
 #define MOST_COVERAGE 0.5 // of what stands for many
 #define WIDE_PX 3.0       // from here on a sprite shows what is in it
-#define MOST_COLUMNS 16   // puffs beside each other in one sprite
+#define MOST_COLUMNS 16   // puffs beside each other in one sprite,
+#define MOST_ROWS 4       // and behind each other
 #define MESH_PX 4.0       // crowns that are at least as high on the picture are sheets
 
 #ifdef IN_FORMS

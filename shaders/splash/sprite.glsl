@@ -129,7 +129,7 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
-    sprite.id = splash.id;
+    sprite.id = (splash.id & 1023u) | uint(1023.0 * min(t, 1.0)) << 10;
     return sprite;
 }
 
@@ -150,24 +150,32 @@ struct Projected {
     vec4 head, tail;  // clip
     float width_px, way_px, body_px;
     float coverage;   // of its middle; 0: not to be seen
-    float columns;    // (puff) of how many beside each other; each has its own height
-    float spread_px;  // that they are wider than one
-    float one_share;  // of the way that one of them is high
+    float columns, rows; // (puff) of how many beside and behind each other
+    float spread_px;     // that they are wider than one
+    float one_share;     // of the way that one of them is high
+    float sine;          // of how far from above it is seen: its rim is so much less deep on the picture than wide
 };
 
-// Several puffs lie on an ellipse, that of a disc on the ground seen from the eye.
+// A puff reaches from the near side of its rim to the far one. Several lie on an ellipse, that of a disc on the ground
+// seen from the eye; some are twice as high as they are in the mean.
 void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
 {
     const float wide_px = pixels(2.0 * sprite.spread, nearest), each_px = max(1.5 * p.width_px, 2.0 * drawn);
+    const float rim_px = 0.5 * p.sine * p.body_px, high_px = p.way_px;
+    float below_px = rim_px, above_px = rim_px;
     p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MOST_COLUMNS));
-    if (p.columns < 2.0)
-        return;
-    const float deep_px = wide_px * abs(dot(normalize(sprite.tail), normalize(sprite.head - sprite.tail)));
-    const vec2 away = 0.5 * deep_px * up * 2.0 / vec2(view.viewport[2], view.viewport[3]);
-    p.head.xy += away * p.head.w;
-    p.tail.xy -= away * p.tail.w;
-    p.spread_px = wide_px;
-    p.one_share = p.way_px / (p.way_px + deep_px);
+    if (p.columns > 1.5) {
+        const float deep_px = wide_px * p.sine;
+        below_px += 0.5 * deep_px;
+        above_px += 0.5 * deep_px + high_px;
+        p.rows = min(sprite.weight / p.columns, deep_px / (1.5 * (high_px + 2.0 * rim_px + 1.0)));
+        p.rows = clamp(floor(p.rows), 1.0, float(MOST_ROWS));
+        p.spread_px = wide_px;
+    }
+    const vec2 pixel = 2.0 * up / vec2(view.viewport[2], view.viewport[3]);
+    p.head.xy += above_px * pixel * p.head.w;
+    p.tail.xy -= below_px * pixel * p.tail.w;
+    p.one_share = high_px / max(high_px + below_px + above_px, 1e-3);
 }
 
 Projected project_sprite(Sprite sprite)
@@ -180,7 +188,8 @@ Projected project_sprite(Sprite sprite)
         p.tail = project(to_mat(view.clip_from_rel), sprite.tail);
     p.coverage = 0.0;
     p.width_px = p.way_px = p.body_px = p.spread_px = 0.0;
-    p.columns = p.one_share = 1.0;
+    p.columns = p.rows = p.one_share = 1.0;
+    p.sine = 0.0;
     const float nearest = min(p.head.w, p.tail.w);
     if (sprite.weight <= 0.0 || nearest < NEAR_W)
         return p;
@@ -191,12 +200,7 @@ Projected project_sprite(Sprite sprite)
     p.body_px = pixels(sprite.body, nearest);
     if (sprite.kind == VIRGA_SPRITE_PUFF) {
         const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
-        // Seen from above it shows its width instead of its height.
-        if (p.way_px < 0.2 * p.width_px) {
-            p.way_px = 0.2 * p.width_px;
-            p.head.xy =
-                (p.tail.xy / p.tail.w + up * p.way_px * 2.0 / vec2(view.viewport[2], view.viewport[3])) * p.head.w;
-        }
+        p.sine = abs(dot(normalize(sprite.tail), normalize(sprite.head - sprite.tail)));
         p.body_px = max(p.width_px, drawn);
         spread_out(sprite, nearest, drawn, up, p);
     }
@@ -209,6 +213,7 @@ Projected project_sprite(Sprite sprite)
     const float mean_px =
         sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
     float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
+    const float high_px = max(p.way_px, 0.2 * p.width_px); // (puff) from above it covers its width for its height
     float shown = one;
     if (sprite.kind == VIRGA_SPRITE_DROPLET)
         shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
@@ -217,12 +222,14 @@ Projected project_sprite(Sprite sprite)
     else {
         // A blob is drawn a pixel higher and half a pixel wider than it is, see puff_cover.
         const float wide_px = max(p.width_px, drawn);
-        shown = one *= p.way_px / (p.way_px + 1.0) * wide_px / (wide_px + 0.5);
+        shown = one *= high_px / (high_px + 1.0) * wide_px / (wide_px + 0.5);
     }
-    const float many = sprite.weight / p.columns;
+    const float many = sprite.weight / (p.columns * p.rows);
     const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
     const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);
     p.coverage = min(all, max(look.gain, 1.0)) * fade * near_fade(0.5 * (sprite.head + sprite.tail));
+    if (sprite.kind == VIRGA_SPRITE_PUFF)
+        p.coverage *= (high_px + 1.0) / (p.way_px + 1.0);
     return p;
 }
 

@@ -13,7 +13,9 @@ layout(location = 0) noperspective out vec4 place; // px from the middle line; p
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
-layout(location = 4) flat out vec4 turn; // direction of its way on the picture; share; columns, and a fraction by lot
+// Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
+// above); share; columns, and a fraction by lot.
+layout(location = 4) flat out vec4 turn;
 
 void set_corner(uint vertex)
 {
@@ -32,7 +34,7 @@ void set_corner(uint vertex)
     const bool at_head = (vertex & 2u) != 0u;
     // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
-    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
+    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.75 : widest;
     const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
     const vec2 corner =
@@ -47,7 +49,11 @@ void set_corner(uint vertex)
     rim_kind = vec4(light[1].y, light[2], float(kind));
     shape = vec4(0.5 * widths, way_px, alpha_body.y);
     const vec2 shares = unpackHalf2x16(rest.z);
-    turn = vec4(along, shares.x, shares.y + float(rest.w & 1023u) / 1024.0);
+    const float lot = float(rest.w & 1023u) / 1024.0, life = float(rest.w >> 10 & 1023u) / 1024.0;
+    const float rows = floor(shares.y / 32.0);
+    turn = vec4(along, shares.x, shares.y - 32.0 * rows + lot);
+    if (kind == VIRGA_SPRITE_PUFF)
+        turn.xy = vec2(rows + life, widths.y);
     // The same w at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

@@ -45,32 +45,51 @@ float pile_cover()
     return clamp(pile_half_width() + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends;
 }
 
-// A crown from afar: it flares, its sides are looked along and so are thicker, its rim is torn. It covers half of its
-// rectangle.
-float crown_cover(vec2 at, float half_wide, float high, float chance)
+// A crown from afar, of 1 in all: its wall stands on a circle and reaches to a wider rim, both of which are ellipses on
+// the picture, so there is a near wall and behind it a far one; seen level they are one. Its sides are looked along and
+// so are thicker, its rim is torn. Small ones are but soft flecks.
+float crown_cover(vec2 at, float half_wide, float high, float sine, float chance)
 {
-    const float v = clamp((at.y + 0.5) / (high + 1.0), 0.0, 1.0);
-    const float flare = mix(0.3, 0.45, clamp(half_wide - 0.5, 0.0, 1.0)); // a thin one is to miss no pixel
-    const float half_width = (half_wide + 0.25) * (1.0 - flare + flare * v), x = min(abs(at.x) / half_width, 1.0);
-    const float torn = half_wide > 1.5 ? 0.3 * sin(7.0 * at.x / half_width + 40.0 * chance) : 0.0;
-    const float across = (1.0 - smoothstep(0.6, 1.0, x)) * (0.4 + x * x);
-    const float up = smoothstep(0.0, 0.2, v) * (1.0 - smoothstep(0.45 + torn, 1.0, v));
-    return 1.7 / (1.0 - 0.5 * flare) * across * up;
+    const float x = min(abs(at.x) / half_wide, 1.0), xx = x * x, depth = sine * half_wide * sqrt(1.0 - xx);
+    const float near = abs(0.5 * high - 0.15 * depth) + 0.75, far = 0.5 * high + 0.15 * depth + 0.75;
+    const float y = at.y - 0.5 * high, to_near = (y + 0.85 * depth) / near, to_far = (y - 0.85 * depth) / far;
+    const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0);
+    const float torn = 0.6 * hollow * sin(7.0 * at.x / half_wide + 40.0 * chance);
+    const float walls = max(1.0 - to_near * to_near, 0.0) * (1.0 - torn) / near +
+                        max(1.0 - to_far * to_far, 0.0) * (1.0 + torn) / far;
+    const float across = mix(1.5 - 1.5 * xx, (1.0 - xx * xx * xx) * (0.82 + 1.36 * xx), hollow);
+    return 0.1875 * walls * across / half_wide;
 }
 
-// Several stand on an ellipse, each in a column of its own and as far up as chance has it.
+// Several stand on an ellipse, each in a place of its own. They are of larger and smaller drops, and of an earlier and
+// a later time; what one covers more than the mean, that at the opposite place covers less. They cover half of their
+// rectangle.
 float puff_cover()
 {
-    const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns;
+    const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns, rows = floor(turn.x);
     const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
+    const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, aside = from_middle * from_middle;
+    const float room = rows > 1.5 ? sqrt(1.0 - 0.55 * aside) : 1.0, row_px = shape.z * room / rows;
+    const float lowest = 0.5 * shape.z * (1.0 - room);
+    const float row = clamp(floor((place.y - lowest) / row_px), 0.0, rows - 1.0);
+
+    const float number = row * columns + column, opposite = columns * rows - 1.0 - number;
     // Of whole numbers, so that all forms of the shader have the same: a large angle's sine depends on what is fused.
-    const float chance = virga_unit(virga_hash1(uint(fract(turn.w) * 1024.0) << 4 | uint(column)));
-    const float half_wide = min(0.5 * shape.w, shape.x), high = turn.z * shape.z;
-    const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, room = shape.z - high;
-    const float foot = room * (0.5 + (chance - 0.5) * sqrt(1.0 - from_middle * from_middle));
-    const float beside = max(0.5 * column_px - half_wide - 0.25, 0.0) * (2.0 * fract(chance * 64.0) - 1.0);
-    const float x = place.x + shape.x - (column + 0.5) * column_px - (columns > 1.5 ? beside : 0.0);
-    return crown_cover(vec2(x, place.y - foot), half_wide, high, chance);
+    const uint pair = virga_hash1(uint(1024.0 * fract(turn.w)) << 6 | uint(min(number, opposite)));
+    const float more = sign(opposite - number), several = columns > 1.5 ? 1.0 : 0.0;
+    const float covers = 1.0 + 0.9 * more * unpackUnorm4x8(pair).x, size = 0.35 + 0.65 * covers;
+    const vec4 chance = unpackUnorm4x8(more < 0.0 ? pair * 0x9e3779b1u : pair);
+    const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(turn.x) - 1.0;
+    const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = turn.z * shape.z;
+    const float half_wide = min(one_px * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
+    const float high = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
+
+    const float depth = turn.y * half_wide, up = max(row_px - high - 2.0 * depth, 0.0);
+    const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : sqrt(1.0 - aside))) + depth;
+    const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
+    const vec2 at = vec2(place.x + shape.x - (column + 0.5) * column_px - beside,
+                         place.y - lowest - row * row_px - foot);
+    return covers * one_px * (one_high + 1.0) * crown_cover(at, half_wide, high, turn.y, chance.x);
 }
 
 float sprite_cover()

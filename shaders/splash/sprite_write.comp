@@ -49,10 +49,12 @@ void main()
     const Sprite sprite = sprite_of(slot, 0.0);
     const Projected p = project_sprite(sprite);
     const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
+    const bool puff = sprite.kind == VIRGA_SPRITE_PUFF;
+    const float tail_px = max(pixels(sprite.widths.y, p.tail.w), view.min_width_px);
     const uint widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px) + p.spread_px,
-                               max(pixels(sprite.widths.y, p.tail.w), view.min_width_px) + p.spread_px);
-    const uint shares = sprite.kind == VIRGA_SPRITE_PUFF ? halves(p.one_share, p.columns) : halves(sprite.solid, 1.0);
-    const float torn = sprite.kind == VIRGA_SPRITE_PUFF ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
+                               puff ? p.sine : tail_px);
+    const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
+    const float torn = puff ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
     const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
     sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
     sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
