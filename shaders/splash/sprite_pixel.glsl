@@ -57,7 +57,7 @@ float crown_cover(vec2 at, float half_wide, float high, float sine, float chance
     const float torn = 0.6 * hollow * sin(7.0 * at.x / half_wide + 40.0 * chance);
     const float walls = max(1.0 - to_near * to_near, 0.0) * (1.0 - torn) / near +
                         max(1.0 - to_far * to_far, 0.0) * (1.0 + torn) / far;
-    const float across = mix(1.5 - 1.5 * xx, (1.0 - xx * xx * xx) * (0.82 + 1.36 * xx), hollow);
+    const float across = mix(1.875 * (1.0 - xx) * (1.0 - xx), (1.0 - xx * xx * xx) * (0.82 + 1.36 * xx), hollow);
     return 0.1875 * walls * across / half_wide;
 }
 
@@ -82,9 +82,9 @@ float puff_cover()
     const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(turn.x) - 1.0;
     const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = turn.z * shape.z;
     const float half_wide = min(one_px * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
-    const float high = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
-
-    const float depth = turn.y * half_wide, up = max(row_px - high - 2.0 * depth, 0.0);
+    const float depth = turn.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
+    const float high = columns > 1.5 ? min(tall, max(row_px - 2.0 * depth - 1.5, 0.3 * row_px)) : one_high;
+    const float up = max(row_px - high - 2.0 * depth, 0.0);
     const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : sqrt(1.0 - aside))) + depth;
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
     const vec2 at = vec2(place.x + shape.x - (column + 0.5) * column_px - beside,
