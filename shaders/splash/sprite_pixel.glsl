@@ -28,13 +28,19 @@ float droplet_cover()
     return min(passed, 1.0);
 }
 
-// It narrows from its foot like a flame, the more so the wider its foot, and its tip is there for a part of the time.
+// A pile narrows from its foot like a flame, a cone on its wide foot like a hyperbola: it leaves the water level.
+bool is_cone() { return shape.y > 4.0 * shape.x; }
+
+#define CONE_FOOT 0.08 // of its height
+
 float pile_half_width()
 {
-    const float v = 1.0 - clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0);
-    return mix(shape.x, shape.y, v * v * (shape.y > 4.0 * shape.x ? v * v : 1.0));
+    const float up = clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0), v = 1.0 - up;
+    const float cone = CONE_FOOT / (1.0 + CONE_FOOT), level = CONE_FOOT / (up + CONE_FOOT);
+    return mix(shape.x, shape.y, is_cone() ? (level - cone) / (1.0 - cone) : v * v);
 }
 
+// Its tip is there for a part of the time. What of a cone's foot is nearly level shows what the water beside it shows.
 float pile_cover()
 {
     const float v = clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0), solid = turn.z;
@@ -42,7 +48,9 @@ float pile_cover()
     // Its foot flows out into the water that it stands on.
     const float foot = max(0.8 * shape.y, 1.0);
     const float ends = smoothstep(0.0, 1.0, (place.y + 0.5) / foot) * clamp(shape.z + 0.5 - place.y, 0.0, 1.0);
-    return clamp(pile_half_width() + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends;
+    const float half_width = pile_half_width(), level = half_width / max(shape.x, 1e-3);
+    const float flat_foot = is_cone() ? 1.0 - smoothstep(1.5, 6.0, level) : 1.0;
+    return clamp(half_width + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends * flat_foot;
 }
 
 // A crown from afar, of 1 in all: its wall stands on a circle and reaches to a wider rim, both of which are ellipses on

@@ -9,6 +9,7 @@
 layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 #include "gpu/view.glsl"
 #include "gpu/light.glsl"
+#include "torn.glsl"
 #include "sprite_pixel.glsl"
 #include "through.glsl"
 
@@ -22,15 +23,19 @@ void main()
     const bool pile = rim_kind.w > 0.5;
     const float half_width = pile ? pile_half_width() : shape.x;
     const float u = clamp(place.x / max(half_width, 0.25), -1.0, 1.0);
-    // Along its way a droplet shows its own height at the ends; between them, where it was all of the time, its middle.
+    // A droplet that went its own width and more while the shutter was open shows no picture, nor a rim: at each place
+    // all of it passed by.
+    const float smeared = pile ? 0.0 : clamp(0.5 * shape.z / max(half_width, 0.25), 0.0, 1.0);
     const float beyond = pile ? 0.0 : place.y < 0.0 ? place.y : max(place.y - shape.z, 0.0);
-    const float v = clamp(beyond / max(half_width, 0.25), -1.0, 1.0) * (shape.z > 2.0 * half_width ? 0.0 : 1.0);
+    const float v = clamp(beyond / max(half_width, 0.25), -1.0, 1.0) * (1.0 - smeared);
     const vec2 along = turn.xy, side = vec2(-along.y, along.x), screen = side * u + along * v;
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec3 across = normalize(to_vec(view.right)) * screen.x - normalize(to_vec(view.up)) * -screen.y;
-    const vec3 lamps_in = max(centre_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
-    const vec3 mean = mix(centre_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u);
-    const float show = clamp((2.0 * half_width - WIDE_PX) / WIDE_PX, 0.0, 1.0);
+    const vec3 unlit = torn_light(environment(d, vec2(0.97, 0.90)), pile ? TORN_PILE : TORN_DROPLET);
+    const vec3 lamps_in = max(centre_alpha.rgb - unlit, vec3(0.0));
+    const vec3 even = mix(centre_alpha.rgb, around_of(d), 0.6);
+    const vec3 mean = mix(mix(centre_alpha.rgb, rim_kind.rgb, 0.25 + 0.5 * u * u), even, smeared);
+    const float show = clamp((2.0 * half_width - WIDE_PX) / WIDE_PX, 0.0, 1.0) * (1.0 - 0.85 * smeared);
     const vec3 light = mix(mean, through_ball(d, across) + lamps_in, show);
     radiance = vec4(light * alpha, alpha);
     WRITE_MOTION(motion, alpha);

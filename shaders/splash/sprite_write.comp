@@ -6,6 +6,7 @@
 #define IN_FORMS
 #include "sprite.glsl"
 #include "gpu/light.glsl"
+#include "torn.glsl"
 #include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
 #include "view_lists.glsl"
@@ -16,16 +17,14 @@ const bool FULL = (FORM & uint(VIRGA_SPLASH_FORM_FULL)) != 0u;
 layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]; };
 
 // A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines
-// of those). Sheets and torn water have faces of all directions, half of which show the sky: they come near to what is
-// white and lies level, whose lobe is the cosine (moments 2/3 and 1/4).
+// of those).
 uvec3 light_of(vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
-    const vec3 glitter = FULL ? lamps(middle, d) : vec3(0.0), sky = environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25));
-    const vec3 centre = mix(environment(d, vec2(0.97, 0.90)), sky, torn) + glitter;
-    const vec3 rim =
-        mix(environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)), sky, torn) +
-        0.6 * glitter;
+    const vec2 at_rim = vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3);
+    const vec3 glitter = FULL ? lamps(middle, d) : vec3(0.0);
+    const vec3 centre = torn_light(environment(d, vec2(0.97, 0.90)), torn) + glitter;
+    const vec3 rim = torn_light(environment(d, at_rim), torn) + 0.6 * glitter;
     return uvec3(halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
@@ -54,7 +53,7 @@ void main()
     const uint widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px) + p.spread_px,
                                puff ? p.sine : tail_px);
     const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
-    const float torn = puff ? 0.8 : sprite.kind == VIRGA_SPRITE_PILE ? 0.5 : 0.25;
+    const float torn = puff ? TORN_PUFF : sprite.kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
     const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
     sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
     sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));

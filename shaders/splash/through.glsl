@@ -2,11 +2,22 @@
 // environment.
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
+// The environment, which what stands and lies around hides below, at, and somewhat above the horizon: there the picture
+// just behind is what is known of it.
+vec3 around_of(vec3 direction)
+{
+    const vec3 open = environment(direction, vec2(1.0));
+    if (view.color_given == 0u)
+        return open;
+    const vec3 behind = textureLod(scene_color, gl_FragCoord.xy / vec2(textureSize(scene_color, 0)), 0.0).rgb;
+    return mix(min(behind, open), open, smoothstep(-0.2, 0.4, direction.y));
+}
+
 // What lies in a direction. The scene is taken to be far away: it is looked up where a ray from the camera itself in
-// that direction meets the picture; towards the picture's edges the environment takes over.
+// that direction meets the picture; towards the picture's edges what is around takes over.
 vec3 seen(vec3 direction)
 {
-    const vec3 around = environment(direction, vec2(1.0));
+    const vec3 around = around_of(direction);
     if (view.color_given == 0u)
         return around;
     const vec4 clip = to_mat(view.clip_from_rel) * vec4(direction, 0.0);
@@ -29,5 +40,5 @@ vec3 through_ball(vec3 d, vec3 side)
     const float bend = 2.0 * (asin(r) - asin(r / 1.333)), reflected = 3.14159265 - 2.0 * asin(r);
     const vec3 out_of = r > 1e-3 ? side / r : vec3(0.0);
     return mix(seen(d * cos(bend) - out_of * sin(bend)),
-               environment(d * cos(reflected) + out_of * sin(reflected), vec2(1.0)), fresnel(sqrt(1.0 - r * r)));
+               around_of(d * cos(reflected) + out_of * sin(reflected)), fresnel(sqrt(1.0 - r * r)));
 }

@@ -1,0 +1,10 @@
+// torn.glsl - the light of water that is torn: its faces have all directions, half of which show the sky. That comes
+// near to what is white and lies level, whose lobe is the cosine (moments 2/3 and 1/4).
+#define TORN_PUFF 0.8
+#define TORN_PILE 0.5
+#define TORN_DROPLET 0.25
+
+vec3 torn_light(vec3 whole, float torn)
+{
+    return mix(whole, environment(vec3(0.0, 1.0, 0.0), vec2(0.667, 0.25)), torn);
+}
