@@ -8,11 +8,15 @@
 #include "state.glsl"
 #include "look.glsl"
 #include "compact.glsl"
+#include "crown_rim.glsl"
 #include "gpu/compact_buffers.glsl"
 
 layout(location = 0) out vec3 position; // relative to the camera
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 sheet;    // up its height [0; 1]; share of time that it is there; coverage; view depth
+layout(location = 4) out vec4 rim_at;   // angles of the fingers' wave and of the slow one; fingers; height (m), disk: 0
+layout(location = 5) out vec3 upward;   // along the sheet
+layout(location = 6) out vec2 size;     // m: the rim's radius; how thick the rim is
 
 #ifdef MOTION
 layout(location = 3) out vec3 before; // in the previous frame's clip coordinates: x, y, w
@@ -52,13 +56,10 @@ vec3 sheet_point(Shape s, float angle, float up)
         const float wobble = 1.0 + 0.06 * sin(3.0 * angle + s.turn) + 0.04 * sin(5.0 * angle + 2.3 * s.turn);
         return outward * (s.crown.radius * wobble * up) + s.crown.normal * (s.height * (1.0 - up * up));
     }
-    // Fingers are drawn out of the rim; below it the sheet is even.
-    const float wave = 0.5 + 0.5 * cos(s.fingers * angle + s.turn),
-                uneven = 0.5 + 0.5 * sin(2.0 * angle + 1.7 * s.turn);
-    const float rim = up * up * (0.4 * wave * wave + 0.2 * uneven);
-    const float radius = s.crown.radius * (0.72 + 0.28 * up * up + 0.08 * rim);
+    // As high everywhere as its highest finger: the rest is cut out of it where it is drawn.
+    const float radius = s.crown.radius * (0.72 + 0.3 * up * up);
     const vec3 leaned = vec3(s.crown.lean.x, 0.0, s.crown.lean.y) * (0.004 * up * up);
-    return outward * radius + s.crown.normal * (s.height * (0.78 * up + rim)) + leaned;
+    return outward * radius + s.crown.normal * (s.height * CROWN_REACH * up) + leaned;
 }
 
 void main()
@@ -81,8 +82,9 @@ void main()
     const float up = float(vertex & 15u) / float(VIRGA_CROWN_ROWS);
     const vec3 p = sheet_point(s, angle, up);
     const vec3 around = sheet_point(s, angle + 0.05, up) - sheet_point(s, angle - 0.05, up);
-    const vec3 upward = sheet_point(s, angle, up + 0.05) - sheet_point(s, angle, up - 0.05);
-    normal = cross(around, upward);
+    const vec3 rise = sheet_point(s, angle, up + 0.05) - sheet_point(s, angle, up - 0.05);
+    normal = cross(around, rise);
+    upward = dot(rise, rise) > 0.0 ? normalize(rise) : now.normal;
     normal = dot(normal, normal) > 0.0 ? normalize(normal) : now.normal;
     position = now.centre + p;
 #ifdef MOTION
@@ -92,6 +94,8 @@ void main()
     // The upper part is there for the share of time that the sheet is as high.
     const float low = s.low / max(s.height, 1e-6);
     const float there = disk || low >= 1.0 ? 1.0 : clamp((1.0 - up) / (1.0 - low) + 0.25, 0.0, 1.0);
+    rim_at = vec4(s.fingers * angle + s.turn, 2.0 * angle + 1.7 * s.turn, s.fingers, disk ? 0.0 : s.height);
+    size = vec2(max(s.crown.radius, 1e-5), CROWN_BEAD * now.diameter);
     const float fade = disk ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
     gl_Position = project(to_mat(view.clip_from_rel), position);
     const bool seen = s.height > 0.0;
