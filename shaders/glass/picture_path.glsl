@@ -1,7 +1,8 @@
 // picture_path.glsl - rays from the eye through pane and water: where they come from.
 
 #define WATER    1.333
-#define INSIDE_M 0.01 // what is nearer to the pane is its own: a frame, a blade
+#define OWN_M    0.001 // what is nearer to the pane lies in it: a frame
+#define EDGE_STEPS 8  // halvings of the way to an edge
 
 // A ray that has passed, or been thrown back.
 struct Path {
@@ -13,7 +14,8 @@ struct Path {
     float lost;     // (total) how far it is from passing: 0 nearly, 1 at all
     vec3 from;      // place that it leaves the pane at, relative to the camera
     bool ahead;     // before the camera
-    vec2 pixel;     // of the picture, that it meets
+    bool hidden;    // what it meets is hidden on the picture, by what lies on the eye's side of the pane
+    vec2 pixel;     // of the picture, that it meets; (hidden) that is shown instead
     float pixels;   // of the picture, that one of ours shows
 };
 
@@ -78,24 +80,57 @@ vec3 glass_shift(vec3 d, vec3 flat_normal)
     return look.thickness_m * (in_glass / max(dot(in_glass, n), 0.1) - d / max(dot(d, n), 0.1));
 }
 
-// Whether what the picture has at a pixel lies on the eye's side of the pane, taken as flat: pillars, a dashboard, who
-// sits there. A ray that has passed the pane can not meet them; the picture has nothing of what they hide.
-bool is_inside(vec2 pixel, vec3 d)
+// What lies on the eye's side of the pane, taken as flat, or in it: pillars, a dashboard, the pane's frame, who sits
+// there. A ray that has passed the pane can not meet them.
+struct Inside {
+    vec3 facing; // the way out through the pane, along the picture's right, its up and the camera's axis
+    float reach; // m along it from the eye
+};
+
+Inside inside_of_pane(vec3 d)
+{
+    const vec3 normal = cross(along_u, along_v), out_of = normal * sign(dot(d, normal));
+    return Inside(vec3(dot(to_vec(view.right), out_of), dot(to_vec(view.up), out_of), dot(to_vec(view.ahead), out_of)),
+                  dot(position, out_of) + OWN_M);
+}
+
+// Whether that is what the picture has at a pixel.
+bool is_inside(Inside inside, vec2 pixel)
 {
     const vec2 at = clamp(pixel, view_box.xy, view_box.xy + view_box.zw - 1.0);
     const float stored = buffer_depth(at);
-    if (stored == view.far_depth)
-        return false;
-    const vec3 flat_normal = cross(along_u, along_v);
-    const float beyond = dot(pixel_ray(at) * view_depth(stored) - position, flat_normal);
-    return beyond * sign(dot(d, flat_normal)) < -INSIDE_M;
+    const vec2 ndc = (at - view_box.xy) / view_box.zw * 2.0 - 1.0;
+    return stored != view.far_depth && view_depth(stored) * dot(inside.facing, vec3(ndc, 1.0)) < inside.reach;
+}
+
+// The picture has nothing of what lies behind that. What is beside it is shown there: on the way from this pixel, which
+// shows what is beyond the pane, to that where the ray would be, it is mirrored at the edge.
+void show_beside(inout Path path, Inside inside)
+{
+    const vec2 here = gl_FragCoord.xy, way = nearest_in(path.pixel) - here;
+    float open = 0.0, closed = 1.0;
+    for (int i = 0; i < EDGE_STEPS; i++) {
+        const float middle = 0.5 * (open + closed);
+        const bool hidden = is_inside(inside, here + middle * way);
+        open = hidden ? open : middle;
+        closed = hidden ? middle : closed;
+    }
+    const float far = length(way), edge = open * far, beyond = far - edge;
+    // Not so wide, nor so near to the edge, that anything of what is inside comes in: a copy's texels reach half as far
+    // again.
+    const float most = max(min(MIRRORED * view_box.w, edge), 1e-3), back = most * beyond / (most + beyond);
+    path.pixels = min(max(path.pixels, 0.5 * back), edge / 1.5);
+    path.pixel = here + way * (max(edge - max(back, 1.5 * path.pixels), 0.0) / max(far, 1e-3));
 }
 
 void find_pixel(inout Path path, vec3 d, float distance)
 {
     const vec3 place_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
-    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel) &&
-                 !is_inside(path.pixel, d);
+    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
+    const Inside inside = inside_of_pane(d);
+    path.hidden = path.ahead && is_inside(inside, nearest_in(path.pixel));
+    if (path.hidden)
+        show_beside(path, inside);
 }
 
 // On a surface that is not glass: the place on it that is seen through water so high, displaced along the surface.
@@ -133,11 +168,14 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     Path path;
     path.normal = normalize(flat_normal - water.slope.x * along_u - water.slope.y * along_v);
     path.from = position;
+    path.hidden = false;
+    path.pixels = 1.0;
     if (opaque) {
         find_under(path, d, flat_normal, water.height);
-        path.pixels = 1.0;
         return path;
     }
+    // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
+    path.pixels += (WATER - 1.0) * water.bend * pixel_m / gain_angle.y;
     if (HAS_DEPTH)
         path.from += glass_shift(d, flat_normal);
     pass_through(path, d, flat_normal);
@@ -145,7 +183,5 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
         find_pixel(path, d, scene_distance(d));
     else
         path.ahead = on_picture(vec4(path.out_of, 0.0), path.pixel);
-    // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
-    path.pixels = 1.0 + (WATER - 1.0) * water.bend * pixel_m / gain_angle.y;
     return path;
 }

@@ -19,6 +19,8 @@ vec3 plate_at(vec2 pixel, float pixels)
 }
 
 #ifndef PAPER
+#define MIRRORED 0.2 // of the picture, along its borders: what is shown beyond them
+
 // Where a place relative to the camera (w = 1), or a direction (w = 0), is on the picture; false: not before the
 // camera.
 bool on_picture(vec4 where, out vec2 pixel)
@@ -30,17 +32,22 @@ bool on_picture(vec4 where, out vec2 pixel)
     return clip.z > 1e-5;
 }
 
-// What lies there: the picture, and smoothly around its edges the environment.
+// The place itself, or beyond the picture's borders one within them: mirrored, and drawn together towards the border.
+vec2 nearest_in(vec2 pixel)
+{
+    const vec2 uv = (pixel - view_box.xy) / view_box.zw, within = clamp(uv, 0.0, 1.0), beyond = uv - within;
+    return view_box.xy + (within - MIRRORED * beyond / (MIRRORED + abs(beyond))) * view_box.zw;
+}
+
+// What lies there: the picture; beyond its borders what is within them, the wider spread the farther out; and from half
+// a picture beyond them on, more and more, the environment.
 vec3 seen(bool ahead, vec2 pixel, vec3 direction, float pixels)
 {
     const vec3 around = environment(direction, vec2(1.0));
     if (tint_given.w == 0.0 || !ahead)
         return around;
-    const vec2 way = abs(pixel - gl_FragCoord.xy) / view_box.zw;
-    const vec2 ndc = (pixel - view_box.xy) / view_box.zw * 2.0 - 1.0;
-    // The wider a ray is bent the wider the band: one that is not bent shows the picture up to its edge.
-    const float band = clamp(max(way.x, way.y), 1e-3, 0.15);
-    const float inside = smoothstep(0.0, 1.0, (1.0 - max(abs(ndc.x), abs(ndc.y))) / band);
-    return inside > 0.0 ? mix(around, plate_at(pixel, pixels), inside) : around;
+    const vec2 beyond = max(abs((pixel - view_box.xy) / view_box.zw - 0.5) - 0.5, vec2(0.0));
+    const float wide = max(pixels, 0.5 * length(beyond * view_box.zw));
+    return mix(plate_at(nearest_in(pixel), wide), around, smoothstep(0.5, 1.5, length(beyond)));
 }
 #endif

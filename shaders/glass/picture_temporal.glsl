@@ -73,7 +73,7 @@ vec2 shown_before(Path path, vec3 d)
 bool moves_inside(Path path, Water water)
 {
     const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
-    return !opaque && path.ahead && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
+    return !opaque && path.ahead && !path.hidden && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
 }
 #endif
 

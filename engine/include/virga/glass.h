@@ -162,7 +162,12 @@ typedef enum virga_glass_blend {
 typedef enum virga_glass_style {
     VIRGA_GLASS_STYLE_PAPER = 0,    /* the plate displaced by the normal's x and y, mirrored at its borders, from a copy
                                      * of 64 x 64 texels (Goto et al., section 5.4) */
-    VIRGA_GLASS_STYLE_PHYSICAL = 1, /* Snell through glass and water, Fresnel, the environment beyond the picture */
+    VIRGA_GLASS_STYLE_PHYSICAL = 1, /* Snell through glass and water, Fresnel. Beyond the picture's borders what is
+                                     * within them, mirrored and drawn together to a fifth of the picture, from the
+                                     * smaller copies the farther out; from half a picture beyond on more and more the
+                                     * environment, from one and a half on it alone. Where the picture has what lies on
+                                     * the eye's side of the pane or in it (a frame, pillars; view.depth tells), what
+                                     * is beside that */
 } virga_glass_style;
 
 /* What drops sit on. */
@@ -350,7 +355,7 @@ VIRGA_API virga_result virga_glass_draw(virga_glass *glass, VkCommandBuffer cmd,
 
 /* The same, but draws where drops have the plate looked up: how far from a pixel, in pixels, as red (x, to the right)
  * and green (y, down), with the coverage as blue and alpha; not blended. For a layer that a compositor bends another
- * plate with. */
+ * plate with. Places beyond the picture's borders are told as they are, for a plate that is larger. */
 VIRGA_API virga_result virga_glass_draw_refraction(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target);
 
 /* The height map of the newest prepare of a pane that was made with virga_glass_def.height_map, else all zero, in
