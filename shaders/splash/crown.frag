@@ -55,7 +55,7 @@ void main()
     const bool disk = rim_at.w <= 0.0;
     const float bead_m = max(size.y, 1.2 * length(position) * view.pixel_angle);
     const float out_of_bead = disk ? 0.0 : clamp(1.0 - ends.below / bead_m, 0.0, 1.0);
-    const float cut = disk ? 1.0 : clamp(ends.below / max(fwidth(ends.below), 1e-9) + 0.5, 0.0, 1.0);
+    const float a_pixel = max(fwidth(ends.below), 1e-9), cut = disk ? 1.0 : clamp(ends.below / a_pixel + 0.5, 0.0, 1.0);
     // Its face is as round as a rod's that the sheet runs into.
     const float across = (1.7 * out_of_bead - 0.7) * smoothstep(0.0, 0.3, out_of_bead);
     n = n * sqrt(1.0 - across * across) + ends.outward * across;
