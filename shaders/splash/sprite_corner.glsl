@@ -34,7 +34,7 @@ void set_corner(uint vertex)
     const bool at_head = (vertex & 2u) != 0u;
     // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
-    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.75 : widest;
+    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
     const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
     const float across = (vertex & 1u) == 0u ? -own : own;
     const vec2 corner =

@@ -58,15 +58,18 @@ float pile_cover()
 // so are thicker, its rim is torn. Small ones are but soft flecks.
 float crown_cover(vec2 at, float half_wide, float high, float sine, float chance)
 {
-    const float x = min(abs(at.x) / half_wide, 1.0), xx = x * x, depth = sine * half_wide * sqrt(1.0 - xx);
-    const float near = abs(0.5 * high - 0.15 * depth) + 0.75, far = 0.5 * high + 0.15 * depth + 0.75;
-    const float y = at.y - 0.5 * high, to_near = (y + 0.85 * depth) / near, to_far = (y - 0.85 * depth) / far;
+    const float thin = 1.0 / half_wide, x = min(abs(at.x) * thin, 1.0), xx = x * x;
+    const float depth = sine * half_wide * sqrt(1.0 - xx);
+    const float near = abs(0.5 * high - 0.15 * depth) + 0.5, far = 0.5 * high + 0.15 * depth + 0.5;
+    const float y = at.y - 0.5 * high, near_by = 1.0 / near, far_by = 1.0 / far;
+    const float to_near = (y + 0.85 * depth) * near_by, to_far = (y - 0.85 * depth) * far_by;
     const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0);
-    const float torn = 0.6 * hollow * sin(7.0 * at.x / half_wide + 40.0 * chance);
-    const float walls = max(1.0 - to_near * to_near, 0.0) * (1.0 - torn) / near +
-                        max(1.0 - to_far * to_far, 0.0) * (1.0 + torn) / far;
+    const float wave = fract(1.11 * at.x * thin + 6.4 * chance) - 0.5; // parabolas do for a sine
+    const float torn = 4.8 * hollow * wave * (1.0 - 2.0 * abs(wave));
+    const float walls = max(1.0 - to_near * to_near, 0.0) * (1.0 - torn) * near_by +
+                        max(1.0 - to_far * to_far, 0.0) * (1.0 + torn) * far_by;
     const float across = mix(1.875 * (1.0 - xx) * (1.0 - xx), (1.0 - xx * xx * xx) * (0.82 + 1.36 * xx), hollow);
-    return 0.1875 * walls * across / half_wide;
+    return 0.1875 * walls * across * thin;
 }
 
 // Several stand on an ellipse, each in a place of its own. They are of larger and smaller drops, and of an earlier and
@@ -77,7 +80,7 @@ float puff_cover()
     const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns, rows = floor(turn.x);
     const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
     const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, aside = from_middle * from_middle;
-    const float room = rows > 1.5 ? sqrt(1.0 - 0.55 * aside) : 1.0, row_px = shape.z * room / rows;
+    const float room = rows > 1.5 ? 1.0 - 0.3 * aside : 1.0, row_px = shape.z * room / rows;
     const float lowest = 0.5 * shape.z * (1.0 - room);
     const float row = clamp(floor((place.y - lowest) / row_px), 0.0, rows - 1.0);
 
@@ -93,7 +96,7 @@ float puff_cover()
     const float depth = turn.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
     const float high = columns > 1.5 ? min(tall, max(row_px - 2.0 * depth - 1.5, 0.3 * row_px)) : one_high;
     const float up = max(row_px - high - 2.0 * depth, 0.0);
-    const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : sqrt(1.0 - aside))) + depth;
+    const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : 1.0 - aside)) + depth;
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
     const vec2 at = vec2(place.x + shape.x - (column + 0.5) * column_px - beside,
                          place.y - lowest - row * row_px - foot);
