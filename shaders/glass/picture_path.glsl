@@ -85,33 +85,39 @@ vec3 glass_shift(vec3 d, vec3 flat_normal)
 struct Inside {
     vec3 facing; // the way out through the pane, along the picture's right, its up and the camera's axis
     float reach; // m along it from the eye
+    vec3 depth;  // depth_a, depth_b and far_depth of the view: read once, as software Vulkan does it lane by lane
 };
 
 Inside inside_of_pane(vec3 d)
 {
     const vec3 normal = cross(along_u, along_v), out_of = normal * sign(dot(d, normal));
     return Inside(vec3(dot(to_vec(view.right), out_of), dot(to_vec(view.up), out_of), dot(to_vec(view.ahead), out_of)),
-                  dot(position, out_of) + OWN_M);
+                  dot(position, out_of) + OWN_M, vec3(view.depth_a, view.depth_b, view.far_depth));
+}
+
+// How far out through the pane the ray through a pixel comes with each metre of view depth.
+float way_out(Inside inside, vec2 pixel)
+{
+    return dot(inside.facing, vec3((pixel - view_box.xy) / view_box.zw * 2.0 - 1.0, 1.0));
 }
 
 // Whether that is what the picture has at a pixel.
-bool is_inside(Inside inside, vec2 pixel)
+bool is_inside(Inside inside, vec2 pixel, float way_out)
 {
-    const vec2 at = clamp(pixel, view_box.xy, view_box.xy + view_box.zw - 1.0);
-    const float stored = buffer_depth(at);
-    const vec2 ndc = (at - view_box.xy) / view_box.zw * 2.0 - 1.0;
-    return stored != view.far_depth && view_depth(stored) * dot(inside.facing, vec3(ndc, 1.0)) < inside.reach;
+    const float stored = buffer_depth(min(pixel, view_box.xy + view_box.zw - 1.0));
+    return stored != inside.depth.z && inside.depth.y / (inside.depth.x + stored) * way_out < inside.reach;
 }
 
 // The picture has nothing of what lies behind that. What is beside it is shown there: on the way from this pixel, which
 // shows what is beyond the pane, to that where the ray would be, it is mirrored at the edge.
 void show_beside(inout Path path, Inside inside)
 {
-    const vec2 here = gl_FragCoord.xy, way = nearest_in(path.pixel) - here;
+    const vec2 here = gl_FragCoord.xy, there = nearest_in(path.pixel), way = there - here;
+    const float out_here = way_out(inside, here), out_there = way_out(inside, there);
     float open = 0.0, closed = 1.0;
     for (int i = 0; i < EDGE_STEPS; i++) {
         const float middle = 0.5 * (open + closed);
-        const bool hidden = is_inside(inside, here + middle * way);
+        const bool hidden = is_inside(inside, here + middle * way, mix(out_here, out_there, middle));
         open = hidden ? open : middle;
         closed = hidden ? middle : closed;
     }
@@ -128,7 +134,8 @@ void find_pixel(inout Path path, vec3 d, float distance)
     const vec3 place_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
     path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
     const Inside inside = inside_of_pane(d);
-    path.hidden = path.ahead && is_inside(inside, nearest_in(path.pixel));
+    const vec2 there = nearest_in(path.pixel);
+    path.hidden = path.ahead && is_inside(inside, there, way_out(inside, there));
     if (path.hidden)
         show_beside(path, inside);
 }
