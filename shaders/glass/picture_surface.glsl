@@ -35,6 +35,7 @@ struct Water {
     float cover;  // of the pixel by drops and film that have a shape
     float mist;   // and by water too small for one
     float height; // m
+    float density;
     vec2 slope;   // of the height, or (paper) of the density, per metre
     float bend;   // largest change of the slope, 1/m
 };
@@ -75,6 +76,7 @@ Water water_here()
     Water water;
     water.cover = cover_of(relief.x);
     water.mist = (1.0 - water.cover) * max(relief.w, 0.0);
+    water.density = relief.x;
     water.slope = relief.yz;
     water.height = water.bend = max(-relief.w, 0.0);
     return water;
