@@ -362,14 +362,17 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
     }
 }
 
-/* Where no drop is counted it rains as well. A drop of diameter d leaves a spot of pi d^2, and has pi d^3 / 6. */
+/* Spots times their drops' diameter over the rain: a drop of diameter d leaves pi (SPREAD d)^2 / 4, and has pi d^3 / 6. */
+#define SPOTS_OF_RAIN (1.5 * VIRGA_GROUND_SPREAD * VIRGA_GROUND_SPREAD)
+
+/* Where no drop is counted it rains as well. */
 static void stand_in_rain(virga_ground *ground)
 {
     const double cell = (double)ground->def.cell_m, mm_nl = cell * cell * 1e9, hours = ground->def.tick_s / 3600;
     const double rain_mm = (double)ground->info.open_rain_mm_h * hours;
     const double drop_mm = (double)ground->info.open_drop_m * 1e3;
     const ground_weather weather = {.rain_nl = rain_mm * mm_nl,
-                                    .spots = drop_mm > 0 ? 6 * rain_mm / drop_mm : 0,
+                                    .spots = drop_mm > 0 ? SPOTS_OF_RAIN * rain_mm / drop_mm : 0,
                                     .evaporation_nl = (double)ground->settings.evaporation_mm_h * hours * mm_nl,
                                     .tick_s = ground->def.tick_s,
                                     .nl_per_um = ground_nl_per_um(ground)};

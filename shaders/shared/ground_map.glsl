@@ -21,25 +21,48 @@ vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell
     return texelFetch(wet_map, (low_cell + cell) & (cells - 1), 0);
 }
 
-// One of the 8 x 8 bits of a cell's spots; `bit` counts from the window's low corner.
-float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit)
+// One of the 8 x 8 bits of a cell's spots (0 or 1; `bit` counts from the window's low corner), and four numbers of [0; 1)
+// that stay with the place on the ground.
+float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit, out vec4 chance)
 {
     const ivec2 texel = (low_cell + (bit >> 3)) & (cells - 1);
     const ivec2 inside = bit & 7;
     const uint word = texelFetch(spot_map, ivec2(2 * texel.x + (inside.y >> 2), texel.y), 0).r;
+    uint mixed = uint(8 * texel.x + inside.x) * 0x8DA6B343u + uint(8 * texel.y + inside.y) * 0xD8163841u;
+    mixed = (mixed ^ mixed >> 15) * 0xCB1AB31Fu;
+    mixed ^= mixed >> 14;
+    chance = vec4(mixed & 255u, mixed >> 8 & 255u, mixed >> 16 & 255u, mixed >> 24) / 256.0;
     return float((word >> uint((inside.y & 3) * 8 + inside.x)) & 1u);
 }
 
-// Spots with soft edges, or their share of the cell where a pixel is wider than a bit (`pixel_cells`: pixels in cells).
+// How much of the spot of a bit covers a place so far from the bit's middle, in bits. Round, or nearly so, and beside
+// the middle, of radii from 0.25 to 0.82 whose discs are a bit's area in the mean: never more than a bit from the
+// middle, so that the four bits around a place are all that it takes.
+float virga_ground_spot(float is_set, vec2 from, vec4 chance, float edge)
+{
+    const float radius = 0.25 + 0.57 * chance.z, oval = 1.0 + 0.8 * (0.82 - radius) * (chance.w - 0.5);
+    const vec2 off = (from - 0.2 * (chance.xy - 0.5)) * vec2(oval, 1.0 / oval);
+    return is_set * clamp((radius - length(off)) / edge + 0.5, 0.0, 1.0);
+}
+
+// Spots, of bits side by side one that has no gap; or their share of the cell where a pixel is wider than a bit
+// (`pixel_cells`: pixels in cells).
 float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells)
 {
     const vec2 bit = at * 8.0 - 0.5;
     const ivec2 low = ivec2(floor(bit));
-    const vec2 t = smoothstep(0.15, 0.85, bit - vec2(low));
-    const float near = mix(mix(virga_ground_spot_bit(spot_map, low_cell, cells, low),
-                               virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(1, 0)), t.x),
-                           mix(virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(0, 1)),
-                               virga_ground_spot_bit(spot_map, low_cell, cells, low + ivec2(1, 1)), t.x), t.y);
+    const vec2 t = bit - vec2(low);
+    const float edge = clamp(pixel_cells * 8.0, 0.15, 1.0);
+    float near = 0.0, joined = 0.0;
+    for (int i = 0; i < 4; i++) {
+        const ivec2 corner = ivec2(i & 1, i >> 1);
+        vec4 chance;
+        const float is_set = virga_ground_spot_bit(spot_map, low_cell, cells, low + corner, chance);
+        const vec2 share = mix(1.0 - t, t, vec2(corner));
+        near = max(near, virga_ground_spot(is_set, t - vec2(corner), chance, edge));
+        joined += is_set * share.x * share.y;
+    }
+    near = max(near, smoothstep(0.5, 0.75, joined));
     const ivec2 texel = (low_cell + ivec2(floor(at))) & (cells - 1);
     const int bits = bitCount(texelFetch(spot_map, ivec2(2 * texel.x, texel.y), 0).r) +
                      bitCount(texelFetch(spot_map, ivec2(2 * texel.x + 1, texel.y), 0).r);

@@ -8,6 +8,8 @@
 #define STEPS  60    /* of 16 ticks: 16 s */
 #define RAIN_H 45.0f /* mm/h: 0.2 mm in that time */
 #define ROUGH  9     /* a material */
+#define SPOTS \
+    (1.5 * VIRGA_GROUND_SPREAD * VIRGA_GROUND_SPREAD) /* times rain over diameter: (pi / 4) / (pi / 6) of it */
 
 static ground_fixture f;
 static host_buffer picture;
@@ -228,9 +230,9 @@ static void test_spots_come_in_as_many_as_drops_leave(void **state)
     begin(ROUGH);
     f.settings.materials[ROUGH].capacity_mm = 1;
     set();
-    rain(10, 16); /* 1/30 mm in drops of 2 mm: a tenth of the ground */
+    rain(10, 16); /* 1/30 mm in drops of 2 mm: a fifth of the ground */
     go(9.7);
-    assert_float_equal(count_spots() / (192.0 * 256 * 64), 1 - exp(-6 * (RAIN_H / 3600 * 160 / 60) / 2),
+    assert_float_equal(count_spots() / (192.0 * 256 * 64), 1 - exp(-SPOTS * (RAIN_H / 3600 * 160 / 60) / 2),
                        0.008); /* in 64ths */
     end();
 }
@@ -306,7 +308,7 @@ static void test_the_map_shows_first_drops_and_stirred_puddles(void **state)
     begin(ROUGH);
     rain(15, 16); /* 0.05 mm */
     read_picture();
-    const float spots = (float)(1 - exp(-6 * 0.05 / 2));
+    const float spots = (float)(1 - exp(-SPOTS * 0.05 / 2));
     check_texel(texel_of(-30, 0), texel_of(0, 1), 0.5f, 0, -spots);
     check_texel(ROUGH, 256, 0.5f, 0, -spots);
     f.settings.start_water_mm = 4;
@@ -327,7 +329,7 @@ static void test_the_map_hides_what_is_among_blades(void **state)
     set();
     rain(STEPS, 16);
     read_picture();
-    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 0, -(float)(1 - exp(-6 * 0.2 / 2)));
+    check_texel(texel_of(-30, 0), texel_of(0, 1), 1, 0, -(float)(1 - exp(-SPOTS * 0.2 / 2)));
     f.settings.start_water_mm = 5;
     set();
     rain(1, 16);

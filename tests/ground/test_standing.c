@@ -144,7 +144,7 @@ static void test_a_drain_holds_nothing(void **state)
     check(&cells[PLAIN], 0.2, 0, 0);
 }
 
-/* Spots cover the ground 6 times rain over diameter, and are gone when it is dry. */
+/* As many spots as come with the rain, and none when it is dry. */
 static void test_spots_come_and_go(void **state)
 {
     (void)state;

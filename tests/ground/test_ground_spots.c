@@ -1,0 +1,205 @@
+/* What hosts read of dark spots: virga_ground_spots of shared/ground_map.glsl, on maps that a test writes. */
+#include "../host/effect_fixture.h"
+
+#include "spots.spv.h"
+
+#include <descriptors.h>
+#include <pipeline.h>
+
+#include <math.h>
+#include <string.h>
+
+#define CELLS 16
+#define BITS  (8 * CELLS)
+#define SIDE  1024 /* places along the square that is read */
+
+/* As spots.comp has it. */
+typedef struct square {
+    int32_t low_cell[2];
+    float first[2], apart, pixel_cells;
+    int32_t cells;
+} square;
+
+static struct {
+    fixture gpu;
+    host_image map;
+    host_buffer found;
+    VkSampler sampler;
+    VkDescriptorSetLayout set_layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+    uint32_t words[CELLS][2 * CELLS];
+} f;
+
+static void set_bit(int x, int z)
+{
+    f.words[z / 8][x / 8 * 2 + z % 8 / 4] |= 1u << (z % 4 * 8 + x % 8);
+}
+
+static void make_pipeline(void)
+{
+    static const VkDescriptorType types[2] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    const host_set_shape shape = {types, 2, VK_SHADER_STAGE_COMPUTE_BIT};
+    host_device *device = &f.gpu.device;
+    char *error = f.gpu.error;
+    const size_t size = sizeof f.gpu.error;
+    REQUIRE(host_sampler_create(device, HOST_SAMPLE_NEAREST, &f.sampler, error, size));
+    REQUIRE(host_set_layout_create(device, &shape, &f.set_layout, error, size));
+    REQUIRE(host_set_pool_create(device, &shape, 1, &f.pool, error, size));
+    REQUIRE(host_sets_allocate(device, f.pool, f.set_layout, 1, &f.set, error, size));
+    REQUIRE(host_pipeline_layout_create(device, &f.set_layout, 1, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(square),
+                                        &f.layout, error, size));
+    REQUIRE(host_compute_create(device, HOST_CODE(spots), f.layout, &f.pipeline, error, size));
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    memset(&f, 0, sizeof f);
+    if (!fixture_begin(&f.gpu)) {
+        printf("skipped: %s\n", f.gpu.error);
+        exit(77);
+    }
+    make_pipeline();
+    REQUIRE(host_buffer_create(&f.gpu.device, 4ull * SIDE * SIDE, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                               HOST_BUFFER_READBACK, "found", &f.found, f.gpu.error, sizeof f.gpu.error));
+    return 0;
+}
+
+/* The bits set until now are the map. */
+static void put_map(void)
+{
+    const host_image_def def = {.format = VK_FORMAT_R32_UINT, .extent = {2 * CELLS, CELLS, 1}, .name = "spots"};
+    REQUIRE(host_image_create_with(&f.gpu.device, &def, f.words, sizeof f.words, 4, &f.map, f.gpu.error,
+                                   sizeof f.gpu.error));
+    host_set_write_image(&f.gpu.device, f.set, 0, f.sampler, f.map.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    host_set_write_buffer(&f.gpu.device, f.set, 1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, f.found.buffer);
+}
+
+static const float *read_square(const square *s)
+{
+    VkCommandBuffer cmd;
+    REQUIRE(host_begin_frame(&f.gpu.device, &cmd, f.gpu.error, sizeof f.gpu.error));
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, f.pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, f.layout, 0, 1, &f.set, 0, NULL);
+    vkCmdPushConstants(cmd, f.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *s, s);
+    vkCmdDispatch(cmd, SIDE / 8, SIDE / 8, 1);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    effect_fixture_submit(&f.gpu);
+    host_buffer_invalidate(&f.gpu.device, &f.found);
+    return f.found.mapped;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    const VkDevice device = f.gpu.device.device;
+    vkDestroyPipeline(device, f.pipeline, NULL);
+    vkDestroyPipelineLayout(device, f.layout, NULL);
+    vkDestroyDescriptorPool(device, f.pool, NULL);
+    vkDestroyDescriptorSetLayout(device, f.set_layout, NULL);
+    vkDestroySampler(device, f.sampler, NULL);
+    host_image_destroy(&f.gpu.device, &f.map);
+    host_buffer *const buffers[] = {&f.found};
+    return (int)effect_fixture_end(&f.gpu, buffers, 1);
+}
+
+/* Eight places a bit over the whole map. */
+static const square whole = {.apart = 1.0f / 64, .first = {1.0f / 128, 1.0f / 128}, .cells = CELLS};
+
+static double mean_of(const float *found)
+{
+    double sum = 0;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        sum += (double)found[i];
+    return sum / SIDE / SIDE;
+}
+
+/* Discs of 1024 radii in [0.25; 0.82], whose mean area is 0.984 bits; 6 %: three deviations of their mean. */
+static void spots_by_themselves_cover_as_much_as_their_bits(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 1024; i++)
+        set_bit(i % 32 * 4 + 1, i / 32 * 4 + 1);
+    put_map();
+    const double mean = 16 * mean_of(read_square(&whole));
+    print_message("%.3f of a bit\n", mean);
+    assert_float_equal(mean, 0.984, 0.06);
+}
+
+/* Else it would have a straight edge there, where the bits around a place are others: nothing shows just before. */
+static void no_spot_reaches_a_bit_from_its_middle(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 1024; i++)
+        set_bit(i % 32 * 4 + 1, i / 32 * 4 + 1);
+    put_map();
+    square s = whole;
+    s.first[0] = s.first[1] = 0.124f / 8; /* every 32nd place from the 19th on is 0.999 bits beyond a middle */
+    const float *found = read_square(&s);
+    for (int line = 19; line < SIDE; line += 32)
+        for (int i = 0; i < SIDE; i++) {
+            assert_float_equal((double)found[line * SIDE + i], 0, 0);
+            assert_float_equal((double)found[i * SIDE + line], 0, 0);
+        }
+}
+
+static void bits_side_by_side_have_no_gap(void **state)
+{
+    (void)state;
+    memset(f.words, 0xff, sizeof f.words);
+    put_map();
+    const float *found = read_square(&whole);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        assert_float_equal((double)found[i], 1, 0);
+}
+
+/* A window that has moved by whole cells: a place's spots stay as they were. */
+static void spots_stay_where_they_are_when_the_window_moves(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 600; i++)
+        set_bit(i * 37 % BITS, i * 101 % BITS);
+    put_map();
+    float *before = malloc(4ull * SIDE * SIDE);
+    memcpy(before, read_square(&whole), 4ull * SIDE * SIDE);
+    square moved = whole;
+    moved.low_cell[0] = 11;
+    moved.low_cell[1] = 5;
+    moved.first[0] -= 11;
+    moved.first[1] -= 5;
+    const float *found = read_square(&moved);
+    double largest = 0;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        largest = fmax(largest, fabs((double)found[i] - (double)before[i]));
+    free(before);
+    assert_true(largest < 1e-3);
+}
+
+static void wide_pixels_have_the_share_of_bits(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 10; i++)
+        set_bit(5 * 8 + i % 8, 7 * 8 + i / 8 * 3);
+    put_map();
+    const square one = {.first = {5.5f, 7.5f}, .apart = 0, .pixel_cells = 0.25f, .cells = CELLS};
+    assert_float_equal((double)read_square(&one)[0], 10.0 / 64, 1e-6);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(spots_by_themselves_cover_as_much_as_their_bits),
+        TEST(no_spot_reaches_a_bit_from_its_middle),
+        TEST(bits_side_by_side_have_no_gap),
+        TEST(spots_stay_where_they_are_when_the_window_moves),
+        TEST(wide_pixels_have_the_share_of_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
