@@ -1,6 +1,7 @@
 /* gpu/target.c - what draws go into: a host's render pass, or its dynamic rendering. */
 #include "gpu/context.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define TARGET_COOKIE VIRGA_COOKIE(2)
@@ -12,6 +13,21 @@ virga_target_def virga_default_target_def(void)
                               .color_count = 1,
                               .samples = VK_SAMPLE_COUNT_1_BIT,
                               .depth_attached = true};
+}
+
+/* What is given must be a format that this device can draw into so: `what` says how. */
+static virga_result check_format(const virga_context *context, const char *name, VkFormat format,
+                                 VkFormatFeatureFlags wanted, const char *what)
+{
+    VkFormatProperties found;
+    if (format == VK_FORMAT_UNDEFINED)
+        return VIRGA_OK;
+    context->vk.GetPhysicalDeviceFormatProperties(context->physical_device, format, &found);
+    if (found.optimalTilingFeatures & wanted)
+        return VIRGA_OK;
+    return virga_wrong_argument(&context->log,
+                                "target_def.%s: expected a format that this device can %s, got VkFormat %d", name, what,
+                                (int)format);
 }
 
 /* An attachment for motion vectors or the reactive mask: one of the pass, not the colour's, and blended. */
@@ -26,16 +42,9 @@ static virga_result check_extra(virga_context *context, const virga_target_def *
     if (format == VK_FORMAT_UNDEFINED && def->kind == VIRGA_TARGET_DYNAMIC)
         return virga_wrong_argument(&context->log, "target_def.color_formats[%u]: expected a format for %s, got none",
                                     index, name);
-    if (format == VK_FORMAT_UNDEFINED)
-        return VIRGA_OK;
-    VkFormatProperties found;
-    context->vk.GetPhysicalDeviceFormatProperties(context->physical_device, format, &found);
-    if (!(found.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
-        return virga_wrong_argument(&context->log,
-                                    "target_def.color_formats[%u]: expected a format that this device can blend for "
-                                    "%s, got VkFormat %d",
-                                    index, name, (int)format);
-    return VIRGA_OK;
+    char place[32];
+    snprintf(place, sizeof place, "color_formats[%u]", index);
+    return check_format(context, place, format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, "blend");
 }
 
 static virga_result check_extras(virga_context *context, const virga_target_def *def)
@@ -49,6 +58,20 @@ static virga_result check_extras(virga_context *context, const virga_target_def 
                                     "motion_attachment (%u)",
                                     def->motion_attachment);
     return check_extra(context, def, def->reactive_attachment, "reactive_attachment");
+}
+
+/* Without this a pipeline is asked for that cannot be, which few drivers say. */
+static virga_result check_formats(const virga_context *context, const virga_target_def *def)
+{
+    virga_result result = check_format(context, "color_formats[0]", def->color_formats[0],
+                                       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, "blend");
+    if (!result)
+        result = check_format(context, "depth_format", def->depth_format,
+                              VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "test depth in");
+    if (!result)
+        result = check_format(context, "stencil_format", def->stencil_format,
+                              VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "have a stencil in");
+    return result;
 }
 
 static virga_result check_def(const virga_log *log, const virga_target_def *def)
@@ -83,6 +106,8 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     virga_result result = check_def(&context->log, def);
+    if (!result)
+        result = check_formats(context, def);
     if (!result)
         result = check_extras(context, def);
     if (result)

@@ -73,18 +73,12 @@ static void rain_def_fields(void **state)
 static void ground_def_fields(void **state)
 {
     static const field fields[] = {
-        F(cells, CLAMPED, 128, 4096),
-        F(cell_m, CLAMPED, 0.01, 0.1),
-        F(kept_tiles, CLAMPED, 0, 60000),
-        F(far_cells, CLAMPED, 0, 2048),
-        F(ripple_texels, CLAMPED, 64, 4096),
-        F(ripple_texel_m, CLAMPED, 0.002, 0.05),
-        F(tick_s, CLAMPED, 1e-3, 0.05),
-        F(flow_ticks, CLAMPED, 1, 60),
-        F(max_impacts, CLAMPED, 256, 4194240),
-        F(max_spawns, CLAMPED, 0, 1048576),
-        F(max_returns, CLAMPED, 0, 4194240),
-        F(max_ticks_per_step, CLAMPED, 1, 64),
+        F(cells, CLAMPED, 128, 4096),          F(cell_m, CLAMPED, 0.01, 0.1),
+        F(kept_tiles, CLAMPED, 0, 60000),      F(far_cells, CLAMPED, 0, 2048),
+        F(ripple_texels, CLAMPED, 64, 4096),   F(ripple_texel_m, CLAMPED, 0.002, 0.05),
+        F(tick_s, CLAMPED, 1e-3, 0.05),        F(flow_ticks, CLAMPED, 1, 60),
+        F(max_impacts, CLAMPED, 256, 4194240), F(max_spawns, CLAMPED, 0, 1048576),
+        F(max_returns, CLAMPED, 0, 4194240),   F(max_ticks_per_step, CLAMPED, 1, 64),
     };
     const virga_ground_def good = small_ground_def();
     check(state, "ground_def", &good, sizeof good, fields, SIZE(fields), create_ground);
@@ -175,6 +169,26 @@ static void target_def_fields(void **state)
 }
 #undef F
 
+/* What cannot be blended, and depth that is none, is no target: few drivers say so. */
+static void formats_are_checked(void **state)
+{
+    static const VkFormat wrong[][2] = {{VK_FORMAT_R8G8B8A8_UINT, VK_FORMAT_UNDEFINED},
+                                        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_UNDEFINED},
+                                        {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UNORM}};
+    defined d = {*state, gpu_context(*state)};
+    for (size_t i = 0; i < SIZE(wrong); i++) {
+        virga_target_def def = virga_default_target_def();
+        def.kind = VIRGA_TARGET_DYNAMIC;
+        def.color_formats[0] = wrong[i][0];
+        def.depth_format = wrong[i][1];
+        def.depth_attached = def.depth_format != VK_FORMAT_UNDEFINED;
+        gpu_forget_log(d.f);
+        assert_int_equal(create_target(&d, &def), VIRGA_ERROR_INVALID);
+        assert_one_error(d.f, VIRGA_LOG_ARGUMENT);
+    }
+    virga_context_destroy(&d.context);
+}
+
 /* Strides of vertices: whole floats, from a position on, and no wider than the device reads. */
 static void strides_are_checked(void **state)
 {
@@ -199,9 +213,9 @@ static void strides_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(context_def_fields),  gpu_test(target_def_fields), gpu_test(rain_def_fields),
-        gpu_test(ground_def_fields),   gpu_test(splash_def_fields), gpu_test(glass_def_fields),
-        gpu_test(strides_are_checked),
+        gpu_test(context_def_fields), gpu_test(target_def_fields),   gpu_test(formats_are_checked),
+        gpu_test(rain_def_fields),    gpu_test(ground_def_fields),   gpu_test(splash_def_fields),
+        gpu_test(glass_def_fields),   gpu_test(strides_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
