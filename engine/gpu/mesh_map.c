@@ -214,10 +214,15 @@ static virga_result check_mesh(const virga_log *log, const virga_occluder *mesh,
         return virga_wrong_argument(log, "occluder %u: material: expected 0 to 255, got %u", i, mesh->material);
     if (!(mesh->cover >= 0 && mesh->cover <= 1))
         return virga_wrong_argument(log, "occluder %u: cover: expected 0 to 1, got %g", i, (double)mesh->cover);
-    for (int k = 0; k < 12; k++)
+    bool none = true;
+    for (int k = 0; k < 12; k++) {
         if (!(fabs((double)mesh->world_from_mesh[k]) <= VIRGA_FARTHEST_M))
             return virga_wrong_argument(log, "occluder %u: world_from_mesh[%d]: is %g, expected no more than %g", i, k,
                                         (double)mesh->world_from_mesh[k], VIRGA_FARTHEST_M);
+        none = none && (k % 4 == 3 || mesh->world_from_mesh[k] == 0);
+    }
+    if (none && mesh->index_count)
+        return virga_wrong_argument(log, "occluder %u: world_from_mesh: expected axes, all of them are 0", i);
     return VIRGA_OK;
 }
 

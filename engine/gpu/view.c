@@ -49,6 +49,31 @@ static virga_result check_camera(const virga_log *log, const virga_view *view)
         check_projection(log, "view.clip_from_view", view->clip_from_view) ||
         check_projection(log, "view.open_clip_from_view", view->open_clip_from_view))
         return VIRGA_ERROR_INVALID;
+    /* depth = -p10 + p14 / distance: it rises with the distance where p14 < 0. */
+    const float slope = view->clip_from_view[14];
+    if (slope != 0 && view->reversed_depth != (slope > 0))
+        return virga_wrong_argument(log, "view.reversed_depth: is %s, and by clip_from_view what is nearer is %s",
+                                    view->reversed_depth ? "true" : "false", slope > 0 ? "greater" : "less");
+    return VIRGA_OK;
+}
+
+/* An image of the host's, if there is one. */
+static virga_result check_image(const virga_log *log, const char *name, const virga_image *image)
+{
+    if (!image->image != !image->view)
+        return virga_wrong_argument(log, "view.%s: expected an image and its view or neither, got no %s", name,
+                                    image->view ? "image" : "view");
+    if (image->view && image->before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return virga_wrong_argument(log, "view.%s.before.layout: expected the layout while drawing, got UNDEFINED",
+                                    name);
+    return VIRGA_OK;
+}
+
+static virga_result check_images(const virga_log *log, const virga_view *view)
+{
+    if (check_image(log, "depth", &view->depth) || check_image(log, "color", &view->color) ||
+        check_image(log, "temporal.motion", &view->temporal.motion))
+        return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
 
@@ -95,8 +120,9 @@ static virga_result check_viewport(const virga_context *context, const float box
                                         (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
     if (box[2] >= 1 && box[3] >= 1)
         return VIRGA_OK;
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT, "view.viewport: %g x %g pixels, there is nothing to draw",
-                  (double)box[2], (double)box[3]);
+    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT,
+                  "view.viewport: %g x %g pixels, there is nothing to draw%s", (double)box[2], (double)box[3],
+                  box[3] < 0 ? "; for a picture upside down negate clip_from_view[5]" : "");
     return VIRGA_NOT_READY;
 }
 
@@ -106,7 +132,7 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
     const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
     if (result)
         return result;
-    if (check_camera(log, view))
+    if (check_camera(log, view) || check_images(log, view))
         return VIRGA_ERROR_INVALID;
     if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);

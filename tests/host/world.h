@@ -206,7 +206,7 @@ static inline void world_at(uint32_t frame, const float jitter_px[2], bool rever
     virga_view *view = &moment->view;
     *view = virga_default_view();
     host_camera_view(&now, &open, WORLD_SHUTTER_S, view);
-    view->reversed_depth = view->infinite_far = reversed;
+    view->reversed_depth = reversed;
     memcpy(view->temporal.position_m, before.position_m, sizeof before.position_m);
     memcpy(view->temporal.view_from_world, before.view_from_world, sizeof before.view_from_world);
     memcpy(view->temporal.clip_from_view, before.clip_from_view, sizeof before.clip_from_view);

@@ -245,5 +245,4 @@ void host_camera_view(const host_camera *camera, const host_camera *open, double
     view->viewport[2] = (float)camera->width;
     view->viewport[3] = (float)camera->height;
     view->reversed_depth = false;
-    view->infinite_far = false;
 }

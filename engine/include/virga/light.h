@@ -18,7 +18,8 @@ typedef struct virga_light {
     float intensity[3];    /* radiant intensity in the host's radiance unit x m^2 (linear RGB), on the axis */
     float range_m;         /* beyond it the light is zero, faded smoothly; 0: no end */
     float direction[3];    /* (spot) where it points, any length; all zero: a point light */
-    float cos_inner, cos_outer; /* (spot) full inside, none outside */
+    float cos_inner, cos_outer; /* (spot) cosines of angles off its direction: full within the first, none beyond the
+                            * second, which is the smaller number. The other way round the edge is hard */
 } virga_light;
 
 /* All light of a place. A part of settings structs, so it has no size and cookie of its own. */

@@ -15,6 +15,10 @@
  *     virga_rain_draw(rain, cmd, ...);           // inside rendering, after the opaque scene
  *     ... host ends, submits, and says in a later frame that this one completed ...
  *
+ * Command buffers are of the context's queue family, one or several a frame; they go to one queue in the order they were
+ * recorded in, each once. Virga orders its own work by barriers alone. What a host writes (vertex buffers, images of a
+ * view) it makes visible itself before Virga's call, and what a frame was told of lives until that frame has completed.
+ *
  * Thread-safety: calls on one context and on what was made from it must not overlap; different contexts, also on
  * one device, may be used from different threads at once.
  */
@@ -33,7 +37,7 @@ extern "C" {
 
 /* ---- what a device must have ---------------------------------------------------------------------------------- */
 
-/* One required feature: the VkBool32 at `offset` in the Vulkan struct with sType `struct_type` of `struct_size`. */
+/* One required feature: the VkBool32 at `offset` in the Vulkan struct with sType `struct_type`. */
 typedef struct virga_feature {
     VkStructureType struct_type; /* VkPhysicalDeviceFeatures2 or VkPhysicalDeviceVulkan12Features */
     size_t offset;               /* of the VkBool32, from the start of that struct */
@@ -101,7 +105,9 @@ typedef struct virga_context_def {
 
     VkInstance instance;                               /* required */
     VkPhysicalDevice physical_device;                  /* required */
-    VkDevice device;                                   /* required, made with the required features */
+    VkDevice device;                                   /* required, made with the required features. Which were enabled
+                                                        * Vulkan does not tell: one that was forgotten shows in the
+                                                        * validation layer alone */
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;  /* required */
     uint32_t queue_family; /* family of the queue that the command buffers go to; graphics and compute, else refused.
                             * Default 0 */
@@ -200,14 +206,18 @@ typedef struct virga_image_state {
     VkAccessFlags access;
 } virga_image_state;
 
-/* A host's image. Virga finds it as in `before` and leaves it as in `after`. */
+/* A host's image, which Virga samples: made with VK_IMAGE_USAGE_SAMPLED_BIT. All zero: none. Virga records no barrier
+ * for it: it is in the layout of `before` when the call that takes it runs on the device, with its contents visible to
+ * shaders, and stays so until all draws of it are done. */
 typedef struct virga_image {
-    VkImage image;
+    VkImage image;   /* an image without its view, and a view without its image, are refused in views */
     VkImageView view; /* all layers and levels that are to be used */
-    VkFormat format;
-    VkExtent3D extent;
-    uint32_t layers; /* 0 means 1 */
-    virga_image_state before, after;
+    VkFormat format; /* of `view`. VK_FORMAT_R32G32B32A32_SFLOAT is read without filtering, all others are filtered */
+    VkExtent3D extent; /* read by virga_rain_occlusion_import alone */
+    uint32_t layers; /* the same */
+    virga_image_state before; /* layout: not UNDEFINED. stage (virga_view.color): that of the host's barrier, which
+                               * compute waits for too; 0: fragment shaders */
+    virga_image_state after;  /* not read */
 } virga_image;
 
 /* What draws go into. A target is an object of its own: change formats by making another; simulation state stays. */
@@ -223,11 +233,14 @@ typedef enum virga_target_kind {
 typedef struct virga_target_def {
     uint32_t size, cookie;
     virga_target_kind kind;
-    VkRenderPass render_pass; /* (render pass) */
+    VkRenderPass render_pass; /* (render pass) must live until the last attach of the target, and its pipelines, are
+                               * done; what is drawn in is compatible with it */
     uint32_t subpass;         /* (render pass) */
     VkFormat color_formats[VIRGA_MAX_ATTACHMENTS]; /* (dynamic) of each attachment, VK_FORMAT_UNDEFINED for one that the
                                * host has left out. Attachment 0 is required: it gets premultiplied linear radiance and
-                               * coverage. (render pass) optional: those given are checked */
+                               * coverage, by blending. (render pass) optional: those given are checked. What
+                               * the device cannot blend is refused. Linear: a float or _SRGB format; in a plain UNORM
+                               * one the host has to encode what it reads back */
     VkFormat depth_format;    /* (dynamic) VK_FORMAT_UNDEFINED: no depth attachment */
     VkFormat stencil_format;  /* (dynamic) */
     uint32_t color_count;     /* [1; VIRGA_MAX_ATTACHMENTS] attachments in the pass; others than 0 and the two below are
@@ -318,16 +331,19 @@ typedef struct virga_view {
     float open_clip_from_view[16]; /* with this frame's jitter, so that jitter does not show as motion */
     double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn: streaks are as long
                                    * as drops fall in it. Default 1/96; half of a frame is 1/48 in film and 1/120 in a
-                                   * game of 60 frames a second. With a previous frame's camera as the open one, give
-                                   * its time distance here and scale the rain's look with streak settings */
-    double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s */
+                                   * game of 60 frames a second */
+    double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s, the
+                                   * default. A game whose open camera is the previous frame's gives the time between
+                                   * the two: without it, motion counts as that of the shorter shutter */
     float aperture_m;             /* [0; 1] width of the lens's opening: streaks nearer or farther than focus_m are as
                                    * wide as it blurs a point there, and cover as much in all. A lens of 50 mm at f/2
                                    * has 0.025. What else water shows is as sharp as the scene. Default 0: all is sharp */
     float focus_m;                /* [0; 1e6] view depth that is sharp; 0: infinity, the default */
-    float viewport[4];            /* x, y, width, height in pixels, within what the device allows */
-    bool reversed_depth;          /* must match the target's. Default false */
-    bool infinite_far;            /* the projection has no far plane. Default false */
+    float viewport[4];            /* x, y, width, height in pixels, within what the device allows. Who turns the picture
+                                   * over by a negative height, which counts as none, negates [1][1] of the projection
+                                   * instead. Draws set it */
+    bool reversed_depth;          /* must match the target's, and clip_from_view, else refused. A projection may do
+                                   * without a far plane. Default false */
     virga_image depth;            /* (optional) the scene's depth in the target's pixels, sampled for occlusion by the
                                    * scene (also where a target has no depth attached), soft edges and haze; layout and
                                    * access while drawing are `before`, and stay. A single-sample view of the depth
