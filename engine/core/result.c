@@ -29,7 +29,8 @@
     X(VIRGA_LOG_FRAME_ORDER, "frame-order")           \
     X(VIRGA_LOG_TICKS_DROPPED, "ticks-dropped")       \
     X(VIRGA_LOG_IMPACTS_DROPPED, "impacts-dropped")   \
-    X(VIRGA_LOG_SHRUNK, "shrunk")
+    X(VIRGA_LOG_SHRUNK, "shrunk")                     \
+    X(VIRGA_LOG_NOT_DRAWN, "not-drawn")
 
 #define RESULT_CASE(value) \
     case value: {          \

@@ -458,6 +458,12 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
     return result;
 }
 
+void virga_ground_get(const virga_ground *ground, virga_ground_settings *settings)
+{
+    if (ground && settings)
+        *settings = ground->settings;
+}
+
 void virga_ground_survey(virga_ground *ground)
 {
     if (ground)

@@ -295,6 +295,17 @@ static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipe
     vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
 }
 
+/* Who looks at errors alone would see no rain and never learn why. While pipelines are on their way nothing is wrong. */
+static virga_result say_not_drawn(virga_rain *rain, bool attached)
+{
+    if (rain->told_not_drawn || virga_group_ready(&rain->needed))
+        return VIRGA_NOT_READY;
+    rain->told_not_drawn = true;
+    virga_log_say(&rain->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "virga_rain_draw: %s",
+                  attached ? "nothing was prepared in this frame" : "the target was not attached");
+    return VIRGA_NOT_READY;
+}
+
 virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!rain)
@@ -306,10 +317,11 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     const rain_target *found = find_target(rain, target->serial);
     /* What was prepared for an earlier frame lies where a later one writes. */
     if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
-        return VIRGA_NOT_READY;
+        return say_not_drawn(rain, found != NULL);
     const virga_pipeline *used[] = {found->haze, found->glow, found->thin[rain->prepared_depth],
                                     found->wide[rain->prepared_depth]};
     const virga_result result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
+    rain->told_not_drawn = false;
     if (result)
         return result;
     virga_context *context = rain->context;

@@ -159,6 +159,7 @@ struct virga_rain {
     uint64_t tick_frame, view_frame;   /* in whose parts of the rings they are */
     uint32_t view_slot;
     bool prepared;
+    bool told_not_drawn; /* since the last draw that had all it needs */
     bool prepared_haze, prepared_depth;
     uint32_t prepared_glows; /* lamps that glow */
     VkDescriptorSet prepared_set;

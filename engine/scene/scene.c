@@ -5,6 +5,7 @@
 
 #include <virga/scene.h>
 
+#include <math.h>
 #include <string.h>
 
 #define SCENE_COOKIE VIRGA_COOKIE(6)
@@ -16,7 +17,10 @@ struct virga_scene {
     virga_splash *splash; /* NULL: none */
     virga_glass *panes[VIRGA_SCENE_MAX_PANES];
     uint32_t pane_count;
-    uint32_t catching; /* so many of them, from the first on, catch the rain's drops; the others get its rate */
+    uint64_t owed_panes; /* frame whose panes are yet to be prepared; 0: none */
+    bool told_panes;     /* that they were not prepared, since they were */
+    bool told_far;       /* that the view's camera is beyond the rain, since it was within */
+    uint32_t catching;   /* so many of them, from the first on, catch the rain's drops; the others get its rate */
 };
 
 virga_scene_def virga_default_scene_def(void)
@@ -214,8 +218,10 @@ virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
 
 virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting)
 {
-    if (!scene || !lighting)
+    if (!scene)
         return VIRGA_ERROR_INVALID;
+    if (!lighting)
+        return virga_wrong_argument(&scene->context->log, "virga_scene_light: NULL argument");
     virga_rain_settings rain;
     virga_rain_get(scene->rain, &rain);
     rain.lighting = *lighting;
@@ -325,6 +331,8 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
         return VIRGA_ERROR_DEVICE_LOST;
     if (!(frame->dt_s >= 0 && frame->dt_s <= 10))
         return virga_wrong_argument(log, "scene_frame.dt_s: expected 0 to 10 s, got %g", frame->dt_s);
+    if (frame->occluder_count && !frame->occluders)
+        return virga_wrong_argument(log, "scene_frame.occluders: expected %u, got NULL", frame->occluder_count);
     if (scene->pane_count && !frame->panes)
         return virga_wrong_argument(log, "scene_frame.panes: expected %u, got NULL", scene->pane_count);
     if (check_places(log, frame))
@@ -333,6 +341,22 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
         if (check_pane(log, &frame->panes[i]))
             return VIRGA_ERROR_INVALID;
     return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(scene->rain)) : VIRGA_OK;
+}
+
+/* camera_m that was forgotten, or is in other units than the view's, looks like rain that does not work. */
+static void tell_far(virga_scene *scene, const virga_scene_frame *frame)
+{
+    virga_rain_fall fall;
+    double far2 = 0;
+    virga_rain_fall_get(scene->rain, &fall);
+    for (int axis = 0; axis < 3; axis++)
+        far2 += pow(frame->view->position_m[axis] - frame->camera_m[axis], 2);
+    const bool beyond = sqrt(far2) > (double)fall.reach_m;
+    if (beyond && !scene->told_far)
+        virga_log_say(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
+                      "scene_frame.camera_m: is %g m from view.position_m, where no drops are: they reach %g m",
+                      sqrt(far2), (double)fall.reach_m);
+    scene->told_far = beyond;
 }
 
 /* ---- panes */
@@ -405,6 +429,8 @@ virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, 
     if (scene->pane_count && (!view || !panes))
         return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
                                     view ? "panes" : "view");
+    scene->owed_panes = 0;
+    scene->told_panes = false;
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
         result = worst(
@@ -449,6 +475,8 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         return ready;
     const bool seen = frame->view && !checked;
     virga_result result = checked;
+    if (seen)
+        tell_far(scene, frame);
     if (frame->occluders)
         result = worst(
             result, virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count));
@@ -465,6 +493,8 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         result = worst(result, step_panes(scene, cmd, frame));
     if (result >= 0 && seen)
         result = worst(result, prepare(scene, cmd, frame->view));
+    if (result >= 0 && seen && scene->pane_count)
+        scene->owed_panes = scene->context->frame_index;
     if (result >= 0 && seen && !frame->panes_later)
         result = worst(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
@@ -489,6 +519,11 @@ virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const vir
     virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
     if (result >= 0)
         result = worst(result, virga_rain_draw(scene->rain, cmd, target));
+    if (!scene->told_panes && scene->owed_panes && scene->owed_panes == scene->context->frame_index) {
+        virga_log_say(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
+                      "virga_scene_draw: the panes were not prepared in this frame (virga_scene_prepare_panes)");
+        scene->told_panes = true;
+    }
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
         result = worst(result, virga_glass_draw(scene->panes[i], cmd, target));
     return result;

@@ -267,6 +267,18 @@ static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline
     vk->CmdDrawIndexedIndirect(cmd, splash->prepared_buffer->buffer, arguments, 1, sizeof(virga_splash_draw_gpu));
 }
 
+/* Who looks at errors alone would see no splashes and never learn why. While pipelines are on their way nothing is wrong. Nor
+ * is it before the first tick. */
+static virga_result say_not_drawn(virga_splash *splash, bool attached)
+{
+    if (splash->told_not_drawn || virga_group_ready(&splash->needed) || !splash->ticks)
+        return VIRGA_NOT_READY;
+    splash->told_not_drawn = true;
+    virga_log_say(&splash->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "virga_splash_draw: %s",
+                  attached ? "nothing was prepared in this frame" : "the target was not attached");
+    return VIRGA_NOT_READY;
+}
+
 virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!splash)
@@ -279,13 +291,14 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     const splash_target *found = find_target(splash, target->serial);
     /* What was prepared for an earlier frame or step is not what the buffers hold now. */
     if (!found || !splash->prepared || splash->view_frame != context->frame_index)
-        return VIRGA_NOT_READY;
+        return say_not_drawn(splash, found != NULL);
     const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
     const int depth = splash->prepared_depth;
     const virga_pipeline *used[] = {found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
                                     found->draws[film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES][depth],
                                     found->draws[SPLASH_DRAW_THIN][depth]};
     const virga_result result = virga_pipelines_ready(used, 3);
+    splash->told_not_drawn = false;
     if (result)
         return result;
     const float *box = splash->prepared_viewport;

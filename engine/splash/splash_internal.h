@@ -81,6 +81,7 @@ struct virga_splash {
     VkBuffer spawns;
     VkDeviceSize spawns_offset, spawns_range;
     bool prepared, prepared_depth;
+    bool told_not_drawn; /* since the last draw that had all it needs */
     virga_splash_style prepared_style;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];

@@ -133,12 +133,12 @@ static inline virga_result field_expected(const field *f, double value, uint32_t
     return f->rule == REFUSED ? VIRGA_ERROR_INVALID : VIRGA_DEGRADED;
 }
 
-/* Lines beside those about what was created. */
+/* Lines beside those about what was created, and about places that no drops are drawn at. */
 static inline uint32_t field_lines(const gpu_fixture *f)
 {
     uint32_t lines = 0;
     for (int i = 0; i < LOG_IDS; i++)
-        lines += i == VIRGA_LOG_CREATED ? 0 : f->lines[i];
+        lines += i == VIRGA_LOG_CREATED || i == VIRGA_LOG_NOT_DRAWN ? 0 : f->lines[i];
     return lines;
 }
 

@@ -18,7 +18,7 @@
 
 #include "watch.h"
 
-enum { LOG_IDS = 17 };
+enum { LOG_IDS = VIRGA_LOG_NOT_DRAWN + 1 };
 
 typedef struct gpu_fixture {
     fixture gpu;

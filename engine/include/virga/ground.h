@@ -100,7 +100,9 @@ typedef struct virga_ground_settings {
                               * Default true */
 } virga_ground_settings;
 
-/* Defaults of materials with their sources: engine/ground/materials.c. */
+/* Settings in the open, dry: the first drops soak in, and dry ground makes no splashes. Who wants puddles and splashes
+ * from the first second on sets start_wetness and start_water_mm. Materials are those of virga/material.h; their sources:
+ * engine/ground/materials.c. */
 VIRGA_API virga_ground_settings virga_default_ground_settings(void);
 
 /* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools
@@ -119,6 +121,9 @@ VIRGA_API virga_result virga_ground_ready(const virga_ground *ground);
 /* Takes new settings at once. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinite or wrong cookie:
  * VIRGA_ERROR_INVALID and nothing changes. */
 VIRGA_API virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings);
+
+/* The settings in force. Nothing for NULL. */
+VIRGA_API void virga_ground_get(const virga_ground *ground, virga_ground_settings *settings);
 
 /* Device memory in bytes that virga_ground_create will take. */
 VIRGA_API VkDeviceSize virga_ground_estimate(const virga_ground_def *def);
@@ -174,7 +179,8 @@ VIRGA_API void virga_ground_survey(virga_ground *ground);
 
 /* What materials read. Wet and spots are cells x cells (spots: twice as wide), and wrap around: the
  * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL, and
- * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. */
+ * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame.
+ * `wet`, `spots` and `far` are fetched by texel, so any sampler will do; ripples may be filtered. All zero for NULL. */
 typedef struct virga_ground_maps {
     VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m). Water that is hidden between blades of grass

@@ -83,10 +83,14 @@ typedef struct virga_scene_pane {
 typedef struct virga_scene_frame {
     double dt_s; /* [0; 10] host time since the last frame */
     double camera_m[3]; /* middle of what is simulated: drops, occlusion maps, ground. As a rule view->position_m; given
-                         * apart as there may be no view, or several. May jump */
-    double focus_m[3];               /* middle of what is near enough for ripples, see virga_ground_step_info */
-    const virga_occluder *occluders; /* (optional) drawn into the occlusion maps; NULL: the last maps stay */
-    uint32_t occluder_count;
+                         * apart as there may be no view, or several; one farther off than rain.range_m sees no drops,
+                         * which is logged. May jump */
+    double focus_m[3];               /* middle of the map of ripples: on the ground some metres ahead of the camera. All
+                                      * zero is the world's origin. Not used without ground */
+    const virga_occluder *occluders; /* (optional) all of the host's near the camera: drawn into the occlusion maps, and
+                                      * surveyed where the ground's window moves. NULL: the last maps stay, and what comes
+                                      * into the window has no ground: give them whenever the camera has moved */
+    uint32_t occluder_count;         /* 0 with `occluders` given: there are none, also in the maps */
     virga_ground_material_map materials; /* (optional) of the ground, over its meshes' */
     const virga_view *view; /* (optional) the view to prepare; NULL: the scene is stepped only */
     const virga_scene_pane *panes; /* as many as the scene has; may be NULL where it has none */
@@ -116,7 +120,8 @@ VIRGA_API virga_result virga_scene_attach(virga_scene *scene, const virga_target
 
 /* All draws, inside rendering of `target`: splashes, then rain, then panes in the order of their definitions. A
  * host that wants them apart (layers) draws each by its own function. VIRGA_NOT_READY where something was not
- * prepared; the rest is drawn. */
+ * prepared or `target` not attached; the rest is drawn. Where that is not for want of pipelines it is logged once
+ * (VIRGA_LOG_NOT_DRAWN). */
 VIRGA_API virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const virga_target *target);
 
 #ifdef __cplusplus

@@ -1,0 +1,189 @@
+/* test_scene_mistakes.c - what a host forgets or mixes up: one line that says so with its id, and a result, where there
+ * would be no rain and no reason. */
+#include "../gpu/gpu_fixture.h"
+#include "../gpu/small_scene.h"
+
+typedef struct mistaken {
+    gpu_fixture *f;
+    virga_context *context;
+    virga_scene *scene;
+    gpu_picture picture;
+    virga_scene_frame frame;
+    virga_scene_pane panes[SMALL_PANES];
+    virga_view view;
+    VkCommandBuffer cmd;
+} mistaken;
+
+#define SIZE(table) (sizeof(table) / sizeof(table)[0])
+
+static void open_scene(mistaken *m, void **state)
+{
+    virga_glass_def panes[SMALL_PANES];
+    const virga_scene_def def = small_scene_def(panes);
+    memset(m, 0, sizeof *m);
+    m->f = *state;
+    m->context = gpu_context(m->f);
+    gpu_picture_open(m->f, m->context, &m->picture);
+    REQUIRE(virga_scene_create(m->context, &def, &m->scene) == VIRGA_OK);
+    small_panes_lay(m->panes);
+    m->view = gpu_view(&m->picture);
+    m->frame = (virga_scene_frame){.dt_s = 1.0 / 60, .camera_m = {0, 1.7, 0}, .view = &m->view, .panes = m->panes};
+}
+
+static void close_scene(mistaken *m)
+{
+    gpu_wait(m->f);
+    virga_scene_destroy(&m->scene);
+    gpu_picture_close(m->f, &m->picture);
+    virga_context_destroy(&m->context);
+}
+
+static virga_result record(mistaken *m)
+{
+    m->cmd = gpu_begin_frame(m->f, m->context);
+    return virga_scene_record(m->scene, m->cmd, &m->frame);
+}
+
+static virga_result draw(mistaken *m)
+{
+    host_target_begin_layer(&m->picture.images, m->cmd);
+    const virga_result result = virga_scene_draw(m->scene, m->cmd, m->picture.target);
+    host_target_end_layer(&m->picture.images, m->cmd);
+    gpu_submit(m->f);
+    return result;
+}
+
+/* Each effect says it once, until a draw has all that it needs. */
+static void a_draw_of_nothing_says_why(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    gpu_forget_log(m.f);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(record(&m), VIRGA_OK);
+        assert_int_equal(draw(&m), VIRGA_NOT_READY); /* no virga_scene_attach */
+    }
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 2); /* rain and splashes */
+    REQUIRE(virga_scene_attach(m.scene, m.picture.target) == VIRGA_OK);
+    assert_int_equal(record(&m), VIRGA_OK);
+    assert_int_equal(draw(&m), VIRGA_OK);
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 2);
+    m.frame.view = NULL; /* nothing is prepared */
+    assert_int_equal(record(&m), VIRGA_OK);
+    assert_int_equal(draw(&m), VIRGA_NOT_READY);
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 4);
+    close_scene(&m);
+}
+
+static void panes_that_nobody_prepared_are_told(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    REQUIRE(virga_scene_attach(m.scene, m.picture.target) == VIRGA_OK);
+    gpu_forget_log(m.f);
+    m.frame.panes_later = true;
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(record(&m), VIRGA_OK);
+        assert_int_equal(draw(&m), VIRGA_NOT_READY);
+    }
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 1);
+    assert_int_equal(record(&m), VIRGA_OK);
+    assert_int_equal(virga_scene_prepare_panes(m.scene, m.cmd, &m.view, m.panes), VIRGA_OK);
+    assert_int_equal(draw(&m), VIRGA_OK);
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 1);
+    close_scene(&m);
+}
+
+/* A camera_m that was forgotten. The rain of small scenes reaches less than 100 m. */
+static void a_view_beyond_the_rain_is_told(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    gpu_forget_log(m.f);
+    m.view.position_m[0] = m.view.open_position_m[0] = 1000;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(record(&m), VIRGA_OK);
+        gpu_submit(m.f);
+    }
+    assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], 1);
+    assert_int_equal(m.f->errors, 0);
+    close_scene(&m);
+}
+
+static void refused(mistaken *m, const char *part)
+{
+    gpu_forget_log(m->f);
+    assert_int_equal(record(m), VIRGA_ERROR_INVALID);
+    gpu_submit(m->f);
+    assert_one_error(m->f, VIRGA_LOG_ARGUMENT);
+    if (!strstr(m->f->last, part))
+        fail_msg("'%s' says nothing of %s", m->f->last, part);
+    m->view = gpu_view(&m->picture);
+}
+
+static void views_that_contradict_themselves_are_refused(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    m.view.reversed_depth = true;
+    refused(&m, "reversed_depth");
+    m.view.viewport[3] = -m.view.viewport[3]; /* as to turn the picture over: as one of no pixels, with a hint */
+    gpu_forget_log(m.f);
+    assert_int_equal(record(&m), VIRGA_NOT_READY);
+    gpu_submit(m.f);
+    assert_int_equal(m.f->lines[VIRGA_LOG_ARGUMENT], 1);
+    assert_non_null(strstr(m.f->last, "negate clip_from_view[5]"));
+    m.view = gpu_view(&m.picture);
+    m.view.depth = (virga_image){.image = m.picture.images.images[0].image};
+    refused(&m, "view.depth: expected an image and its view");
+    m.view.color.view = m.picture.images.images[0].view;
+    refused(&m, "view.color: expected an image and its view");
+    m.view.color.image = m.picture.images.images[0].image;
+    m.view.color.view = m.picture.images.images[0].view;
+    refused(&m, "view.color.before.layout");
+    close_scene(&m);
+}
+
+static void lists_and_pointers_that_are_missing_are_named(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    m.frame.occluder_count = 1;
+    refused(&m, "scene_frame.occluders");
+    virga_occluder mesh = small_occluder((VkBuffer)(uintptr_t)1, (VkBuffer)(uintptr_t)1);
+    memset(mesh.world_from_mesh, 0, sizeof mesh.world_from_mesh);
+    m.frame.occluders = &mesh; /* refused before a buffer is looked at */
+    refused(&m, "world_from_mesh");
+    gpu_forget_log(m.f);
+    assert_int_equal(virga_scene_light(m.scene, NULL), VIRGA_ERROR_INVALID);
+    assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
+    close_scene(&m);
+}
+
+static void ground_tells_its_settings(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    virga_ground *ground = virga_scene_ground(m.scene);
+    virga_ground_settings settings = virga_default_ground_settings(), got;
+    settings.evaporation_mm_h = 3;
+    assert_int_equal(virga_ground_set(ground, &settings), VIRGA_OK);
+    virga_ground_get(ground, &got);
+    assert_memory_equal(&got, &settings, sizeof got);
+    virga_ground_get(ground, NULL);
+    virga_ground_get(NULL, &got);
+    close_scene(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        gpu_test(a_draw_of_nothing_says_why),
+        gpu_test(panes_that_nobody_prepared_are_told),
+        gpu_test(a_view_beyond_the_rain_is_told),
+        gpu_test(views_that_contradict_themselves_are_refused),
+        gpu_test(lists_and_pointers_that_are_missing_are_named),
+        gpu_test(ground_tells_its_settings),
+    };
+    return cmocka_run_group_tests_name("scene mistakes", tests, NULL, NULL);
+}
