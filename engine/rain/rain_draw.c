@@ -312,6 +312,8 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
         return VIRGA_ERROR_INVALID;
     if (!cmd || !target)
         return virga_wrong_argument(&rain->context->log, "virga_rain_draw: NULL argument");
+    if (target->context != rain->context) /* whose numbers of targets are others */
+        return virga_wrong_argument(&rain->context->log, "virga_rain_draw: expected a target of the same context");
     if (rain->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     const rain_target *found = find_target(rain, target->serial);

@@ -286,6 +286,8 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     virga_context *context = splash->context;
     if (!cmd || !target)
         return virga_wrong_argument(&context->log, "virga_splash_draw: NULL argument");
+    if (target->context != context) /* whose numbers of targets are others */
+        return virga_wrong_argument(&context->log, "virga_splash_draw: expected a target of the same context");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     const splash_target *found = find_target(splash, target->serial);

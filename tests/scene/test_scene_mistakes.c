@@ -160,6 +160,30 @@ static void lists_and_pointers_that_are_missing_are_named(void **state)
     close_scene(&m);
 }
 
+/* Targets of two contexts may have the same number. */
+static void targets_of_other_contexts_are_refused(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    virga_context *other = gpu_context(m.f);
+    virga_target *target = NULL, *own = m.picture.target;
+    virga_target_def def = virga_default_target_def();
+    def.kind = VIRGA_TARGET_DYNAMIC;
+    def.color_formats[0] = VK_FORMAT_R16G16B16A16_SFLOAT;
+    def.depth_attached = false;
+    REQUIRE(virga_target_create(other, &def, &target) == VIRGA_OK);
+    REQUIRE(virga_scene_attach(m.scene, own) == VIRGA_OK);
+    assert_int_equal(record(&m), VIRGA_OK);
+    gpu_forget_log(m.f);
+    m.picture.target = target;
+    assert_int_equal(draw(&m), VIRGA_ERROR_INVALID);
+    assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
+    m.picture.target = own;
+    close_scene(&m);
+    virga_target_destroy(&target);
+    virga_context_destroy(&other);
+}
+
 static void ground_tells_its_settings(void **state)
 {
     mistaken m;
@@ -183,6 +207,7 @@ int main(void)
         gpu_test(a_view_beyond_the_rain_is_told),
         gpu_test(views_that_contradict_themselves_are_refused),
         gpu_test(lists_and_pointers_that_are_missing_are_named),
+        gpu_test(targets_of_other_contexts_are_refused),
         gpu_test(ground_tells_its_settings),
     };
     return cmocka_run_group_tests_name("scene mistakes", tests, NULL, NULL);
