@@ -362,7 +362,8 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
     }
 }
 
-/* Spots times their drops' diameter over the rain: a drop of diameter d leaves pi (SPREAD d)^2 / 4, and has pi d^3 / 6. */
+/* Spots times their drops' diameter over the rain: a drop of diameter d leaves pi (SPREAD d)^2 / 4, and has
+ * pi d^3 / 6. */
 #define SPOTS_OF_RAIN (1.5 * VIRGA_GROUND_SPREAD * VIRGA_GROUND_SPREAD)
 
 /* Where no drop is counted it rains as well. */

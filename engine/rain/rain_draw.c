@@ -295,7 +295,8 @@ static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipe
     vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
 }
 
-/* Who looks at errors alone would see no rain and never learn why. While pipelines are on their way nothing is wrong. */
+/* Who looks at errors alone would see no rain and never learn why. While pipelines are on their way nothing is
+ * wrong. */
 static virga_result say_not_drawn(virga_rain *rain, bool attached)
 {
     if (rain->told_not_drawn || virga_group_ready(&rain->needed))

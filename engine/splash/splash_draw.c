@@ -267,8 +267,8 @@ static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline
     vk->CmdDrawIndexedIndirect(cmd, splash->prepared_buffer->buffer, arguments, 1, sizeof(virga_splash_draw_gpu));
 }
 
-/* Who looks at errors alone would see no splashes and never learn why. While pipelines are on their way nothing is wrong. Nor
- * is it before the first tick. */
+/* Who looks at errors alone would see no splashes and never learn why. While pipelines are on their way nothing is
+ * wrong. Nor is it before the first tick. */
 static virga_result say_not_drawn(virga_splash *splash, bool attached)
 {
     if (splash->told_not_drawn || virga_group_ready(&splash->needed) || !splash->ticks)

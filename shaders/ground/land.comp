@@ -17,7 +17,8 @@ layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landin
 // Bits that a spot covers: all within its radius; one that it covers in part, as often as its share.
 void leave_spot(Piece piece, float diameter_m, uint hash)
 {
-    const float bit_m = tick.cell_m / float(VIRGA_GROUND_SPOTS), radius = 0.5 * VIRGA_GROUND_SPREAD * diameter_m / bit_m;
+    const float bit_m = tick.cell_m / float(VIRGA_GROUND_SPOTS);
+    const float radius = 0.5 * VIRGA_GROUND_SPREAD * diameter_m / bit_m;
     const vec2 at = piece.in_cell * float(VIRGA_GROUND_SPOTS);
     const ivec2 own = clamp(ivec2(at), ivec2(0), ivec2(VIRGA_GROUND_SPOTS - 1));
     const bool shows = virga_unit(hash) < 3.14159265 * radius * radius;

@@ -7,8 +7,9 @@
 #define VIRGA_GROUND_MAX_TILES  4096 /* in the window: 64 x 64, a window of 4096 x 4096 cells */
 #define VIRGA_GROUND_MATERIALS  32
 #define VIRGA_GROUND_SPOTS      8    /* a cell's dark spots are this many bits along its side */
-#define VIRGA_GROUND_SPREAD     3.0  /* a spot's diameter over its drop's, where it is porous. On what is smooth a drop */
-/* spreads to We^(1/4) of its own, 4 to 7 in rain (Clanet et al. 2004, Maximal deformation of an impacting drop). */
+/* A spot's diameter over its drop's, on what is porous. On what is smooth a drop spreads to We^(1/4) of its own, 4 to 7
+ * in rain (Clanet et al. 2004, Maximal deformation of an impacting drop). */
+#define VIRGA_GROUND_SPREAD     3.0
 #define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in, */
 #define VIRGA_GROUND_SCATTER_M  2.0  /* within so far (m) of it at most: */
 #define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a place of this radius (m) */

@@ -21,8 +21,8 @@ vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell
     return texelFetch(wet_map, (low_cell + cell) & (cells - 1), 0);
 }
 
-// One of the 8 x 8 bits of a cell's spots (0 or 1; `bit` counts from the window's low corner), and four numbers of [0; 1)
-// that stay with the place on the ground.
+// One of the 8 x 8 bits of a cell's spots (0 or 1; `bit` counts from the window's low corner), and four numbers of
+// [0; 1) that stay with the place on the ground.
 float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit, out vec4 chance)
 {
     const ivec2 texel = (low_cell + (bit >> 3)) & (cells - 1);

@@ -157,8 +157,8 @@ static double mirrored(double x)
     return 1 - fabs(1 - (x - 2 * floor(x / 2)));
 }
 
-/* What a drop on what is not glass adds to the light of an even white surface, over a ring around its middle from radius
- * to radius: towards the right, and towards the left. */
+/* What a drop on what is not glass adds to the light of an even white surface, over a ring around its middle from
+ * radius to radius: towards the right, and towards the left. */
 static void sum_ring(const shot *s, const float *pixels, const ball *b, const double radii[2], double sums[2])
 {
     const double f = 0.5 * HEIGHT / tan(15 * M_PI / 180), away = fabs(s->camera.position_m[2]);

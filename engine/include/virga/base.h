@@ -83,8 +83,8 @@ typedef enum virga_log_id {
     VIRGA_LOG_TICKS_DROPPED = 14,    /* a step asked for more time than max_ticks_per_step covers */
     VIRGA_LOG_IMPACTS_DROPPED = 15,  /* more impacts in a step than the buffer holds */
     VIRGA_LOG_SHRUNK = 16,           /* an effect was made smaller for the memory budget: which pools, and how small */
-    VIRGA_LOG_NOT_DRAWN = 17,        /* a draw found nothing to draw: what was not called before it. Said once, and again
-                                      * after a draw that had all it needs */
+    VIRGA_LOG_NOT_DRAWN = 17,        /* a draw found nothing to draw: what was not called before it. Said once, and
+                                      * again after a draw that had all it needs */
 } virga_log_id;
 
 /* Short stable name of a log id, e.g. "argument". Never NULL. Thread-safety: any thread. */

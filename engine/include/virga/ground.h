@@ -101,8 +101,8 @@ typedef struct virga_ground_settings {
 } virga_ground_settings;
 
 /* Settings in the open, dry: the first drops soak in, and dry ground makes no splashes. Who wants puddles and splashes
- * from the first second on sets start_wetness and start_water_mm. Materials are those of virga/material.h; their sources:
- * engine/ground/materials.c. */
+ * from the first second on sets start_wetness and start_water_mm. Materials are those of virga/material.h; their
+ * sources: engine/ground/materials.c. */
 VIRGA_API virga_ground_settings virga_default_ground_settings(void);
 
 /* Allocates, and builds pipelines when virga_context_def.pipelines says. VIRGA_DEGRADED: made with smaller pools

@@ -88,8 +88,8 @@ typedef struct virga_scene_frame {
     double focus_m[3];               /* middle of the map of ripples: on the ground some metres ahead of the camera. All
                                       * zero is the world's origin. Not used without ground */
     const virga_occluder *occluders; /* (optional) all of the host's near the camera: drawn into the occlusion maps, and
-                                      * surveyed where the ground's window moves. NULL: the last maps stay, and what comes
-                                      * into the window has no ground: give them whenever the camera has moved */
+                                      * surveyed where the ground's window moves. NULL: the last maps stay, and what
+                                      * comes into the window has no ground: give them whenever the camera has moved */
     uint32_t occluder_count;         /* 0 with `occluders` given: there are none, also in the maps */
     virga_ground_material_map materials; /* (optional) of the ground, over its meshes' */
     const virga_view *view; /* (optional) the view to prepare; NULL: the scene is stepped only */

@@ -15,8 +15,8 @@
  *     virga_rain_draw(rain, cmd, ...);           // inside rendering, after the opaque scene
  *     ... host ends, submits, and says in a later frame that this one completed ...
  *
- * Command buffers are of the context's queue family, one or several a frame; they go to one queue in the order they were
- * recorded in, each once. Virga orders its own work by barriers alone. What a host writes (vertex buffers, images of a
+ * Command buffers are of the context's queue family, one or several a frame; they go to one queue in the order they
+ * were recorded in, each once. Virga orders its own work by barriers alone. What a host writes (vertex buffers, images of a
  * view) it makes visible itself before Virga's call, and what a frame was told of lives until that frame has completed.
  *
  * Thread-safety: calls on one context and on what was made from it must not overlap; different contexts, also on
@@ -323,9 +323,9 @@ typedef struct virga_view {
     uint32_t size, cookie;
     double position_m[3];         /* of the camera in the world; double, so that it may be far from the origin */
     float view_from_world[16];    /* rotation part only is read; the translation is taken from position_m */
-    float clip_from_view[16];     /* projection with the jitter in it; Vulkan clip space, y down, depth 0..1. Who averages
-                                   * sub-frames of one shutter prepares rain without the jitter: its streaks are smooth
-                                   * by themselves, and lines of jittered parts are kinked */
+    float clip_from_view[16];     /* projection with the jitter in it; Vulkan clip space, y down, depth 0..1. Who
+                                   * averages sub-frames of one shutter prepares rain without the jitter: its streaks
+                                   * are smooth by themselves, and lines of jittered parts are kinked */
     double open_position_m[3];    /* the same at the start of the shutter time (a game: the previous frame's camera) */
     float open_view_from_world[16];
     float open_clip_from_view[16]; /* with this frame's jitter, so that jitter does not show as motion */
@@ -337,7 +337,7 @@ typedef struct virga_view {
                                    * the two: without it, motion counts as that of the shorter shutter */
     float aperture_m;             /* [0; 1] width of the lens's opening: streaks nearer or farther than focus_m are as
                                    * wide as it blurs a point there, and cover as much in all. A lens of 50 mm at f/2
-                                   * has 0.025. What else water shows is as sharp as the scene. Default 0: all is sharp */
+                                   * has 0.025. What else water shows is as sharp as the scene. Default 0: all sharp */
     float focus_m;                /* [0; 1e6] view depth that is sharp; 0: infinity, the default */
     float viewport[4];            /* x, y, width, height in pixels, within what the device allows. Who turns the picture
                                    * over by a negative height, which counts as none, negates [1][1] of the projection
