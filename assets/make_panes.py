@@ -175,7 +175,7 @@ def make_panel(path):
     g.surface("metal_paint", [[(PANEL[0] * (i / columns - 0.5), PANEL[1] * j / rows,
                                 DEPTH * (height_at(PANEL[0] * i / columns, PANEL[1] * j / rows) - 1.0))
                                for i in range(columns + 1)] for j in range(rows + 1)], planar=True)
-    scene = Scene([{"name": "metal_paint", "colour": (0.34, 0.05, 0.035), "rough": 0.14, "metal": 0.8}], {})
+    scene = Scene([{"name": "metal_paint", "colour": (0.22, 0.022, 0.018), "rough": 0.16, "metal": 0.6}], {})
     scene.place(g)
     scene.write(path)
 
