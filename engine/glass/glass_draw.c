@@ -661,6 +661,8 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     const struct glass_picture *picture = glass->picture;
     if (!cmd || !target)
         return virga_wrong_argument(&context->log, "%s: NULL argument", call);
+    if (target->context != context) /* whose numbers of targets are others */
+        return virga_wrong_argument(&context->log, "%s: expected a target of the same context", call);
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     const glass_target *found = find_target(glass, target->serial);

@@ -178,6 +178,9 @@ static void targets_of_other_contexts_are_refused(void **state)
     m.picture.target = target;
     assert_int_equal(draw(&m), VIRGA_ERROR_INVALID);
     assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
+    gpu_forget_log(m.f);
+    assert_int_equal(virga_glass_draw(virga_scene_glass(m.scene, 0), m.cmd, target), VIRGA_ERROR_INVALID);
+    assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
     m.picture.target = own;
     close_scene(&m);
     virga_target_destroy(&target);
