@@ -10,7 +10,10 @@ struct Starts {
 // Streams of chance of a splash, and of each of its droplets.
 #define TURN_HASH 1u
 #define CONE_HASH 2u
+#define BESIDE_HASH 3u
 #define DROPLET_HASH 16u // + 4 times its index
+
+#define BESIDE_M 0.3
 
 struct Frame { // of the surface
     vec3 normal, side, across;
@@ -176,12 +179,24 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
     }
 }
 
+// Pieces of an impact whose own places are no ground lie in the impact's: their splashes would stand in each other.
+// Those with droplets stay where these start.
+vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
+{
+    if (spawn.kind >> 24 == 0u || droplets > 0u)
+        return vec3(0.0);
+    const Frame frame = surface_frame(to_vec(spawn.normal));
+    const uint hash = virga_hash2(spawn.random, BESIDE_HASH);
+    const float angle = 6.2831853 * virga_unit(hash), away = BESIDE_M * sqrt(virga_unit(virga_hash1(hash)));
+    return away * (cos(angle) * frame.side + sin(angle) * frame.across);
+}
+
 void start_splash(virga_spawn_gpu spawn, uvec2 place, Starts starts)
 {
     const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
     const bool crowded = place.x >= starts.crowded_from;
     const uint n = crowded ? 0u : placed_droplets(place.y);
-    write_splash(starts.splash + place.x, starts.first_splash, spawn, centre, n);
+    write_splash(starts.splash + place.x, starts.first_splash, spawn, centre + shown_beside(spawn, n), n);
     count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
     count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
     if (n > 0u)
