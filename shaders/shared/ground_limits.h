@@ -13,7 +13,7 @@
 #define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in, */
 #define VIRGA_GROUND_SCATTER_M  2.0  /* within so far (m) of it at most: */
 #define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a place of this radius (m) */
-#define VIRGA_GROUND_CROWNS_M   1.0  /* crowns that one splash shows stand within so far (m) of it at most */
+#define VIRGA_GROUND_CROWNS_M   2.0  /* crowns that one splash shows stand within so far (m) of it at most */
 
 /* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
 #define VIRGA_RING_DEPTHS   8     /* of water: a ring takes the nearest of them */

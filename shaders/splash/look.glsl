@@ -12,10 +12,15 @@ layout(scalar, set = 0, binding = 1) uniform View
 
 // What covers less than this is below what the eye and 8 bits see.
 #define LEAST_COVERAGE (1.0 / 400.0)
-#define MOST_COVERAGE 0.5 // of what stands for many
+#define MOST_COVERAGE 0.3 // of what stands for many
 #define WIDE_PX 3.0       // from here on a sprite shows what is in it
 #define MOST_COLUMNS 16   // puffs beside each other in one sprite,
 #define MOST_ROWS 4       // and behind each other
+#define APART 1.4         // so much farther from each other than their water lies: clusters run into each other
+#define LEAST_APART 3.0   // of the least width drawn
+#define FLATTEST 0.3      // the ellipse on which they lie, as high over wide, where they may lie
+#define MOST_LONGER 6.0   // so much farther behind each other than beside each other,
+#define MOST_REACH 0.2    // and within this share of their distance
 #define MESH_PX 4.0       // crowns that are at least as high on the picture are sheets
 
 #ifdef IN_FORMS

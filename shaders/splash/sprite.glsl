@@ -125,11 +125,11 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.body = across;
     // What is not ground, a leaf or a railing, may end beside the drop.
     const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
-    const float beside = VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
+    const float beside = APART * VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
     sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
-    sprite.id = (splash.id & 1023u) | uint(1023.0 * min(t, 1.0)) << 10;
+    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10; // pieces of one impact have one id
     return sprite;
 }
 
@@ -156,22 +156,51 @@ struct Projected {
     float sine;          // of how far from above it is seen: its rim is so much less deep on the picture than wide
 };
 
+// Seen level, what lies on a disc lies on a line. Which of the ground around an impact its drops fell on is not known,
+// so the flatter it is seen the farther they lie before and behind it (m), and the less beside it.
+vec2 strewn_m(float spread, float sine, float distance)
+{
+    const float longer = clamp(FLATTEST / max(sine, 1e-3), 1.0, MOST_LONGER);
+    return spread * vec2(inversesqrt(longer), min(sqrt(longer), max(MOST_REACH * distance / max(spread, 1e-3), 1.0)));
+}
+
+// Both ends get the depth of the ground where they are, or it would hide what stands before the middle; a little
+// nearer, as distances on the picture are those of a chord.
+void lay_down(Sprite sprite, vec3 normal, float reach_m, inout Projected p)
+{
+    const mat4 m = to_mat(view.clip_from_rel);
+    const vec3 level = sprite.tail - normal * dot(normal, sprite.tail);
+    const vec3 away = level * inversesqrt(max(dot(level, level), 1e-12));
+    const float middle = p.tail.w, reach = min(reach_m, 0.5 * middle);
+    const float nearer = min(reach * reach / middle + distance(sprite.head, sprite.tail), 0.25 * middle);
+    const vec4 before = project(m, sprite.tail - away * (nearer + reach)),
+               behind = project(m, sprite.tail - away * (nearer - reach));
+    p.tail = vec4(p.tail.xy / p.tail.w * before.w, before.zw);
+    p.head = vec4(p.head.xy / p.head.w * behind.w, behind.zw);
+}
+
 // A puff reaches from the near side of its rim to the far one. Several lie on an ellipse, that of a disc on the ground
 // seen from the eye; some are twice as high as they are in the mean.
 void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
 {
-    const float wide_px = pixels(2.0 * sprite.spread, nearest), each_px = max(1.5 * p.width_px, 2.0 * drawn);
+    const vec3 normal = normalize(sprite.head - sprite.tail);
+    p.sine = abs(dot(normalize(sprite.tail), normal));
+    p.body_px = max(p.width_px, drawn);
+    const vec2 strewn = strewn_m(sprite.spread, p.sine, p.tail.w);
+    const float wide_px = pixels(2.0 * strewn.x, nearest), each_px = max(1.5 * p.width_px, LEAST_APART * drawn);
     const float rim_px = 0.5 * p.sine * p.body_px, high_px = p.way_px;
-    float below_px = rim_px, above_px = rim_px;
+    float below_px = rim_px, above_px = rim_px, reach_m = 0.5 * sprite.body;
     p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MOST_COLUMNS));
     if (p.columns > 1.5) {
-        const float deep_px = wide_px * p.sine;
+        const float deep_px = pixels(2.0 * strewn.y, nearest) * p.sine;
         below_px += 0.5 * deep_px;
         above_px += 0.5 * deep_px + high_px;
         p.rows = min(sprite.weight / p.columns, deep_px / (1.5 * (high_px + 2.0 * rim_px + 1.0)));
         p.rows = clamp(floor(p.rows), 1.0, float(MOST_ROWS));
         p.spread_px = wide_px;
+        reach_m += strewn.y;
     }
+    lay_down(sprite, normal, reach_m, p);
     const vec2 pixel = 2.0 * up / vec2(view.viewport[2], view.viewport[3]);
     p.head.xy += above_px * pixel * p.head.w;
     p.tail.xy -= below_px * pixel * p.tail.w;
@@ -200,8 +229,6 @@ Projected project_sprite(Sprite sprite)
     p.body_px = pixels(sprite.body, nearest);
     if (sprite.kind == VIRGA_SPRITE_PUFF) {
         const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
-        p.sine = abs(dot(normalize(sprite.tail), normalize(sprite.head - sprite.tail)));
-        p.body_px = max(p.width_px, drawn);
         spread_out(sprite, nearest, drawn, up, p);
     }
     const float beyond = (p.width_px + p.spread_px + 2.0) * max(p.head.w, p.tail.w);

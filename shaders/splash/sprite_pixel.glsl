@@ -74,14 +74,15 @@ float crown_cover(vec2 at, float half_wide, float high, float sine, float chance
 
 // Several stand on an ellipse, each in a place of its own. They are of larger and smaller drops, and of an earlier and
 // a later time; what one covers more than the mean, that at the opposite place covers less. They cover half of their
-// rectangle.
+// rectangle. The eye does not tell apart small ones close to each other: half of what they cover is a veil.
 float puff_cover()
 {
     const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns, rows = floor(turn.x);
     const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
     const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, aside = from_middle * from_middle;
-    const float room = rows > 1.5 ? 1.0 - 0.3 * aside : 1.0, row_px = shape.z * room / rows;
-    const float lowest = 0.5 * shape.z * (1.0 - room);
+    // Each column begins elsewhere, or they would stand in rows.
+    const float room = rows > 1.5 ? 0.85 - 0.3 * aside : 1.0, row_px = shape.z * room / rows;
+    const float lowest = shape.z * (1.0 - room) * fract(0.618 * column + turn.w);
     const float row = clamp(floor((place.y - lowest) / row_px), 0.0, rows - 1.0);
 
     const float number = row * columns + column, opposite = columns * rows - 1.0 - number;
@@ -89,10 +90,12 @@ float puff_cover()
     const uint pair = virga_hash1(uint(1024.0 * fract(turn.w)) << 6 | uint(min(number, opposite)));
     const float more = sign(opposite - number), several = columns > 1.5 ? 1.0 : 0.0;
     const float covers = 1.0 + 0.9 * more * unpackUnorm4x8(pair).x, size = 0.35 + 0.65 * covers;
+    const float close = clamp(1.6 - 0.1 * column_px * row_px, 0.0, 1.0) * several;
+    const float veil = close * clamp(1.25 - 0.5 * shape.w, 0.0, 0.5);
     const vec4 chance = unpackUnorm4x8(more < 0.0 ? pair * 0x9e3779b1u : pair);
     const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(turn.x) - 1.0;
     const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = turn.z * shape.z;
-    const float half_wide = min(one_px * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
+    const float half_wide = min(one_px * (1.0 + veil) * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
     const float depth = turn.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
     const float high = columns > 1.5 ? min(tall, max(row_px - 2.0 * depth - 1.5, 0.3 * row_px)) : one_high;
     const float up = max(row_px - high - 2.0 * depth, 0.0);
@@ -100,7 +103,10 @@ float puff_cover()
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
     const vec2 at = vec2(place.x + shape.x - (column + 0.5) * column_px - beside,
                          place.y - lowest - row * row_px - foot);
-    return covers * one_px * (one_high + 1.0) * crown_cover(at, half_wide, high, turn.y, chance.x);
+    const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
+    const vec2 on_ellipse = vec2(place.x * deep, 2.0 * place.y * shape.x) * each - vec2(0.0, 1.0);
+    const float evenly = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
+    return one_px * (one_high + 1.0) * mix(covers * crown_cover(at, half_wide, high, turn.y, chance.x), evenly, veil);
 }
 
 float sprite_cover()

@@ -50,8 +50,8 @@ void main()
     const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
     const bool puff = sprite.kind == VIRGA_SPRITE_PUFF;
     const float tail_px = max(pixels(sprite.widths.y, p.tail.w), view.min_width_px);
-    const uint widths = halves(max(pixels(sprite.widths.x, p.head.w), view.min_width_px) + p.spread_px,
-                               puff ? p.sine : tail_px);
+    const float head_px = puff ? p.body_px : max(pixels(sprite.widths.x, p.head.w), view.min_width_px);
+    const uint widths = halves(head_px + p.spread_px, puff ? p.sine : tail_px);
     const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
     const float torn = puff ? TORN_PUFF : sprite.kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
     const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
