@@ -53,24 +53,32 @@ float pile_cover()
     return clamp(half_width + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends * flat_foot;
 }
 
-// A crown from afar, of 1 in all: its wall stands on a circle and reaches to a wider rim, both of which are ellipses on
-// the picture, so there is a near wall and behind it a far one; seen level they are one. Its sides are looked along and
-// so are thicker, its rim is torn. Small ones are but soft flecks.
-float crown_cover(vec2 at, float half_wide, float high, float sine, float chance)
+// A crown from afar, of 1 in all: its wall flares from a circle to a wider rim, both of which are ellipses on the
+// picture, so there is a near wall and behind it a far one; seen level they are one. Its sides are looked along and so
+// are thicker, its rim has fingers: no two crowns have as many or as far apart. Small ones are but soft flecks.
+float crown_cover(vec2 at, float half_wide, float high, float sine, vec4 chance)
 {
-    const float thin = 1.0 / half_wide, x = min(abs(at.x) * thin, 1.0), xx = x * x;
-    const float depth = sine * half_wide * sqrt(1.0 - xx);
-    const float near = abs(0.5 * high - 0.15 * depth) + 0.5, far = 0.5 * high + 0.15 * depth + 0.5;
-    const float y = at.y - 0.5 * high, near_by = 1.0 / near, far_by = 1.0 / far;
-    const float to_near = (y + 0.85 * depth) * near_by, to_far = (y - 0.85 * depth) * far_by;
-    const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0);
-    const float wave = fract(1.11 * at.x * thin + 6.4 * chance) - 0.5; // parabolas do for a sine
-    const float torn = 4.8 * hollow * wave * (1.0 - 2.0 * abs(wave));
-    const float walls = max(1.0 - to_near * to_near, 0.0) * (1.0 - torn) * near_by +
-                        max(1.0 - to_far * to_far, 0.0) * (1.0 + torn) * far_by;
-    const float across = mix(1.875 * (1.0 - xx) * (1.0 - xx), (1.0 - xx * xx * xx) * (0.82 + 1.36 * xx), hollow);
+    const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0), rim = sine * half_wide;
+    const float up = clamp((at.y + rim) / (high + 2.0 * rim + 1e-3), 0.0, 1.0);
+    const float thin = 1.0 / (half_wide * (1.0 - 0.35 * hollow * (1.0 - up)));
+    const float x = clamp(at.x * thin, -1.0, 1.0), xx = x * x;
+    const float depth = rim * sqrt(1.0 - xx);
+    // Parabolas do for a sine. Fingers lean.
+    const float lean = chance.w - 0.5;
+    const float wave = fract((0.5 + 0.8 * chance.y) * (x + 0.6 * lean * up) + 7.0 * chance.x) - 0.5;
+    const float fingers = 8.0 * wave * (1.0 - 2.0 * abs(wave)), lower = hollow * (0.25 + 0.2 * xx);
+    const float half_near = 0.5 * high * (1.0 - lower * (1.0 - fingers)),
+                half_far = 0.5 * high * (1.0 - lower * (1.0 + fingers));
+    const float near_by = 1.0 / (abs(half_near - 0.15 * depth) + 0.5), far_by = 1.0 / (half_far + 0.15 * depth + 0.5);
+    const float to_near = (at.y - half_near + 0.85 * depth) * near_by,
+                to_far = (at.y - half_far - 0.85 * depth) * far_by;
+    const float walls =
+        max(1.0 - to_near * to_near, 0.0) * near_by + max(1.0 - to_far * to_far, 0.0) * far_by;
+    const float across = (1.0 - xx) * mix(1.875 * (1.0 - xx), (1.2 + 1.5 * xx) * (1.0 + 0.8 * lean * x), hollow);
     return 0.1875 * walls * across * thin;
 }
+
+#define MOST_HIDDEN 0.42 // of what is behind a crown, whose wall is thin
 
 // Several stand on an ellipse, each in a place of its own. They are of larger and smaller drops, and of an earlier and
 // a later time; what one covers more than the mean, that at the opposite place covers less. They cover half of their
@@ -106,12 +114,12 @@ float puff_cover()
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
     const vec2 on_ellipse = vec2(place.x * deep, 2.0 * place.y * shape.x) * each - vec2(0.0, 1.0);
     const float evenly = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
-    return one_px * (one_high + 1.0) * mix(covers * crown_cover(at, half_wide, high, turn.y, chance.x), evenly, veil);
+    return one_px * (one_high + 1.0) * mix(covers * crown_cover(at, half_wide, high, turn.y, chance), evenly, veil);
 }
 
 float sprite_cover()
 {
     const float kind = rim_kind.w;
     const float cover = kind < 0.5 ? droplet_cover() : kind < 1.5 ? pile_cover() : puff_cover();
-    return min(centre_alpha.a * cover, 1.0) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
+    return min(centre_alpha.a * cover, kind < 1.5 ? 1.0 : MOST_HIDDEN) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
 }
