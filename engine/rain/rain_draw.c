@@ -99,6 +99,8 @@ static void fill_bent(rain_view_block *out)
     }
 }
 
+#define AT_THE_CAMERA 1e20f /* 1 / the depth that haze begins at, see virga_rain_look_gpu */
+
 static void fill_look(const virga_rain *rain, rain_view_block *out)
 {
     const virga_rain_settings *settings = &rain->settings;
@@ -113,6 +115,7 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->look.glow = settings->glow;
     fill_haze(rain, out);
     fill_bent(out);
+    out->look.begin[3] = AT_THE_CAMERA;
     out->look.max_streaks = rain->def.max_streaks;
     out->look.motion = wants_motion(rain);
 }
@@ -125,13 +128,34 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
     fill_look(rain, out);
 }
 
-/* Worked out here and copied at once: what is mapped may be slow to read. */
-static void push_view(virga_rain *rain, const virga_view *view, double time_s)
+/* For a view without streaks: haze is all of the rain, in every box, and begins where rays cross a plane. */
+static void fill_haze_alone(const virga_rain *rain, const virga_view *view, const double begin[4], rain_view_block *out)
 {
-    rain_view_block block;
-    fill_view(rain, view, time_s, &block);
-    memcpy((char *)rain->view_ring->memory.block.mapped + rain->view_offset, &block, sizeof block);
+    for (uint32_t level = 0; level < rain->levels; level++)
+        out->look.haze_per_m[level] = out->look.haze_per_m[rain->levels];
+    if (!begin)
+        return;
+    double beyond = begin[3];
+    for (int axis = 0; axis < 3; axis++)
+        beyond -= begin[axis] * view->position_m[axis];
+    if (fabs(beyond) < 1e-6) /* the camera is in it */
+        return;
+    for (int axis = 0; axis < 3; axis++)
+        out->look.begin[axis] = (float)(begin[axis] / beyond);
+    out->look.begin[3] = 0;
+}
+
+/* Takes the next place of the frame's ring. Blocks are copied into it at once: what is mapped may be slow to read. */
+static virga_result push_view(virga_rain *rain, const rain_view_block *block, uint32_t *place)
+{
+    if (rain->ring_views >= VIRGA_RAIN_MAX_VIEWS)
+        return virga_wrong_argument(&rain->context->log, "rain: more than %d views in a frame", VIRGA_RAIN_MAX_VIEWS);
+    rain_keep_tick(rain);
+    *place = rain->ring_views++;
+    rain->view_offset = (rain->context->ring_slot * VIRGA_RAIN_MAX_VIEWS + *place) * rain_view_bytes();
+    memcpy((char *)rain->view_ring->memory.block.mapped + rain->view_offset, block, sizeof *block);
     virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+    return VIRGA_OK;
 }
 
 /* ---- prepare */
@@ -163,6 +187,17 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_pass_end(context, cmd, scope);
 }
 
+static bool hazes(const virga_rain *rain)
+{
+    return rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
+}
+
+static uint32_t glowing_lamps(const virga_rain *rain)
+{
+    const virga_rain_settings *settings = &rain->settings;
+    return settings->glow > 0 && settings->light_gain > 0 ? settings->lighting.light_count : 0;
+}
+
 virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
     if (!rain)
@@ -180,14 +215,13 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     if (!rain->stepped)
         return VIRGA_NOT_READY;
     rain_begin_frame(rain, cmd);
-    if (rain->ring_views >= VIRGA_RAIN_MAX_VIEWS)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_prepare: more than %d views in a frame",
-                                    VIRGA_RAIN_MAX_VIEWS);
-    rain_keep_tick(rain);
-    const uint32_t place = rain->ring_views++;
+    uint32_t place;
+    rain_view_block block;
+    fill_view(rain, view, time_s, &block);
+    result = push_view(rain, &block, &place);
+    if (result)
+        return result;
     rain->view_frame = rain->context->frame_index;
-    rain->view_offset = (rain->context->ring_slot * VIRGA_RAIN_MAX_VIEWS + place) * rain_view_bytes();
-    push_view(rain, view, time_s);
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
     rain->prepared_set = rain_write_set(rain, place, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, rain->prepared_set);
@@ -195,10 +229,8 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
     rain->frame_stats[rain->context->ring_slot].prepared = true;
     rain->prepared_depth = has_depth;
-    rain->prepared_haze = has_depth && rain->settings.haze > 0 && rain->classes->rate_mm_h > 0;
-    rain->prepared_glows = rain->prepared_haze && rain->settings.glow > 0 && rain->settings.light_gain > 0
-                               ? rain->settings.lighting.light_count
-                               : 0;
+    rain->prepared_haze = has_depth && hazes(rain);
+    rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
     rain->prepared = true;
     return virga_uploaded(rain->context);
 }
@@ -307,6 +339,15 @@ static virga_result say_not_drawn(virga_rain *rain, bool attached)
     return VIRGA_NOT_READY;
 }
 
+static void set_area(const virga_context *context, VkCommandBuffer cmd, const float box[4])
+{
+    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
+    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
+                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
+    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
+    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+}
+
 virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!rain)
@@ -328,12 +369,7 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (result)
         return result;
     virga_context *context = rain->context;
-    const float *box = rain->prepared_viewport;
-    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
-                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    set_area(context, cmd, rain->prepared_viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);
     if (rain->prepared_haze)
         draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze");
@@ -345,4 +381,59 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     draw_streaks(rain, cmd, found->wide[rain->prepared_depth], offsetof(virga_prepared_gpu, wide));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
+}
+
+/* ---- haze alone */
+
+static virga_result check_haze_alone(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
+                                     const double begin[4], const virga_target *target)
+{
+    const virga_log *log = &rain->context->log;
+    if (!cmd || !view || !target)
+        return virga_wrong_argument(log, "virga_rain_draw_haze: NULL argument");
+    if (target->context != rain->context)
+        return virga_wrong_argument(log, "virga_rain_draw_haze: expected a target of the same context");
+    if (rain->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (begin && virga_settings_finite_double(log, "virga_rain_draw_haze: begin", begin, 4))
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = virga_view_check(rain->context, view, 0);
+    if (result)
+        return result;
+    if (view->depth.view == VK_NULL_HANDLE)
+        return virga_wrong_argument(log, "virga_rain_draw_haze: expected a view with depth");
+    return VIRGA_OK;
+}
+
+virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view, const double begin[4],
+                                  const virga_target *target)
+{
+    if (!rain)
+        return VIRGA_ERROR_INVALID;
+    virga_result result = check_haze_alone(rain, cmd, view, begin, target);
+    if (result)
+        return result;
+    const rain_target *found = find_target(rain, target->serial);
+    /* Inside rendering a frame can not be begun. */
+    if (!found || !rain->stepped || rain->ring_frame != rain->context->frame_index)
+        return VIRGA_NOT_READY;
+    const virga_pipeline *used[] = {found->haze, found->glow};
+    result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
+    if (result || !hazes(rain))
+        return result;
+    uint32_t place;
+    rain_view_block block;
+    const uint32_t prepared_offset = rain->view_offset;
+    fill_view(rain, view, virga_rain_time(rain), &block);
+    fill_haze_alone(rain, view, begin, &block);
+    result = push_view(rain, &block, &place);
+    if (result)
+        return result;
+    set_area(rain->context, cmd, view->viewport);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, place, &view->depth));
+    draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze_alone");
+    if (glowing_lamps(rain))
+        draw_plain(rain, cmd, found->glow, 6, glowing_lamps(rain), "rain.glow_alone");
+    rain->view_offset = prepared_offset; /* virga_rain_draw may still come */
+    return virga_uploaded(rain->context);
 }

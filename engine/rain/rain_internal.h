@@ -6,7 +6,7 @@
  *   rain_descriptors.c  the one binding model of all passes
  *   rain_step.c       ticks and impacts
  *   rain_occlusion.c  maps of where no rain falls
- *   rain_draw.c       prepare, attach, draw
+ *   rain_draw.c       prepare, attach, draw, haze alone
  */
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H

@@ -14,6 +14,7 @@ layout(location = 3) flat in vec4 spot;
 layout(location = 4) flat in vec4 look_at;
 layout(location = 5) flat in vec4 depth_terms;
 layout(location = 6) flat in float pixel_angle;
+layout(location = 7) noperspective in float begins;
 layout(location = 0) out vec4 radiance;
 
 #define PI 3.14159265
@@ -72,8 +73,9 @@ void main()
     const float out_there = pass.nearest * lamp.w, x2 = out_there * out_there, fade = clamp(1.0 - x2 * x2, 0.0, 1.0);
     if (fade <= 0.0)
         discard;
-    const float ends = stored_view_depth(buffer_depth(gl_FragCoord.xy)) * length(ray);
-    const float from = atan(pass.nearest, pass.along), to = atan(pass.nearest, pass.along - ends);
+    const float start = length(ray) / max(begins, 1e-9);
+    const float ends = max(stored_view_depth(buffer_depth(gl_FragCoord.xy)) * length(ray), start);
+    const float from = atan(pass.nearest, pass.along - start), to = atan(pass.nearest, pass.along - ends);
     const bool all_around = spot.w < -1.0 && strength.w == 0.0;
     // Not below nothing: where the ray ends near the camera both are nearly one, and a GPU's arc tangent is rough.
     const float bent = all_around ? max(bent_up_to(to) - bent_up_to(from), 0.0) : lit(pass, direction, from, to);

@@ -13,6 +13,7 @@ layout(location = 3) flat out vec4 spot;         // direction, cosine of where t
 layout(location = 4) flat out vec4 look_at;      // where the lamp is on the picture (px), a radius (px), view depth
 layout(location = 5) flat out vec4 depth_terms;  // depth_a, depth_b, far_depth of the view; 1 / width of the cone
 layout(location = 6) flat out float pixel_angle;
+layout(location = 7) noperspective out float begins; // 1 / the view depth that haze begins at
 
 #define MOST_M 200.0      // from a lamp that a glow is looked for
 #define SEEN_RADIUS_M 0.3 // around the lamp within which it is looked whether something hides it
@@ -71,7 +72,8 @@ void main()
     const float distance = length(at), inner = look.haze_inner_m;
     const float per_m = (haze_thickness(1.25 * distance, inner) - haze_thickness(0.8 * distance, inner)) /
                         max(0.45 * distance, 1e-3);
-    const float way_through = exp(-0.5 * haze_thickness(distance, inner));
+    const float begun = 1.0 / max(inverse_begin(at), 1.0); // share of the way to the lamp that is not hazed
+    const float way_through = exp(-0.5 * haze_thickness(distance * (1.0 - begun), inner));
     const vec3 power = to_vec(light.intensity) * (0.5 * per_m * way_through * view.light_gain * look.glow);
     const float reach = reach_of(power, to_vec(light.intensity));
 
@@ -82,6 +84,7 @@ void main()
         ndc = distance < reach || dot(at, to_vec(view.ahead)) > -reach ? corner : vec2(-1.0);
     gl_Position = vec4(ndc, 0.0, 1.0);
     ray = to_vec(view.right) * ndc.x + to_vec(view.up) * ndc.y + to_vec(view.ahead);
+    begins = inverse_begin(ray);
     lamp = vec4(at, 1.0 / reach);
     strength = vec4(power, light.inv_range);
     spot = vec4(to_vec(light.direction), light.cos_outer);

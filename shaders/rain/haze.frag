@@ -13,6 +13,7 @@ layout(location = 0) noperspective in vec3 ray; // see haze.vert
 layout(location = 1) flat in vec4 depth_and_reach;
 layout(location = 2) flat in vec4 per_m[HAZE_VECTORS];
 layout(location = 6) flat in vec4 sky[SKY_VECTORS];
+layout(location = 13) noperspective in float begins;
 layout(location = 0) out vec4 radiance;
 
 float sky_word(uint word) { return sky[word / 4u][word % 4u]; }
@@ -25,10 +26,10 @@ void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
     // The sky may be an environment that was seen through its own rain already.
-    const float way = stored == depth_and_reach.z ? sky[SKY_VECTORS - 1u].w
-                                                  : depth_and_reach.y / (depth_and_reach.x + stored) * length(ray);
+    const float depth = depth_and_reach.y / (depth_and_reach.x + stored) - 1.0 / max(begins, 1e-9);
+    const float way = stored == depth_and_reach.z ? sky[SKY_VECTORS - 1u].w : max(depth, 0.0) * length(ray);
     const float alpha = 1.0 - exp(-haze_thickness(way, depth_and_reach.w));
-    if (alpha <= 0.0)
+    if (alpha <= 0.0 || begins <= 0.0)
         discard;
     radiance = vec4(environment(normalize(ray), vec2(0.97, 0.94)) * alpha, alpha);
 }

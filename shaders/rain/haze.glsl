@@ -2,7 +2,8 @@
 // of the boxes around the camera, and with box VIRGA_RAIN_MAX_LEVELS beyond the last.
 float haze_extinction(uint box);
 
-// Optical thickness of a way (m) that begins at the camera; `inner` is half the side of the innermost box.
+// Optical thickness of a way (m) that begins at the camera, or anywhere where all boxes are alike; `inner` is half the
+// side of the innermost box.
 float haze_thickness(float way, float inner)
 {
     float thick = 0.0, from = 0.0, to = inner;

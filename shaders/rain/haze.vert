@@ -11,12 +11,14 @@ layout(location = 1) flat out vec4 depth_and_reach; // depth_a, depth_b, far_dep
 layout(location = 2) flat out vec4 per_m[HAZE_VECTORS]; // extinction in each box and beyond the last
 layout(location = 6) flat out vec4 sky[SKY_VECTORS]; // coefficients of the environment, red, green, blue, red and so on; the
                                                     // last word: metres of haze before it
+layout(location = 13) noperspective out float begins; // 1 / the view depth that haze begins at
 
 void main()
 {
     const vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2) * 2.0 - 1.0;
     gl_Position = vec4(corner, 0.0, 1.0);
     ray = to_vec(view.right) * corner.x + to_vec(view.up) * corner.y + to_vec(view.ahead);
+    begins = inverse_begin(ray);
     depth_and_reach = vec4(view.depth_a, view.depth_b, view.far_depth, look.haze_inner_m);
     for (uint box = 0u; box < 4u * HAZE_VECTORS; box++)
         per_m[box / 4u][box % 4u] = look.haze_per_m[min(box, tick.levels)];

@@ -28,6 +28,12 @@ vec3 sh_coefficient(uint i);
 // that from where it is sharp.
 float blur_px(float depth) { return view.lens_px * abs(view.inv_focus - 1.0 / max(depth, NEAR_W)); }
 
+// 1 / the view depth from which a ray is hazed, which is linear on the picture: 0 and less for none.
+float inverse_begin(vec3 ray)
+{
+    return look.begin[0] * ray.x + look.begin[1] * ray.y + look.begin[2] * ray.z + look.begin[3];
+}
+
 // How wide a streak is drawn.
 float drawn_width(float width_px, float blur) { return max(width_px, max(view.min_width_px, blur)); }
 

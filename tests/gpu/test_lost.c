@@ -128,6 +128,7 @@ static void rain_is_lost(life *l, const virga_view *view)
     LOST(virga_rain_prepare(rain, l->cmd, view, 0));
     LOST(virga_rain_attach(rain, l->target));
     LOST(virga_rain_draw(rain, l->cmd, l->target));
+    LOST(virga_rain_draw_haze(rain, l->cmd, view, NULL, l->target));
 }
 
 static void ground_and_splash_are_lost(life *l, const virga_view *view)

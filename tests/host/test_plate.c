@@ -10,6 +10,8 @@
 
 #include "plate_fixture.h"
 
+#include <virga/virga.h>
+
 enum { WIDTH = 128, HEIGHT = 96 };
 
 #define ROUGHNESS    0.9f
@@ -38,6 +40,9 @@ typedef struct scene {
     host_mesh plane, cube;
     host_accumulator picture;
     puddle puddle;
+    virga_context *context; /* these for the haze before what water mirrors */
+    virga_rain *rain;
+    virga_target *mirror;
 } scene;
 
 static host_material matte(float albedo)
@@ -108,6 +113,14 @@ static void fill_layer(VkCommandBuffer cmd, float value)
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
 }
 
+/* As much rain as it takes to have haze: an instant of it. */
+static bool begin_rain(scene *s, VkCommandBuffer cmd)
+{
+    const virga_rain_step_info info = {.dt_s = 0.02};
+    return virga_frame_begin(s->context, s->base.device.frame, s->base.device.completed) == VIRGA_OK &&
+           virga_rain_step(s->rain, cmd, &info) == VIRGA_OK;
+}
+
 /* The layer of splashes, where there is one, is filled with 0.25 in the first sub-frame and twice that in the next. */
 static bool draw(scene *s, uint32_t samples)
 {
@@ -121,6 +134,8 @@ static bool draw(scene *s, uint32_t samples)
         host_camera_at(&path, 0.5, WIDTH, HEIGHT, jitter, &now);
         host_camera_at(&path, 0.5 - 1.0 / 24.0, WIDTH, HEIGHT, jitter, &before);
         if (!host_begin_frame(device, &cmd, s->base.error, sizeof s->base.error))
+            return false;
+        if (s->rain && !begin_rain(s, cmd))
             return false;
         host_renderer_plate(s->renderer, cmd, &s->target, &now, &before);
         if (s->target.images[HOST_SPLASH].image) {
@@ -421,6 +436,83 @@ static void water_mirrors_wall(void **state)
     assert_float_equal(redness(s, 88, 74), 0.0, 0.01);
 }
 
+static bool open_rain(scene *s)
+{
+    virga_context_def def = virga_default_context_def();
+    virga_rain_def rain = virga_default_rain_def();
+    virga_target_def target = virga_default_target_def();
+    def.instance = s->base.instance.instance;
+    def.physical_device = s->base.device.physical;
+    def.device = s->base.device.device;
+    def.queue_family = s->base.device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    rain.max_drops = 1024;
+    rain.occlusion_size = 0;
+    return host_renderer_describe_mirror(s->renderer, &target) && virga_context_create(&def, &s->context) == VIRGA_OK &&
+           virga_rain_create(s->context, &rain, &s->rain) == VIRGA_OK &&
+           virga_target_create(s->context, &target, &s->mirror) == VIRGA_OK &&
+           virga_rain_attach(s->rain, s->mirror) == VIRGA_OK;
+}
+
+static void close_rain(scene *s)
+{
+    virga_target_destroy(&s->mirror);
+    virga_rain_destroy(&s->rain);
+    virga_context_destroy(&s->context);
+}
+
+static void draw_haze(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4])
+{
+    const scene *s = user;
+    assert_int_equal(virga_rain_draw_haze(s->rain, cmd, view, plane, s->mirror), VIRGA_OK);
+}
+
+/* Metres from the water at a pixel, 1.5 m under the camera, to the wall. */
+static double from_water_to_wall(int x, int y)
+{
+    const double focal_px = HEIGHT / 2.0 / tan(30.0 * 3.14159265358979 / 180.0);
+    const double right = (x + 0.5 - WIDTH / 2.0) / focal_px, down = (y + 0.5 - HEIGHT / 2.0) / focal_px;
+    return (8 - 1.5 / down) * sqrt(1 + right * right + down * down);
+}
+
+enum { ROWS = 4, FIRST_ROW = 68, ROW_STEP = 4 };
+
+/* In rain that scatters no light, what is left of the wall is exp(-k L), with L from the water on: the way to the water
+ * is the plate's. Of the sky it is what haze_sky_m says. */
+static void haze_veils_what_water_mirrors(void **state)
+{
+    scene *s = *state;
+    float clear[ROWS];
+    assert_true(host_renderer_set_mirror(s->renderer, &s->target, 0, s->base.error, sizeof s->base.error));
+    host_renderer_set_ground(s->renderer, &s->puddle.maps);
+    assert_true(draw(s, 1));
+    for (int i = 0; i < ROWS; i++)
+        clear[i] = redness(s, 88, FIRST_ROW + i * ROW_STEP);
+    const float sky = s->picture.color[at(66, 74) * 4 + 1];
+
+    assert_true(open_rain(s));
+    virga_rain_settings settings = virga_default_rain_settings();
+    settings.rate_mm_h = 200;
+    settings.haze = 4;
+    settings.haze_sky_m = 50;
+    memset(settings.lighting.environment_sh, 0, sizeof settings.lighting.environment_sh);
+    assert_int_equal(virga_rain_set(s->rain, &settings), VIRGA_OK);
+    host_renderer_haze_mirror(s->renderer, draw_haze, s);
+    assert_true(draw(s, 1));
+    const double per_m = 4 * virga_rain_extinction(200);
+    for (int i = 0; i < ROWS; i++) {
+        const int y = FIRST_ROW + i * ROW_STEP;
+        const double left = (double)(redness(s, 88, y) / clear[i]);
+        printf("row %d: %.4f is left, expected %.4f\n", y, left, exp(-per_m * from_water_to_wall(88, y)));
+        assert_float_equal(left, exp(-per_m * from_water_to_wall(88, y)), 0.004);
+    }
+    const double taken = (double)(sky - s->picture.color[at(66, 74) * 4 + 1]) / reflectance(66, 74);
+    printf("%.4f of the sky is taken, expected %.4f\n", taken, 1 - exp(-per_m * 50));
+    assert_float_equal(taken, 1 - exp(-per_m * 50), 0.02);
+    host_renderer_haze_mirror(s->renderer, NULL, NULL);
+    close_rain(s);
+}
+
 /* Waves too fine to be seen spread the wall's light, and each pixel has its share of it: all together differ from the
  * mean of their neighbours by less than 0.13 of it. Looks at single points of the picture, which meet the wall in
  * one pixel and miss it in the next, make that 0.17. From row 70 on, clear of the wall's foot. */
@@ -454,6 +546,7 @@ int main(void)
         cmocka_unit_test(sub_frames),
         cmocka_unit_test(splash_layer),
         cmocka_unit_test(water_mirrors_wall),
+        cmocka_unit_test(haze_veils_what_water_mirrors),
         cmocka_unit_test(waves_mirror_without_sparks),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

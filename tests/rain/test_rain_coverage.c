@@ -220,6 +220,116 @@ static void there_is_haze_before_the_sky_if_asked_for_and_none_without_depth(voi
     close_shot(&s);
 }
 
+/* As a mirror of water at height 0 shows it. */
+static virga_view view_of_mirror(const shot *s)
+{
+    virga_view view = view_of(s);
+    view.position_m[1] = view.open_position_m[1] = -view.position_m[1];
+    for (int row = 0; row < 3; row++)
+        view.view_from_world[4 + row] = view.open_view_from_world[4 + row] = -view.view_from_world[4 + row];
+    return view;
+}
+
+static const double level_water[4] = {0, 1, 0, 0};
+
+/* A frame of haze alone; with `prepared` also all of the rain after it, which is then all that is left. */
+static const float *draw_haze_alone(shot *s, bool prepared)
+{
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s->f);
+    rain_fixture_record_step(&s->f, cmd, 0);
+    record_scene_depth(s, cmd);
+    const virga_view view = view_of(s), mirror = view_of_mirror(s);
+    if (prepared)
+        REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain)) == VIRGA_OK);
+    host_target_begin_layer(&s->picture, cmd);
+    REQUIRE(virga_rain_draw_haze(s->f.rain, cmd, &mirror, level_water, s->layer) == VIRGA_OK);
+    host_target_end_layer(&s->picture, cmd);
+    if (prepared)
+        record_layer(s, cmd);
+    host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER);
+    rain_fixture_end_frame(&s->f);
+    return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
+}
+
+/* All of the rain is haze there, also what has streaks elsewhere; and its light is that of where the ray goes to, up
+ * from the water. Rays that do not come from the water have none. */
+static void haze_alone_begins_at_its_plane(void **state)
+{
+    (void)state;
+    const double distance = 30;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    s.give_depth = true;
+    for (int c = 0; c < 3; c++)
+        s.f.settings.lighting.environment_sh[1][c] = 0.3f; /* another one above than below */
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    assert_true(streak_count(&s) > 100);
+    s.scene_depth = stored_depth(&s, distance);
+    const float *pixels = draw_haze_alone(&s, false), *p = s.camera.clip_from_view;
+    const double extinction = virga_rain_extinction(100);
+    uint32_t hazed = 0;
+    for (size_t i = 0; i < (size_t)s.picture.width * s.picture.height; i += 7) {
+        const double x = (((double)(i % s.picture.width) + 0.5) / s.picture.width * 2 - 1) / (double)p[0],
+                     up = -(((double)(i / s.picture.width) + 0.5) / s.picture.height * 2 - 1) / (double)p[5];
+        const double length = sqrt(1 + x * x + up * up);
+        const double way = up > 0 ? fmax(distance - s.f.camera[1] / up, 0) * length : 0;
+        const double alpha = 1 - exp(-extinction * way);
+        double radiance[3];
+        environment_at(&s, (const double[3]){x / length, up / length, -1 / length}, (const double[3]){1, 0.97, 0.94},
+                       radiance);
+        assert_true(fabs((double)pixels[i * 4 + 3] - alpha) < 2e-3 * alpha + 1e-6);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs((double)pixels[i * 4 + (size_t)c] - radiance[c] * alpha) <
+                        4e-3 * radiance[c] * alpha + 1e-6);
+        hazed += alpha > 0.01;
+    }
+    assert_true(hazed > 500);
+    close_shot(&s);
+}
+
+/* What was prepared is drawn as if nothing had been between. */
+static void haze_alone_leaves_what_was_prepared(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    s.give_depth = true;
+    s.f.settings.haze_sky_m = 100;
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    float *before = draw_copy(&s, 0);
+    const float *after = draw_haze_alone(&s, true);
+    assert_memory_equal(before, after, (size_t)s.picture.width * s.picture.height * 4 * sizeof(float));
+    free(before);
+    close_shot(&s);
+}
+
+static void haze_alone_needs_depth_and_a_begun_frame(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s, 100);
+    add_picture(&s, 160, 120);
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.02);
+    const double nowhere[4] = {0, NAN, 0, 0};
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
+    virga_view view = view_of(&s);
+    assert_int_equal(virga_rain_draw_haze(s.f.rain, cmd, &view, NULL, s.layer), VIRGA_ERROR_INVALID);
+    s.give_depth = true;
+    view = view_of(&s);
+    assert_int_equal(virga_rain_draw_haze(s.f.rain, cmd, &view, nowhere, s.layer), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_rain_draw_haze(s.f.rain, cmd, &view, NULL, s.layer), VIRGA_NOT_READY);
+    rain_fixture_end_frame(&s.f);
+    close_shot(&s);
+}
+
 /* ---- the scene's depth */
 
 static void streaks_end_at_the_scene_over_soft_m(void **state)
@@ -282,6 +392,9 @@ int main(void)
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
         cmocka_unit_test(there_is_haze_before_the_sky_if_asked_for_and_none_without_depth),
+        cmocka_unit_test(haze_alone_begins_at_its_plane),
+        cmocka_unit_test(haze_alone_leaves_what_was_prepared),
+        cmocka_unit_test(haze_alone_needs_depth_and_a_begun_frame),
         cmocka_unit_test(streaks_end_at_the_scene_over_soft_m),
         cmocka_unit_test(without_softness_the_scene_cuts),
     };

@@ -61,9 +61,9 @@ static double lamp_along(const double ray[3])
     return ray[0] * lamp_at[0] + ray[1] * lamp_at[1] + ray[2] * lamp_at[2];
 }
 
-/* Single scattering along a ray up to `ends`, by drops that take half of the extinction: the other half is diffraction.
+/* Single scattering along a ray from `begins` up to `ends`, by drops that take half of the extinction: the other half is diffraction.
  * The lamp is 0.1 m wide, and a pixel half of its own width. */
-static double glow_along(const shot *s, const double ray[3], double ends)
+static double glow_along(const shot *s, const double ray[3], double begins, double ends)
 {
     const virga_light *lamp = &s->f.settings.lighting.lights[0];
     const double k = virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
@@ -72,7 +72,7 @@ static double glow_along(const shot *s, const double ray[3], double ends)
     const double least2 = 0.1 * 0.1 + pixel * pixel;
     double sum = 0;
     for (int i = 0; i < steps; i++) {
-        const double t = ends * (i + 0.5) / steps;
+        const double t = begins + (ends - begins) * (i + 0.5) / steps;
         double out[3], r2 = least2;
         for (int axis = 0; axis < 3; axis++) {
             out[axis] = ray[axis] * t - lamp_at[axis];
@@ -84,15 +84,14 @@ static double glow_along(const shot *s, const double ray[3], double ends)
             out[axis] /= r;
             bent -= out[axis] * ray[axis];
         }
-        sum += goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-0.5 * k * (t + r)) * ends / steps;
+        sum += goes_out(lamp, out, r) / r2 * virga_drop_phase(bent) * exp(-0.5 * k * (t - begins + r)) *
+               (ends - begins) / steps;
     }
     return 0.5 * k * sum * (double)s->f.settings.light_gain * (double)s->f.settings.glow;
 }
 
-static double check_glow(shot *s, double depth_m, double tolerance)
+static double compare_glow(const shot *s, const float *pixels, double begin_m, double depth_m, double tolerance)
 {
-    s->scene_depth = depth_m > 0 ? stored_depth(s, depth_m) : 1;
-    const float *pixels = draw_night(s);
     const float *p = s->camera.clip_from_view;
     double most = 0, worst = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -101,7 +100,7 @@ static double check_glow(shot *s, double depth_m, double tolerance)
         const double x = ((i % WIDTH + 0.5) / WIDTH * 2 - 1) / (double)p[0],
                      y = ((i / WIDTH + 0.5) / HEIGHT * 2 - 1) / (double)p[5], length = sqrt(1 + x * x + y * y);
         const double ray[3] = {x / length, y / length, -1 / length};
-        const double expected = 40 * glow_along(s, ray, depth_m > 0 ? depth_m * length : 100);
+        const double expected = 40 * glow_along(s, ray, begin_m * length, depth_m > 0 ? depth_m * length : 100);
         const double off = fabs((double)pixels[i * 4] - expected) / (expected + 0.02 * most);
         worst = fmax(worst, off);
         assert_true(fabs((double)pixels[i * 4 + 2] - 3 * (double)pixels[i * 4]) <
@@ -110,6 +109,12 @@ static double check_glow(shot *s, double depth_m, double tolerance)
     printf("brightest %.4f, off by %.1f %%\n", most, 100 * worst);
     assert_true(most > 0 && worst < tolerance);
     return most;
+}
+
+static double check_glow(shot *s, double depth_m, double tolerance)
+{
+    s->scene_depth = depth_m > 0 ? stored_depth(s, depth_m) : 1;
+    return compare_glow(s, draw_night(s), 0, depth_m, tolerance);
 }
 
 /* ---- tests */
@@ -124,6 +129,28 @@ static void a_lamp_glows_by_the_integral_over_each_ray(void **state)
     s.f.settings.light_gain = 2;
     s.f.settings.glow = 3;
     check_glow(&s, 12.4, 0.01); /* on one that it stands before */
+    close_shot(&s);
+}
+
+/* From a plane 9 m ahead on: the haze before it is another picture's, and dims no lamp. */
+static void a_glow_of_haze_alone_begins_at_its_plane(void **state)
+{
+    (void)state;
+    shot s;
+    open_night(&s);
+    const double begin[4] = {0, 0, 1, s.f.camera[2] - 9};
+    s.scene_depth = stored_depth(&s, 30);
+    apply_settings(&s);
+    const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
+    rain_fixture_record_step(&s.f, cmd, 0.02);
+    record_scene_depth(&s, cmd);
+    const virga_view view = view_of(&s);
+    host_target_begin_layer(&s.picture, cmd);
+    REQUIRE(virga_rain_draw_haze(s.f.rain, cmd, &view, begin, s.layer) == VIRGA_OK);
+    host_target_end_layer(&s.picture, cmd);
+    host_target_copy_out(&s.picture, cmd, 1u << HOST_LAYER);
+    rain_fixture_end_frame(&s.f);
+    compare_glow(&s, host_target_floats(&s.f.gpu.device, &s.picture, HOST_LAYER), 9, 30, 0.02);
     close_shot(&s);
 }
 
@@ -233,6 +260,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_glows_by_the_integral_over_each_ray),
+        cmocka_unit_test(a_glow_of_haze_alone_begins_at_its_plane),
         cmocka_unit_test(a_spot_glows_in_its_cone),
         cmocka_unit_test(a_glow_ends_with_its_lamps_range),
         cmocka_unit_test(a_hidden_lamp_has_no_glow),

@@ -5,11 +5,11 @@
  *     host_instance_create -> host_devices_list -> host_device_pick -> host_device_create
  *     host_target_create, host_target_add_splash, host_target_add_glass, host_renderer_create
  *     host_mesh_load + host_renderer_add, host_environment_create + host_renderer_set_environment, ..._set_lights,
- *     ..._set_mirror
+ *     ..._set_mirror, ..._haze_mirror
  *     for each (sub)frame:
  *         host_camera_at (now, and one frame ago)
  *         host_begin_frame            -> virga_frame_begin(context, device.frame, device.completed), step, prepare
- *         host_renderer_plate
+ *         host_renderer_plate         -> virga_rain_draw_haze over what puddles mirror
  *         host_target_begin_splash    -> virga_splash_draw; the plate's color and depth are readable as textures
  *         host_target_begin_layer     -> virga_rain_draw; the same
  *         host_target_begin_behind    -> both again, over the plate: what panes show

@@ -37,6 +37,7 @@ static bool create_frame_set(host_renderer *r, char *error, size_t error_size)
     write_image(r, r->frame_set, 6, r->volume_sampler, &r->white);
     write_image(r, r->frame_set, 7, r->volume_sampler, &r->white);
     write_image(r, r->frame_set, 8, r->point_sampler, &r->white);
+    write_image(r, r->frame_set, 9, r->volume_sampler, &r->white);
     return true;
 }
 
@@ -186,7 +187,27 @@ bool host_renderer_set_mirror(host_renderer *r, const host_target *target, doubl
         !host_renderer_build_mirror(r, error, error_size))
         return false;
     write_image(r, r->frame_set, 7, r->volume_sampler, &r->mirror.color);
+    write_image(r, r->frame_set, 9, r->volume_sampler, &r->mirror.near);
     return true;
+}
+
+void host_renderer_haze_mirror(host_renderer *r, host_draw_haze draw, void *user)
+{
+    r->draw_haze = draw;
+    r->haze_user = user;
+}
+
+bool host_renderer_describe_mirror(const host_renderer *r, virga_target_def *def)
+{
+    def->kind = VIRGA_TARGET_RENDER_PASS;
+    def->render_pass = r->mirror.haze_pass;
+    def->subpass = 0;
+    def->color_formats[0] = r->mirror.color.format;
+    def->color_count = 1;
+    def->samples = VK_SAMPLE_COUNT_1_BIT;
+    def->depth_attached = false;
+    def->reversed_depth = false;
+    return r->mirror.width > 0;
 }
 
 void host_renderer_set_lights(host_renderer *r, const virga_light *lights, uint32_t count)
@@ -467,8 +488,47 @@ static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_ca
 
 /* ---- the plate ---------------------------------------------------------------------------------------------- */
 
+/* The world from under the plane, as shaders/scene.vert and mirror_jitter.glsl have it. */
+static virga_view view_of_mirror(const host_renderer *r, const host_camera *camera)
+{
+    virga_view view = virga_default_view();
+    const float sides[2] = {(float)r->mirror.width, (float)r->mirror.height};
+    const float plate[2] = {(float)camera->width, (float)camera->height}, small = 1.0f / HOST_MIRROR_MARGIN;
+    host_camera_view(camera, camera, 0, &view);
+    view.position_m[1] = 2 * r->mirror_m - camera->position_m[1];
+    view.open_position_m[1] = view.position_m[1];
+    for (int row = 0; row < 3; row++)
+        view.view_from_world[4 + row] = view.open_view_from_world[4 + row] = -camera->view_from_world[4 + row];
+    for (int axis = 0; axis < 2; axis++) {
+        const float jitter = camera->jitter_px[axis] * (2.0f / sides[axis] - 2.0f * small / plate[axis]);
+        view.clip_from_view[axis * 5] *= small;
+        view.clip_from_view[8 + axis] = view.clip_from_view[8 + axis] * small - jitter; /* times -w */
+        view.viewport[2 + axis] = sides[axis];
+    }
+    memcpy(view.open_clip_from_view, view.clip_from_view, sizeof view.clip_from_view);
+    view.depth = (virga_image){
+        .image = r->mirror.depth.image,
+        .view = r->mirror.depth.view,
+        .format = r->mirror.depth.format,
+        .extent = {r->mirror.width, r->mirror.height, 1},
+        .before = {VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                   VK_ACCESS_SHADER_READ_BIT},
+    };
+    return view;
+}
+
+static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
+{
+    const double plane[4] = {0, 1, 0, r->mirror_m};
+    const virga_view view = view_of_mirror(r, camera);
+    host_mirror_begin_haze(&r->mirror, cmd);
+    r->draw_haze(r->haze_user, cmd, &view, plane);
+    vkCmdEndRenderPass(cmd);
+}
+
 /* Begun even where it is not worth drawing: what the plate's shaders may sample has to be in its layout. */
-static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame)
+static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
+                          const host_camera *camera)
 {
     if (!r->mirror.width)
         return;
@@ -477,7 +537,10 @@ static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const str
     host_mirror_begin(&r->mirror, cmd);
     if (frame->mirror[2] > 0.0f)
         draw_scene(r, cmd, (pipelines)r->mirror_pipelines);
-    host_mirror_end(&r->mirror, cmd);
+    vkCmdEndRenderPass(cmd);
+    if (frame->mirror[2] > 0.0f && r->draw_haze)
+        record_mirror_haze(r, cmd, camera);
+    host_mirror_copy_down(&r->mirror, cmd);
     host_label_end(r->device, cmd);
 }
 
@@ -488,7 +551,7 @@ void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_targe
     update_skylight(r, cmd, camera);
     fill_frame(r, target, camera, previous, &frame);
     record_frame(r, cmd, &frame);
-    record_mirror(r, cmd, &frame);
+    record_mirror(r, cmd, &frame, camera);
     host_label_begin(r->device, cmd, "plate");
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->layout, 0, 1, &r->frame_set, 0, NULL);
     host_target_begin_plate(target, cmd);

@@ -38,6 +38,17 @@ void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *
 bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target, double height_m, char *error,
                               size_t error_size);
 
+/* Draws haze over the mirror's picture, within its pass: virga_rain_draw_haze with this view and the plane in which the
+ * rays of the mirror begin. */
+typedef void (*host_draw_haze)(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4]);
+
+/* From here on `draw` is called while a plate is recorded, if it has a mirror; NULL: nothing is. The rain's step or
+ * prepare of the frame comes before. */
+void host_renderer_haze_mirror(host_renderer *renderer, host_draw_haze draw, void *user);
+
+/* What virga_target_create needs for that pass, into a default definition. False: there is no mirror. */
+bool host_renderer_describe_mirror(const host_renderer *renderer, virga_target_def *def);
+
 /* Records the whole plate pass. `previous` is the camera one frame ago, for velocities. */
 void host_renderer_plate(host_renderer *renderer, VkCommandBuffer cmd, const host_target *target,
                          const host_camera *camera, const host_camera *previous);

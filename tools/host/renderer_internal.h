@@ -19,7 +19,7 @@ typedef enum host_pipeline {
 } host_pipeline;
 
 /* Sets of a frame: its numbers, sky, reflection, skylight, the ground's wetness, spots and ripples, the mirror, the
- * ground beyond the window. Sets of a material: its two textures. */
+ * ground beyond the window, distances of the mirror. Sets of a material: its two textures. */
 extern const host_set_shape host_frame_shape, host_material_shape;
 
 typedef struct host_entry { /* a mesh that was added */
@@ -43,6 +43,8 @@ struct host_renderer {
     virga_ground_maps ground; /* cells 0: none */
     host_mirror mirror;       /* width 0: none */
     double mirror_m;          /* height of its plane */
+    host_draw_haze draw_haze; /* over it; NULL: nothing */
+    void *haze_user;
     host_skylight skylight;
     const host_environment *environment;
     virga_light lights[HOST_MAX_LIGHTS];

@@ -17,9 +17,9 @@
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
 static const VkDescriptorType types[] = {
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
 
-const host_set_shape host_frame_shape = {types, 9, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
+const host_set_shape host_frame_shape = {types, 10, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
 const host_set_shape host_material_shape = {types + 1, 2, VK_SHADER_STAGE_FRAGMENT_BIT};
 
 static bool create_layouts(host_renderer *r, char *error, size_t error_size)
@@ -72,16 +72,12 @@ typedef struct pipeline_set {
 } pipeline_set;
 
 /* Glass changes the colour alone: normal, velocity, id and depth stay those of what is behind it. */
-static void fill_blend(host_pipeline kind, bool mirror, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
+static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
 {
     memset(states, 0, HOST_PLATE_COLORS * sizeof *states);
     for (int i = 0; i < HOST_PLATE_COLORS; i++)
         if (recipes[kind].write_color && (i == 0 || !recipes[kind].blend))
             states[i] = recipes[kind].blend ? host_blend_over : host_blend_replace;
-    if (recipes[kind].blend && mirror) { /* whose alpha is a distance */
-        states[0].srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-        states[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    }
 }
 
 static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipeline kind, bool two_sided, char *error,
@@ -94,7 +90,7 @@ static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipe
         {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
     };
     VkPipelineColorBlendAttachmentState colors[HOST_PLATE_COLORS];
-    fill_blend(kind, set->mirror, colors);
+    fill_blend(kind, colors);
     const host_graphics_def def = {
         .vertex = code_of(recipes[kind].vertex, set->mirror),
         .fragment = code_of(recipes[kind].fragment, set->mirror),
@@ -136,6 +132,6 @@ bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *er
 
 bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)
 {
-    pipeline_set set = {.pass = r->mirror.pass, .colors = 1, .mirror = true, .pipelines = r->mirror_pipelines};
+    pipeline_set set = {.pass = r->mirror.pass, .colors = 2, .mirror = true, .pipelines = r->mirror_pipelines};
     return build(r, &set, error, error_size);
 }

@@ -141,7 +141,7 @@ void shot_close(shot *s)
         host_wait(&s->device, ignored, sizeof ignored);
     virga_target_destroy(&s->layer);
     virga_target_destroy(&s->moving);
-    virga_target_destroy(&s->moving);
+    virga_target_destroy(&s->mirror);
     virga_scene_destroy(&s->rain_scene);
     virga_context_destroy(&s->context);
     host_renderer_destroy(&s->renderer);

@@ -75,6 +75,8 @@ typedef struct shot {
     virga_splash *splash; /* NULL: none */
     virga_target *layer;  /* what rain, splashes and panes draw into, each into a layer of its own */
     virga_target *moving; /* of the pass that draws the velocity of water; NULL where it is not asked for */
+    virga_target *mirror; /* of the pass that draws haze over what puddles mirror; NULL where there is no mirror */
+    virga_result mirror_result; /* of that, in the newest plate */
     virga_rain_settings settings;
     shot_read drops_read, droplets_read;
     shot_pane *panes; /* as many as the scene has; NULL before they are made */

@@ -110,8 +110,9 @@ static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const ho
         virga_ground_maps_get(s->ground, &maps);
         host_renderer_set_ground(s->renderer, &maps);
     }
+    s->mirror_result = VIRGA_OK;
     host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
-    return true;
+    return shot_ok(s, s->mirror_result, "drawing the rain in puddles", error, error_size);
 }
 
 /* When a picture is taken. */

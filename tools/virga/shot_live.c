@@ -55,6 +55,7 @@ static void close_scene(shot *s)
 {
     virga_target_destroy(&s->layer);
     virga_target_destroy(&s->moving);
+    virga_target_destroy(&s->mirror);
     virga_scene_destroy(&s->rain_scene);
     host_renderer_destroy(&s->renderer);
     shot_panes_close(s);

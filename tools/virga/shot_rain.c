@@ -202,6 +202,26 @@ static bool open_moving(shot *s, char *error, size_t error_size)
            shot_ok(s, virga_scene_attach(s->rain_scene, s->moving), "building pipelines", error, error_size);
 }
 
+static void draw_mirror_haze(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4])
+{
+    shot *s = user;
+    const virga_result result = virga_rain_draw_haze(s->rain, cmd, view, plane, s->mirror);
+    if (result < 0)
+        s->mirror_result = result;
+}
+
+/* What puddles mirror is as far away in the rain as what is seen. */
+static bool open_mirror(shot *s, char *error, size_t error_size)
+{
+    virga_target_def target = virga_default_target_def();
+    if (!host_renderer_describe_mirror(s->renderer, &target))
+        return true;
+    host_renderer_haze_mirror(s->renderer, draw_mirror_haze, s);
+    return shot_ok(s, virga_target_create(s->context, &target, &s->mirror), "making the mirror's target", error,
+                   error_size) &&
+           shot_ok(s, virga_rain_attach(s->rain, s->mirror), "building pipelines", error, error_size);
+}
+
 bool shot_open_rain(shot *s, char *error, size_t error_size)
 {
     if (!create_scene(s, error, error_size))
@@ -219,7 +239,7 @@ bool shot_open_rain(shot *s, char *error, size_t error_size)
         return true;
     virga_target_def target = virga_default_target_def();
     host_target_describe_layer(&s->target, &target);
-    return shot_set_mirror(s, error, error_size) &&
+    return shot_set_mirror(s, error, error_size) && open_mirror(s, error, error_size) &&
            shot_ok(s, virga_target_create(s->context, &target, &s->layer), "making the layer's target", error,
                    error_size) &&
            shot_ok(s, virga_scene_attach(s->rain_scene, s->layer), "building pipelines", error, error_size) &&

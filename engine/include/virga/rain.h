@@ -220,6 +220,17 @@ VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *t
  * frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
+/* Draws haze and the glow of lamps alone, as another view sees them: over what puddles, mirrors and probes show, a world
+ * in which it rains as well. There are no streaks in it, so haze is all of the rain. `view` is the other picture's, that
+ * of a mirror with a rotation that mirrors; it needs depth and no prepare. `begin` (optional) is a plane (x, y, z) . n =
+ * d of the world (m) as n and d: haze begins where rays cross it. For a mirror that is its own: the way from the camera
+ * to it is hazed where the mirror itself is. NULL: at the camera.
+ * Blended as virga_rain_draw, inside rendering of `target`; what comes after sets its own state. In a frame of a
+ * step or a prepare, of which it counts as one view; else, and for a target that was not attached, VIRGA_NOT_READY.
+ * Costs what haze and glow do for as many pixels. */
+VIRGA_API virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
+                                            const double begin[4], const virga_target *target);
+
 /* ---- what others read ----------------------------------------------------------------------------------------- */
 
 /* The impacts of the newest step, on the device: a virga_impacts_gpu (virga/shared/impact.h) at `offset` of `buffer`,

@@ -3,22 +3,21 @@
 #include "mirror_jitter.glsl"
 
 layout(set = 0, binding = 7) uniform sampler2D mirror_picture;
+layout(set = 0, binding = 9) uniform sampler2D mirror_near; // 1 / distance
 
 const int MIRROR_TAPS = 8;
 const int MIRROR_ROW = 5, MIRROR_STRIDE = 3; // of look i, 5 + 3 i modulo 8: all different, and as many left as right
 const float MIRROR_SMOOTH_TEXELS = 0.6;      // the looks' standard deviation where water is a perfect mirror
 
-// The mirrored picture at a place of the mirrored world, relative to the camera. Where its edge is passed, the last it
-// shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
-// a: 1 / distance. `off`: in texels.
-vec4 mirror_at(vec3 place, vec2 off, float level, out float trust)
+// Where the mirrored picture has a place of the mirrored world, relative to the camera. Where its edge is passed, the
+// last it shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
+vec2 mirror_at(vec3 place, out float trust)
 {
     const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
-    const vec2 texel = 2.0 / vec2(textureSize(mirror_picture, 0));
-    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter() + off * texel;
+    const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter();
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
-    return textureLod(mirror_picture, at * 0.5 + 0.5, level);
+    return at * 0.5 + 0.5;
 }
 
 // Where a ray that leaves water in direction r and goes so far ends, in the mirrored world. Water that lies `rise`
@@ -74,7 +73,7 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
     for (int i = 0; i < 2 && near > 0.0; i++) {
         const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
-        way = clamp(1.0 / mirror_at(place, vec2(0.0), 0.0, trust).a - from, 0.05, way);
+        way = clamp(1.0 / textureLod(mirror_near, mirror_at(place, trust), 0.0).r - from, 0.05, way);
     }
     // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.
     const vec2 along = dot(v.xz, v.xz) > 1e-6 ? normalize(v.xz) : vec2(0.0, 1.0), across = vec2(-along.y, along.x);
@@ -96,7 +95,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
             r = reflect(-v, facet);
             const float level = mirror_level(alpha, u, cosine, way, from);
             const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise);
-            const vec3 color = mirror_at(place, smooth_texels * look, level, trust).rgb;
+            const vec2 at = mirror_at(place, trust) + smooth_texels * look / vec2(textureSize(mirror_picture, 0));
+            const vec3 color = textureLod(mirror_picture, at, level).rgb;
             sum += seen * f * near * trust * vec4(color, 1.0);
         }
     }

@@ -17,6 +17,7 @@ layout(location = 2) in vec2 in_uv;
 
 #ifdef MIRROR
 layout(location = 0) out vec4 out_color;
+layout(location = 1) out float out_near;
 #else
 #include "outputs.glsl"
 #include "water.glsl"
@@ -174,9 +175,8 @@ void main()
         color = color * alpha + reflected * (1.0 - alpha);
     }
 #ifdef MIRROR
-    // Glass is blended by its alpha, which keeps the distance of what is behind it.
-    float near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR);
-    out_color = vec4(min(color, vec3(6e4)), (bits & HOST_IS_GLASS) != 0 ? alpha : near);
+    out_color = vec4(min(color, vec3(6e4)), alpha);
+    out_near = 1.0 / clamp(distance(eye, in_relative), 0.05, HOST_MIRROR_FAR); // glass keeps that of what is behind it
 #else
     out_color = vec4(color, alpha);
     out_normal = vec4(n, 1.0);

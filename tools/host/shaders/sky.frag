@@ -11,6 +11,7 @@ layout(location = 0) in vec2 in_clip;
 #ifdef MIRROR
 #include "mirror_jitter.glsl"
 layout(location = 0) out vec4 out_color;
+layout(location = 1) out float out_near;
 #else
 #include "outputs.glsl"
 #endif
@@ -32,7 +33,8 @@ void main()
     float v = acos(clamp(d.y, -1.0, 1.0)) / PI;
     vec3 color = textureLod(sky_texture, vec2(u, v), 0.0).rgb;
 #ifdef MIRROR
-    out_color = vec4(color, 1.0 / HOST_MIRROR_FAR);
+    out_color = vec4(color, 1.0);
+    out_near = 1.0 / HOST_MIRROR_FAR;
 #else
     out_color = vec4(color, 1.0);
     out_normal = vec4(0.0);
