@@ -106,9 +106,12 @@ def sheet(group, material, xs, zs, height):
     group.surface(material, [[(x, height(x, z), z) for x in xs] for z in zs], planar=True)
 
 
+ROAD_XS, ROAD_ZS = span(-HALF_ASPHALT, HALF_ASPHALT, 20), span(NEAR_Z, FAR_Z, 108)
+
+
 def make_ground(scene):
     g = Group("road", TILES)
-    sheet(g, "asphalt", span(-HALF_ASPHALT, HALF_ASPHALT, 20), span(NEAR_Z, FAR_Z, 108), road_height)
+    sheet(g, "asphalt", ROAD_XS, ROAD_ZS, road_height)
     for side in (-1, 1):
         xs = sorted((side * HALF_ASPHALT, side * 3.3, side * HALF_ROAD))
         sheet(g, "cobble_stone", xs, span(NEAR_Z, FAR_Z, 54), road_height)
@@ -124,10 +127,23 @@ def make_ground(scene):
     scene.place(g)
 
 
-def overlay(group, material, corners, lift, cells=(6, 6)):
-    """A patch on the road that follows its shape; corners: two opposite (x, z)."""
+def road_surface(x, z):
+    """Height of the road's own triangles, in the asphalt."""
+    column = min(int((x - ROAD_XS[0]) / (ROAD_XS[1] - ROAD_XS[0])), len(ROAD_XS) - 2)
+    row = min(int((z - ROAD_ZS[0]) / (ROAD_ZS[1] - ROAD_ZS[0])), len(ROAD_ZS) - 2)
+    (x0, x1), (z0, z1) = ROAD_XS[column:column + 2], ROAD_ZS[row:row + 2]
+    u, v = (x - x0) / (x1 - x0), (z - z0) / (z1 - z0)
+    low, high = road_height(x0, z0), road_height(x1, z1)
+    corner = road_height(x1, z0) if u > v else road_height(x0, z1)
+    return low + min(u, v) * (high - low) + abs(u - v) * (corner - low)
+
+
+def overlay(group, material, corners, lift):
+    """A patch that lies on the road's triangles; corners: two opposite (x, z)."""
     (x0, z0), (x1, z1) = corners
-    sheet(group, material, span(x0, x1, cells[0]), span(z0, z1, cells[1]), lambda x, z: road_height(x, z) + lift)
+    xs = [x0] + [x for x in ROAD_XS if x0 < x < x1] + [x1]
+    zs = [z0] + [z for z in ROAD_ZS if z1 < z < z0] + [z1]
+    sheet(group, material, xs, zs, lambda x, z: road_surface(x, z) + lift)
 
 
 def make_markings(scene):
@@ -135,17 +151,16 @@ def make_markings(scene):
     g = Group("marking", TILES)
     for x0, z0, x1, z1 in ((-2.9, 5.2, -1.7, -9.0), (0.2, -9.4, 3.05, -10.9), (0.4, 4.4, 2.4, 2.9),
                            (1.2, -20, 2.6, -33)):
-        overlay(g, "asphalt_patch", ((x0, z0), (x1, z1)), 0.004, (4, max(3, int((z0 - z1) * 1.6))))
-        steps = max(3, int((z0 - z1) * 1.6))
+        overlay(g, "asphalt_patch", ((x0, z0), (x1, z1)), 0.001)
         for x in (x0, x1):
-            overlay(g, "asphalt_tar", ((x - 0.022, z0), (x + 0.022, z1)), 0.0065, (1, steps))
+            overlay(g, "asphalt_tar", ((x - 0.022, z0), (x + 0.022, z1)), 0.002)
         for z in (z0, z1):
-            overlay(g, "asphalt_tar", ((x0, z + 0.022), (x1, z - 0.022)), 0.0065, (6, 1))
+            overlay(g, "asphalt_tar", ((x0, z + 0.022), (x1, z - 0.022)), 0.002)
     for k in range(6):
         x = -2.75 + k * 1.0
-        overlay(g, "asphalt_paint", ((x, -11.6), (x + 0.5, -14.6)), 0.007, (2, 6))
+        overlay(g, "asphalt_paint", ((x, -11.6), (x + 0.5, -14.6)), 0.003)
     for z in (16.0, 11.5, 7.0, 2.5, -2.0, -6.5, -19.0, -23.5, -28.0, -32.5, -37.0):
-        overlay(g, "asphalt_paint", ((-0.06, z), (0.06, z - 2.0)), 0.007, (1, 4))
+        overlay(g, "asphalt_paint", ((-0.06, z), (0.06, z - 2.0)), 0.003)
     scene.place(g)
 
 
