@@ -63,6 +63,7 @@ virga_rain_settings virga_default_rain_settings(void)
                                  .near_m = 0.15f,
                                  .oscillation = 1,
                                  .haze = 1,
+                                 .haze_sky_m = 400,
                                  .glow = 1,
                                  .bodies_min_mm = 0.4f,
                                  .occlusion_turns = 1};

@@ -25,7 +25,6 @@ float haze_extinction(uint box) { return per_m[box / 4u][box % 4u]; }
 void main()
 {
     const float stored = buffer_depth(gl_FragCoord.xy);
-    // The sky may be an environment that was seen through its own rain already.
     const float depth = depth_and_reach.y / (depth_and_reach.x + stored) - 1.0 / max(begins, 1e-9);
     const float way = stored == depth_and_reach.z ? sky[SKY_VECTORS - 1u].w : max(depth, 0.0) * length(ray);
     const float alpha = 1.0 - exp(-haze_thickness(way, depth_and_reach.w));

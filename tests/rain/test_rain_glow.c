@@ -19,6 +19,7 @@ static void open_night(shot *s)
     settings->sizes = (virga_sizes){VIRGA_SIZES_TABLE, diameters, numbers, 2};
     settings->bodies_min_mm = 2;
     settings->haze = 2;
+    settings->haze_sky_m = 0;
     memset(settings->lighting.environment_sh, 0, sizeof settings->lighting.environment_sh);
     virga_light *lamp = &settings->lighting.lights[0];
     for (int i = 0; i < 3; i++) {

@@ -425,7 +425,7 @@ static const scene_rule rules[] = {
     {"rain.near_m", 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"},
     {"rain.oscillation", 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"},
     {"rain.haze", 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"},
-    {"rain.haze_sky_m", 0, 100000, "0", LIVE, "haze before the sky; 0 where its picture was taken in such rain"},
+    {"rain.haze_sky_m", 0, 100000, "400", LIVE, "haze before the sky; 0 where its picture was taken in such rain"},
     {"rain.glow", 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"},
     {"rain.bodies_min_mm", 0.2, 2, "0.4", LIVE, "smaller drops are drawn as haze only; they land all the same"},
     {"rain.occlusion_size", 0, 8192, "1024", RESTARTS,

@@ -90,7 +90,8 @@ typedef struct virga_rain_settings {
     float oscillation;     /* [0; 4] amplitude of shape oscillation of large drops; 1 is physical. Default 1 */
     float haze;            /* [0; 4] extinction of the rain's own haze; 1 is physical. Default 1 */
     float haze_sky_m;      /* [0; 100000] m of haze before the sky, where the depth has nothing: how far off it is what
-                            * a panorama shows, if that was not taken in such rain. Default 0: it was */
+                            * a panorama shows, houses and clouds. Without it what is far in the scene is paler than
+                            * the panorama behind. 0: that was taken in such rain, or has its haze. Default 400 */
     float glow;            /* [0; 100] multiplies the light of lighting.lights that the haze scatters, beside light_gain:
                             * the glow around lamps in the rain. 1 is physical. Needs the scene's depth, by which lamps
                             * are found hidden. Costs a pass over the pixels around each lamp, at night and near
