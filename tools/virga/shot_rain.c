@@ -69,7 +69,8 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
     s->settings.near_m = (float)from->near_m;
     s->settings.oscillation = (float)from->oscillation;
     s->settings.haze = (float)from->haze;
-    s->settings.haze_sky_m = (float)from->haze_sky_m;
+    /* Footage has its own haze. */
+    s->settings.haze_sky_m = s->options.plate ? 0 : (float)from->haze_sky_m;
     s->settings.glow = (float)from->glow;
     s->settings.bodies_min_mm = (float)from->bodies_min_mm;
     s->settings.occlusion_turns = from->occlusion_turns;
