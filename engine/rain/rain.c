@@ -16,6 +16,9 @@
 #include "shaders/rain_list_comp.spv.h"
 #include "shaders/rain_points_comp.spv.h"
 #include "shaders/rain_prepare_find_comp.spv.h"
+#include "shaders/rain_prepare_order_comp.spv.h"
+#include "shaders/rain_prepare_order_count_comp.spv.h"
+#include "shaders/rain_prepare_order_scan_comp.spv.h"
 #include "shaders/rain_prepare_scan_comp.spv.h"
 #include "shaders/rain_prepare_write_comp.spv.h"
 #include "shaders/rain_step_comp.spv.h"
@@ -124,6 +127,13 @@ static void plan_boxes(const virga_rain_def *def, uint32_t *levels, uint32_t *gr
     *side_m = widest;
 }
 
+/* Six indices a streak, and counts by area and workgroup, see shaders/rain/order.glsl. */
+static VkDeviceSize order_bytes(const virga_rain_def *def)
+{
+    const VkDeviceSize groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
+    return (6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_AREAS * (1 + groups)) * sizeof(uint32_t);
+}
+
 VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 {
     virga_rain_def def;
@@ -139,7 +149,8 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
                (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) + (def.wind_texture ? 40 : 0) +
                 (def.points ? sizeof(virga_point_gpu) : 0) + (def.max_panes ? sizeof(uint32_t) : 0)) +
            VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)def.max_streaks * (RAIN_STREAK_BYTES + 48) + maps + def.max_panes * rain_hits_bytes() +
+           (VkDeviceSize)def.max_streaks * RAIN_STREAK_BYTES + order_bytes(&def) + maps +
+           def.max_panes * rain_hits_bytes() +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
 }
@@ -147,13 +158,12 @@ VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
 /* ---- creating */
 
 /* What rain makes and lets go of, each in one table for both. */
-enum { BUFFERS = 17, PASSES = 17 };
+enum { BUFFERS = 16, PASSES = 20 };
 
 static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 {
     const VkDeviceSize frames = rain->context->frames_in_flight, slots = rain->slots;
     const VkDeviceSize slot_bytes = slots * sizeof(virga_slot_gpu);
-    const VkDeviceSize index_bytes = (VkDeviceSize)rain->def.max_streaks * 6 * sizeof(uint32_t);
     const VkBufferUsageFlags storage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
@@ -170,14 +180,14 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
         {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * RAIN_STREAK_BYTES, storage | texels, device,
          "rain.streaks"},
         {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
-        {&rain->index_buffer, index_bytes, storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device, "rain.indices"},
+        {&rain->order_buffer, order_bytes(&rain->def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device,
+         "rain.order"},
         {&rain->hit_buffer, rain->def.max_panes * rain_hits_bytes(), storage, device, "rain.hits"},
         {&rain->hit_places, rain->def.max_panes ? slots * sizeof(uint32_t) : 0, storage, device, "rain.hit_places"},
         {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
          "rain.sways"},
         {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},
         {&rain->slot_upload, slot_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.slot_upload"},
-        {&rain->index_upload, index_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.index_upload"},
         {&rain->tick_ring, frames * (rain->def.max_ticks_per_step + 1) * rain_tick_bytes(),
          uniform | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, upload, "rain.ticks"},
         {&rain->view_ring, frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(), uniform, upload, "rain.views"},
@@ -202,6 +212,9 @@ static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
         {&rain->prepare_find, VIRGA_SPIRV(rain_prepare_find_comp), "rain.prepare_find"},
         {&rain->prepare_scan, VIRGA_SPIRV(rain_prepare_scan_comp), "rain.prepare_scan"},
         {&rain->prepare_write, VIRGA_SPIRV(rain_prepare_write_comp), "rain.prepare_write"},
+        {&rain->prepare_order_count, VIRGA_SPIRV(rain_prepare_order_count_comp), "rain.prepare_order_count"},
+        {&rain->prepare_order_scan, VIRGA_SPIRV(rain_prepare_order_scan_comp), "rain.prepare_order_scan"},
+        {&rain->prepare_order, VIRGA_SPIRV(rain_prepare_order_comp), "rain.prepare_order"},
         {&rain->hit_find, VIRGA_SPIRV(rain_hit_find_comp), "rain.hit_find"},
         {&rain->hit_scan, VIRGA_SPIRV(rain_hit_scan_comp), "rain.hit_scan"},
         {&rain->hit_count, VIRGA_SPIRV(rain_hit_count_comp), "rain.hit_count"},
@@ -217,13 +230,7 @@ static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
 static void fill_host_buffers(virga_rain *rain)
 {
     rain_classes_fill_slots(rain->classes, rain->def.seed, rain->slot_upload->memory.block.mapped);
-    uint32_t *indices = rain->index_upload->memory.block.mapped;
-    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
-    for (uint32_t i = 0; i < rain->def.max_streaks; i++)
-        for (uint32_t j = 0; j < 6; j++)
-            indices[i * 6 + j] = i * 4 + corners[j];
     virga_buffer_flush(rain->context, rain->slot_upload, 0, rain->slot_upload->size);
-    virga_buffer_flush(rain->context, rain->index_upload, 0, rain->index_upload->size);
     memset(rain->readback_ring->memory.block.mapped, 0, rain->readback_ring->size);
     virga_buffer_flush(rain->context, rain->readback_ring, 0, rain->readback_ring->size);
 }

@@ -24,6 +24,7 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, VK_SHADER_STAGE_COMPUTE_BIT},  /* 18 hits of a pane */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 19 where each slot's hits go */
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},    /* 20 drops as texels */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},          /* 21 order of streaks */
 };
 
 enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
@@ -77,6 +78,7 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
                          : bound_buffer(unused, sizeof(virga_prepared_gpu)),
         bound_buffer(rain->hit_places ? rain->hit_places : unused, 0),
         {.texels = rain->drop_buffer->texels},
+        bound_buffer(rain->order_buffer, 0),
     };
     return virga_bindings_write(context, rain->bindings, index, bound);
 }

@@ -166,16 +166,24 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.prepare");
     /* The draw before, of this or an earlier frame, may still read the streaks. */
     virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_record_list(context, cmd, rain->prepare_find, rain->prepare_scan, rain->list, rain->groups);
     virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer->buffer, 0);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch_indirect(context, cmd, rain->prepare_order_count, rain->list_buffer->buffer, 0);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch(context, cmd, rain->prepare_order_scan, VIRGA_RAIN_AREAS / VIRGA_RAIN_ORDER_LANES);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch_indirect(context, cmd, rain->prepare_order, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
+                      VK_ACCESS_TRANSFER_READ_BIT);
     const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback) + offsetof(rain_readback, prepared),
                                sizeof(virga_prepared_gpu)};
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -376,7 +384,7 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (rain->prepared_glows)
         draw_plain(rain, cmd, found->glow, 6, rain->prepared_glows, "rain.glow");
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
-    context->vk.CmdBindIndexBuffer(cmd, rain->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
+    context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw_streaks(rain, cmd, found->thin[rain->prepared_depth], offsetof(virga_prepared_gpu, thin));
     draw_streaks(rain, cmd, found->wide[rain->prepared_depth], offsetof(virga_prepared_gpu, wide));
     virga_pass_end(context, cmd, scope);

@@ -128,7 +128,7 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *hit_buffer, *hit_places, *sway_buffer, *index_buffer, *index_upload, *point_buffer;
+        *prepared_buffer, *hit_buffer, *hit_places, *sway_buffer, *order_buffer, *point_buffer;
     virga_buffer *tick_ring, *view_ring, *readback_ring;
     virga_mesh_map *map;
     virga_image_2d *blank;      /* depth, for the scene depth that a view has not */
@@ -147,8 +147,8 @@ struct virga_rain {
     uint64_t step_set_frame;
     virga_pipeline_group needed; /* for all but the draws */
     virga_pipeline *step, *sway, *impact_near, *impact_near_scan, *impact_find, *impact_scan, *impact_write,
-        *prepare_find, *prepare_scan, *prepare_write, *list, *points, *hit_find, *hit_scan, *hit_count, *hit_place,
-        *hit_write;
+        *prepare_find, *prepare_scan, *prepare_write, *prepare_order_count, *prepare_order_scan, *prepare_order, *list,
+        *points, *hit_find, *hit_scan, *hit_count, *hit_place, *hit_write;
     rain_target targets[VIRGA_RAIN_MAX_TARGETS];
 
     uint64_t hits_frame; /* that hits_panes belongs to */

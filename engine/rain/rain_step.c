@@ -76,21 +76,18 @@ static void first_layouts(virga_rain *rain, VkCommandBuffer cmd)
 static void upload_tables(virga_rain *rain, VkCommandBuffer cmd)
 {
     virga_context *context = rain->context;
-    const VkBufferCopy slots = {0, 0, rain->slot_buffer->size}, indices = {0, 0, rain->index_buffer->size};
+    const VkBufferCopy slots = {0, 0, rain->slot_buffer->size};
     context->vk.CmdCopyBuffer(cmd, rain->slot_upload->buffer, rain->slot_buffer->buffer, 1, &slots);
-    context->vk.CmdCopyBuffer(cmd, rain->index_upload->buffer, rain->index_buffer->buffer, 1, &indices);
     if (rain->sway_buffer)
         context->vk.CmdFillBuffer(cmd, rain->sway_buffer->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, rain->impact_buffer->buffer, 0, sizeof(virga_impacts_gpu), 0);
     context->vk.CmdFillBuffer(cmd, rain->prepared_buffer->buffer, 0, VK_WHOLE_SIZE, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
-                      VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    /* The staging buffers wait in the graveyard until this frame has completed. */
+    virga_barrier(
+        context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+        READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    /* The staging buffer waits in the graveyard until this frame has completed. */
     VIRGA_RETIRE(context, rain->slot_upload);
-    VIRGA_RETIRE(context, rain->index_upload);
 }
 
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd)

@@ -1,4 +1,5 @@
-// prepare_scan.comp - gives the marked slots their places among the streaks, and writes the draw's arguments.
+// prepare_scan.comp - gives the marked slots their places among the streaks, writes the draw's arguments, and sets back
+// what prepare_write.comp counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -6,12 +7,14 @@
 #include "view.glsl"
 #include "compact.glsl"
 #include "gpu/compact_scan.glsl"
+#include "order.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_gpu prepared; };
 
 void main()
 {
+    order[total_at(gl_LocalInvocationIndex)] = 0u;
     const uvec2 found = scan_picks(tick.groups, look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;

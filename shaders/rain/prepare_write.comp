@@ -12,6 +12,7 @@
 #include "view.glsl"
 #include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
+#include "order.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
@@ -53,7 +54,7 @@ virga_streak_gpu empty_streak()
     streak.width_alpha = 0u;
     streak.body_wave = 0u;
     streak.turns = 0u;
-    streak.pad = 0u;
+    streak.order = 0u;
     streak.light = uint[3](0u, 0u, 0u);
     streak.id = 0u;
     return streak;
@@ -164,8 +165,20 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     return streak;
 }
 
+// By its middle; what is beyond the picture counts as at its border.
+uint area_of(virga_streak_gpu streak)
+{
+    const vec2 middle = 0.5 * vec2(streak.head[0] + streak.tail[0], streak.head[1] + streak.tail[1]);
+    const vec2 at = clamp((0.5 * middle + 0.5) * float(AREAS_ACROSS), 0.0, float(AREAS_ACROSS) - 0.5);
+    return min(uint(at.y) * AREAS_ACROSS + uint(at.x), AREAS - 1u);
+}
+
 void main()
 {
-    if (gl_GlobalInvocationID.x < list.count)
-        streaks[gl_GlobalInvocationID.x] = make_streak(listed[gl_GlobalInvocationID.x], gl_GlobalInvocationID.x);
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= list.count)
+        return;
+    virga_streak_gpu streak = make_streak(listed[index], index);
+    streak.order = area_of(streak);
+    streaks[index] = streak;
 }

@@ -3,6 +3,8 @@
 #define VIRGA_SHARED_RAIN_LIMITS_H
 
 #define VIRGA_RAIN_GROUP 256      /* slots to a workgroup: a whole number of them to a box, so a group has one box */
+#define VIRGA_RAIN_AREAS 256      /* of the picture, by which streaks are drawn in order: as many as a workgroup's lanes */
+#define VIRGA_RAIN_ORDER_LANES 64 /* of a workgroup that scans them, a lane for each */
 #define VIRGA_RAIN_CLASSES 512    /* sizes of drops, spaced evenly in the logarithm from 0.2 to 6.8 mm: 0.7 % apart */
 #define VIRGA_RAIN_MAX_LEVELS 12  /* boxes */
 #define VIRGA_RAIN_MAX_CASCADES 4

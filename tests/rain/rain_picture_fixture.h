@@ -4,6 +4,7 @@
 #define VIRGA_TESTS_RAIN_PICTURE_FIXTURE_H
 
 #include "rain_fixture.h"
+#include "rain_one_streak.h"
 
 #include <dlfcn.h>
 #include <math.h>
@@ -60,7 +61,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, const V
 
 /* ---- a shot: rain, a picture, and what prepare wrote for it */
 
-enum { EVERY_STREAK = -1, DRAW_BYTES = 2 * sizeof(virga_draw_gpu) };
+enum { EVERY_STREAK = -1 };
 
 typedef struct shot {
     rain_fixture f;
@@ -71,7 +72,7 @@ typedef struct shot {
     host_camera camera, open;
     double shutter_s;
     float aperture_m, focus_m;
-    host_buffer streaks, prepared, slots;
+    host_buffer streaks, prepared, slots, order;
     float scene_depth; /* in the depth buffer's terms */
     bool give_depth, reversed;
     int only; /* the one streak to be drawn, by its place */
@@ -107,6 +108,7 @@ static inline void open_shot(shot *s, float rate_mm_h)
     rain_fixture_readback(&s->f, rain->streak_buffer->size, &s->streaks);
     rain_fixture_readback(&s->f, rain->prepared_buffer->size, &s->prepared);
     rain_fixture_readback(&s->f, rain->slot_buffer->size, &s->slots);
+    rain_fixture_readback(&s->f, rain->order_buffer->size, &s->order);
     s->f.settings.rate_mm_h = rate_mm_h;
     s->f.camera[1] = 1.7;
     s->shutter_s = 1.0 / 96;
@@ -117,8 +119,8 @@ static inline void open_shot(shot *s, float rate_mm_h)
 static inline void close_shot(shot *s)
 {
     remove_picture(s);
-    host_buffer *buffers[] = {&s->streaks, &s->prepared, &s->slots};
-    for (size_t i = 0; i < 3; i++)
+    host_buffer *buffers[] = {&s->streaks, &s->prepared, &s->slots, &s->order};
+    for (size_t i = 0; i < 4; i++)
         host_buffer_destroy(&s->f.gpu.device, buffers[i]);
     rain_fixture_close(&s->f);
 }
@@ -170,14 +172,6 @@ static inline void record_scene_depth(const shot *s, VkCommandBuffer cmd)
     host_target_end_plate(&s->picture, cmd);
 }
 
-static inline void memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
-                                  VkPipelineStageFlags to, VkAccessFlags reads)
-{
-    const VkMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = wrote, .dstAccessMask = reads};
-    vkCmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
-}
-
 /* What prepare left is read back, and its draw cut down to one streak where one is asked for. */
 static inline void record_prepared(shot *s, VkCommandBuffer cmd)
 {
@@ -185,18 +179,13 @@ static inline void record_prepared(shot *s, VkCommandBuffer cmd)
     const virga_rain_buffer from[] = {{rain->streak_buffer->buffer, 0, rain->streak_buffer->size},
                                       {rain->prepared_buffer->buffer, 0, rain->prepared_buffer->size},
                                       {rain->slot_buffer->buffer, 0, rain->slot_buffer->size},
-                                      {rain->drop_buffer->buffer, 0, rain->drop_buffer->size}};
-    const host_buffer *to[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops};
-    for (size_t i = 0; i < 4; i++)
+                                      {rain->drop_buffer->buffer, 0, rain->drop_buffer->size},
+                                      {rain->order_buffer->buffer, 0, rain->order_buffer->size}};
+    const host_buffer *to[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops, &s->order};
+    for (size_t i = 0; i < 5; i++)
         rain_fixture_copy(cmd, &from[i], to[i]);
-    if (s->only == EVERY_STREAK)
-        return;
-    const virga_draw_gpu draws[2] = {{0, 1, 0, 0, 0}, {6, 1, 6 * (uint32_t)s->only, 0, 0}};
-    memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
-    vkCmdUpdateBuffer(cmd, rain->prepared_buffer->buffer, 0, DRAW_BYTES, draws);
-    memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                   VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    if (s->only != EVERY_STREAK)
+        record_only(s->f.rain, cmd, (uint32_t)s->only);
 }
 
 static const host_image *layer_image(const shot *s)
@@ -265,8 +254,8 @@ static const float *draw_without_step(shot *s, VkCommandBuffer cmd)
     record_layer(s, cmd);
     host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER);
     rain_fixture_end_frame(&s->f);
-    const host_buffer *reads[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops};
-    for (size_t i = 0; i < 4; i++)
+    const host_buffer *reads[] = {&s->streaks, &s->prepared, &s->slots, &s->f.drops, &s->order};
+    for (size_t i = 0; i < 5; i++)
         host_buffer_invalidate(&s->f.gpu.device, reads[i]);
     return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
 }

@@ -1,6 +1,7 @@
 /* test_rain_temporal.c - motion vectors of streaks against doubles, their pixels and masks, and what a temporal resolve
  * makes of rain with and without them. */
 #include "rain_fixture.h"
+#include "rain_one_streak.h"
 
 #include "../host/resolve.h"
 
@@ -68,22 +69,6 @@ static void set_previous(virga_view *view, const host_camera *before, double ago
     view->temporal.ago_s = ago_s;
 }
 
-static void cut_to_one(const shot *s, VkCommandBuffer cmd)
-{
-    const virga_draw_gpu draws[2] = {{0, 1, 0, 0, 0}, {6, 1, 6 * (uint32_t)s->only, 0, 0}};
-    const VkMemoryBarrier before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                    .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                                    .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkMemoryBarrier after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                   .dstAccessMask = VK_ACCESS_INDIRECT_COMMAND_READ_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, NULL, 0, NULL);
-    vkCmdUpdateBuffer(cmd, s->f.rain->prepared_buffer->buffer, 0, sizeof draws, draws);
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0, 1, &after, 0,
-                         NULL, 0, NULL);
-}
-
 static void draw_frame(shot *s, double dt_s)
 {
     const VkCommandBuffer cmd = rain_fixture_begin_frame(&s->f);
@@ -95,7 +80,7 @@ static void draw_frame(shot *s, double dt_s)
     for (size_t i = 0; i < 4; i++)
         rain_fixture_copy(cmd, &(virga_rain_buffer){from[i]->buffer, 0, from[i]->size}, to[i]);
     if (s->only >= 0)
-        cut_to_one(s, cmd);
+        record_only(s->f.rain, cmd, (uint32_t)s->only);
     picture_begin(&s->picture, cmd);
     REQUIRE(virga_rain_draw(s->f.rain, cmd, s->target) == VIRGA_OK);
     picture_end(&s->picture, cmd);

@@ -38,7 +38,7 @@ typedef struct virga_rain_def {
                             * Default 32 */
     uint32_t max_impacts;  /* [256; 4194240] impacts that one step can hold, 64 bytes each; more are counted and
                             * logged. Default 65536 */
-    uint32_t max_streaks;  /* [256; 4194304] streaks that one prepare can hold, 96 bytes each. 0 means max_drops, the
+    uint32_t max_streaks;  /* [256; 4194304] streaks that one prepare can hold, 108 bytes each. 0 means max_drops, the
                             * default. Not more than a quarter of the device's maxTexelBufferElements */
     uint32_t max_ticks_per_step; /* [1; 64] a step that asks for more drops the rest of its time. Default 16 */
     double tick_s;         /* [1/1000; 1/20] the fixed tick. Default 1/60 */

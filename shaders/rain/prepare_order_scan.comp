@@ -1,0 +1,29 @@
+// prepare_order_scan.comp - where the streaks of an area begin that a workgroup of prepare_write has: behind those of
+// all areas before it, and of its own in the workgroups before.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define SCAN_LANES VIRGA_RAIN_ORDER_LANES
+#include "tick.glsl"
+#include "view.glsl"
+#include "compact.glsl"
+#include "gpu/compact_buffers.glsl"
+#include "order.glsl"
+#include "gpu/group_scan.glsl"
+
+layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, first_area = gl_WorkGroupID.x * SCAN_LANES, area = first_area + lane;
+    uint before = 0u; // streaks of the areas of the workgroups before
+    for (uint i = lane; i < first_area; i += SCAN_LANES)
+        before += order[total_at(i)];
+    uvec2 all;
+    uint place = scan_group(uvec2(order[total_at(area)], before), all).x + all.y;
+    for (uint group = 0u; group < list.group_count[0]; group++) {
+        const uint count = order[count_at(area, group)];
+        order[count_at(area, group)] = place;
+        place += count;
+    }
+}
