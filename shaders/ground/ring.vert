@@ -5,6 +5,7 @@
 #define RINGS_ACCESS readonly
 #include "tick.glsl"
 #include "rings.glsl"
+#include "gpu/vectors.glsl"
 
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
 layout(location = 1) flat out vec3 moment;            // age (s), layer of the table, crater (m)
@@ -33,5 +34,5 @@ void main()
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     moment = vec3(age, layer_of(ring.depth_m), ring.crater_m);
     const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < VIRGA_RING_TIME_S;
-    gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : DRAWN_NOWHERE;
 }

@@ -58,7 +58,7 @@ Streak streak_corner(uint vertex)
     const vec4 motions = uintBitsToFloat(texelFetch(streaks, int(4u * look.max_streaks + (vertex >> 2))));
     motion = at_head ? motions.xy : motions.zw;
 #endif
-    streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : DRAWN_NOWHERE;
     return streak;
 }
 

@@ -66,7 +66,7 @@ void main()
 {
     const uint slot = splash_place(listed[look.max_sprites + gl_InstanceIndex]);
     if (slot == NO_PLACE) {
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        gl_Position = DRAWN_NOWHERE;
         return;
     }
     const virga_splash_gpu splash = splash_of(slot);
@@ -101,5 +101,5 @@ void main()
     const bool seen = s.height > 0.0;
     sheet = vec4(up, there, fade * near_fade(now.centre) * min(now.weight, 1.0) * min(look.gain, 4.0), gl_Position.w);
     if (!seen)
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        gl_Position = DRAWN_NOWHERE;
 }

@@ -160,8 +160,11 @@ static void print_result(const bench_result *r)
 {
     const double bytes = r->slots * 32.0;
     printf("%u drops\n", r->slots);
-    printf("  machine    copy %.3f ms (%.2f GB/s)  bare kernel %.3f ms  dispatch %.4f ms\n", r->copy,
-           bytes / (r->copy * 1e6), r->bare, r->dispatch);
+    if (r->copy > 0.002)
+        printf("  machine    copy %.3f ms (%.2f GB/s)", r->copy, bytes / (r->copy * 1e6));
+    else
+        printf("  machine    copy within noise");
+    printf("  bare kernel %.3f ms  dispatch %.4f ms\n", r->bare, r->dispatch);
     printf("  step       %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->step, r->step / r->bare,
            r->step * 1e6 / r->slots);
     printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
