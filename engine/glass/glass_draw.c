@@ -641,15 +641,9 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
 
 static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
-    const float *box = glass->picture->prepared_viewport;
-    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
-                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    virga_draw_area(glass->context, cmd, glass->picture->prepared_viewport);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
+    glass->context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
 static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
@@ -668,7 +662,9 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     const glass_target *found = find_target(glass, target->serial);
     /* What was prepared for an earlier frame or step is not what the map holds now. */
     if (!found || !picture->prepared || picture->view_frame != context->frame_index)
-        return VIRGA_NOT_READY;
+        return virga_not_drawn(context, call, found != NULL,
+                               glass->ticks ? virga_group_ready(&glass->needed) : VIRGA_NOT_READY,
+                               &glass->told_not_drawn);
     const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
     const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
     const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
@@ -679,6 +675,7 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
     const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + plate + depth]};
     const virga_result result = virga_pipelines_ready(used, refraction ? 1 : 2);
+    glass->told_not_drawn = false;
     if (result)
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");

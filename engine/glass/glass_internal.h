@@ -38,7 +38,8 @@ struct virga_glass {
     virga_glass_def def;
     uint32_t columns, rows; /* cells */
     virga_glass_settings settings;
-    uint64_t ticks; /* run since creation */
+    uint64_t ticks;      /* run since creation */
+    bool told_not_drawn; /* since the last draw that had all it needs */
     uint32_t last_tick;
     bool started;
     double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) at the end of the newest step */

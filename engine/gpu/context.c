@@ -71,6 +71,16 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
     return VIRGA_ERROR_INVALID;
 }
 
+virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *told)
+{
+    if (ready == VIRGA_OK && !*told) {
+        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "%s: %s", call,
+                      attached ? "nothing was prepared in this frame" : "the target was not attached");
+        *told = true;
+    }
+    return VIRGA_NOT_READY;
+}
+
 /* Numbers of ticks wrap around, after years. */
 virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
 {

@@ -149,6 +149,10 @@ virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 /* Says what was wrong with an argument, and gives VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
+/* A draw's VIRGA_NOT_READY. Who looks at errors alone would see nothing and never learn why, so `call` says it once:
+ * whoever draws sets `told` back. Where `ready` is not VIRGA_OK, pipelines are on their way and nothing is wrong. */
+virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *told);
+
 /* A host's list in a storage buffer: where it may begin, and that its size (0: not told) holds `least` bytes.
  * `name` is that of the member that holds the buffer; _offset and _size are those beside it. */
 virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
@@ -400,6 +404,9 @@ virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, c
 /* The same inside a host's rendering, where no barrier may stand. */
 virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
 void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope);
+
+/* A view's viewport (x, y, width, height in pixels) and the scissor around it. */
+void virga_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4]);
 
 /* All writes before, in these stages, are seen by all reads and writes after, in those. */
 void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,

@@ -1,6 +1,7 @@
-/* gpu/record.c - compute passes, and what surrounds a pass: labels, timestamps and barriers. */
+/* gpu/record.c - compute passes, and what surrounds a pass: labels, timestamps, barriers, the area of a draw. */
 #include "gpu/context.h"
 
+#include <math.h>
 #include <string.h>
 
 void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
@@ -142,6 +143,15 @@ virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, c
     if (alone)
         wait_for_all(context, cmd);
     return scope;
+}
+
+void virga_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4])
+{
+    const VkViewport area = {viewport[0], viewport[1], viewport[2], viewport[3], 0, 1};
+    const VkRect2D scissor = {{viewport[0] > 0 ? (int32_t)viewport[0] : 0, viewport[1] > 0 ? (int32_t)viewport[1] : 0},
+                              {(uint32_t)ceilf(viewport[2]), (uint32_t)ceilf(viewport[3])}};
+    context->vk.CmdSetViewport(cmd, 0, 1, &area);
+    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
 }
 
 void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope)

@@ -335,27 +335,6 @@ static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipe
     vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
 }
 
-/* Who looks at errors alone would see no rain and never learn why. While pipelines are on their way nothing is
- * wrong. */
-static virga_result say_not_drawn(virga_rain *rain, bool attached)
-{
-    if (rain->told_not_drawn || virga_group_ready(&rain->needed))
-        return VIRGA_NOT_READY;
-    rain->told_not_drawn = true;
-    virga_log_say(&rain->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "virga_rain_draw: %s",
-                  attached ? "nothing was prepared in this frame" : "the target was not attached");
-    return VIRGA_NOT_READY;
-}
-
-static void set_area(const virga_context *context, VkCommandBuffer cmd, const float box[4])
-{
-    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
-                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
-}
-
 virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!rain)
@@ -369,7 +348,8 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     const rain_target *found = find_target(rain, target->serial);
     /* What was prepared for an earlier frame lies where a later one writes. */
     if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
-        return say_not_drawn(rain, found != NULL);
+        return virga_not_drawn(rain->context, "virga_rain_draw", found != NULL, virga_group_ready(&rain->needed),
+                               &rain->told_not_drawn);
     const virga_pipeline *used[] = {found->haze, found->glow, found->thin[rain->prepared_depth],
                                     found->wide[rain->prepared_depth]};
     const virga_result result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
@@ -377,7 +357,7 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (result)
         return result;
     virga_context *context = rain->context;
-    set_area(context, cmd, rain->prepared_viewport);
+    virga_draw_area(context, cmd, rain->prepared_viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);
     if (rain->prepared_haze)
         draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze");
@@ -437,7 +417,7 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     result = push_view(rain, &block, &place);
     if (result)
         return result;
-    set_area(rain->context, cmd, view->viewport);
+    virga_draw_area(rain->context, cmd, view->viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, place, &view->depth));
     draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))

@@ -17,10 +17,8 @@ struct virga_scene {
     virga_splash *splash; /* NULL: none */
     virga_glass *panes[VIRGA_SCENE_MAX_PANES];
     uint32_t pane_count;
-    uint64_t owed_panes; /* frame whose panes are yet to be prepared; 0: none */
-    bool told_panes;     /* that they were not prepared, since they were */
-    bool told_far;       /* that the view's camera is beyond the rain, since it was within */
-    uint32_t catching;   /* so many of them, from the first on, catch the rain's drops; the others get its rate */
+    bool told_far;     /* that the view's camera is beyond the rain, since it was within */
+    uint32_t catching; /* so many of them, from the first on, catch the rain's drops; the others get its rate */
 };
 
 virga_scene_def virga_default_scene_def(void)
@@ -429,8 +427,6 @@ virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, 
     if (scene->pane_count && (!view || !panes))
         return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
                                     view ? "panes" : "view");
-    scene->owed_panes = 0;
-    scene->told_panes = false;
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
         result = worst(
@@ -493,8 +489,6 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         result = worst(result, step_panes(scene, cmd, frame));
     if (result >= 0 && seen)
         result = worst(result, prepare(scene, cmd, frame->view));
-    if (result >= 0 && seen && scene->pane_count)
-        scene->owed_panes = scene->context->frame_index;
     if (result >= 0 && seen && !frame->panes_later)
         result = worst(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
@@ -519,11 +513,6 @@ virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const vir
     virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
     if (result >= 0)
         result = worst(result, virga_rain_draw(scene->rain, cmd, target));
-    if (!scene->told_panes && scene->owed_panes && scene->owed_panes == scene->context->frame_index) {
-        virga_log_say(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
-                      "virga_scene_draw: the panes were not prepared in this frame (virga_scene_prepare_panes)");
-        scene->told_panes = true;
-    }
     for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
         result = worst(result, virga_glass_draw(scene->panes[i], cmd, target));
     return result;

@@ -267,18 +267,6 @@ static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline
     vk->CmdDrawIndexedIndirect(cmd, splash->prepared_buffer->buffer, arguments, 1, sizeof(virga_splash_draw_gpu));
 }
 
-/* Who looks at errors alone would see no splashes and never learn why. While pipelines are on their way nothing is
- * wrong. Nor is it before the first tick. */
-static virga_result say_not_drawn(virga_splash *splash, bool attached)
-{
-    if (splash->told_not_drawn || virga_group_ready(&splash->needed) || !splash->ticks)
-        return VIRGA_NOT_READY;
-    splash->told_not_drawn = true;
-    virga_log_say(&splash->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "virga_splash_draw: %s",
-                  attached ? "nothing was prepared in this frame" : "the target was not attached");
-    return VIRGA_NOT_READY;
-}
-
 virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target)
 {
     if (!splash)
@@ -293,7 +281,9 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     const splash_target *found = find_target(splash, target->serial);
     /* What was prepared for an earlier frame or step is not what the buffers hold now. */
     if (!found || !splash->prepared || splash->view_frame != context->frame_index)
-        return say_not_drawn(splash, found != NULL);
+        return virga_not_drawn(context, "virga_splash_draw", found != NULL,
+                               splash->ticks ? virga_group_ready(&splash->needed) : VIRGA_NOT_READY,
+                               &splash->told_not_drawn);
     const bool film = splash->prepared_style == VIRGA_SPLASH_STYLE_FILM;
     const int depth = splash->prepared_depth;
     const virga_pipeline *used[] = {found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
@@ -303,13 +293,8 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     splash->told_not_drawn = false;
     if (result)
         return result;
-    const float *box = splash->prepared_viewport;
-    const VkViewport viewport = {box[0], box[1], box[2], box[3], 0, 1};
-    const VkRect2D scissor = {{box[0] > 0 ? (int32_t)box[0] : 0, box[1] > 0 ? (int32_t)box[1] : 0},
-                              {(uint32_t)ceilf(box[2]), (uint32_t)ceilf(box[3])}};
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    virga_draw_area(context, cmd, splash->prepared_viewport);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->prepared_set);
     context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw(splash, cmd, used[0], offsetof(virga_splash_prepared_gpu, crowns));
