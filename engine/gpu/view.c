@@ -15,11 +15,12 @@
 #define LEAST_PROJECTION 1e-4f
 #define MOST_PROJECTION  1e7f
 #define MOST_TIME_S      1e9
+#define MOST_SUB_FRAMES  65536
 
 virga_view virga_default_view(void)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    virga_view view = {.size = sizeof view, .cookie = VIEW_COOKIE, .shutter_s = 1.0 / 96};
+    virga_view view = {.size = sizeof view, .cookie = VIEW_COOKIE, .shutter_s = 1.0 / 96, .sub_frames = 1};
     view.temporal = (virga_temporal){.motion_scale = {1, 1}, .motion_coverage = 0.5f, .reactive_gain = 8};
     memcpy(view.view_from_world, identity, sizeof identity);
     memcpy(view.clip_from_view, identity, sizeof identity);
@@ -136,6 +137,9 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
         return VIRGA_ERROR_INVALID;
     if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
+    if (!view->sub_frames || view->sub_frames > MOST_SUB_FRAMES)
+        return virga_wrong_argument(log, "view.sub_frames: expected 1 to %d, got %u", MOST_SUB_FRAMES,
+                                    view->sub_frames);
     if (!(view->aperture_m >= 0 && view->aperture_m <= 1))
         return virga_wrong_argument(log, "view.aperture_m: expected 0 to 1 m, got %g", (double)view->aperture_m);
     if (!(view->focus_m >= 0 && view->focus_m <= 1e6f))

@@ -43,7 +43,8 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
     const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
     const double blur_px = (double)view->lens_px * fabs((double)view->inv_focus - 1 / distance_m);
     const double drawn_px = fmax(width_px, fmax((double)view->min_width_px, blur_px));
-    const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s);
+    const double way =
+        c->terminal_m_s * (double)(view->time_close_s - view->time_open_s) * (double)block->look.parts;
     const double one = (double)block->look.streak_gain * c->diameter_m / (way > c->diameter_m ? way : c->diameter_m);
     return (one < 1 ? one : 1) * width_px / drawn_px * drops;
 }
@@ -125,6 +126,7 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
     memset(out, 0, sizeof *out);
     const double at_tick = (double)rain->ticks * rain->def.tick_s;
     virga_view_fill(view, &rain->settings.lighting, rain->origin, at_tick, time_s, &out->view);
+    out->look.parts = (float)view->sub_frames; /* fill_haze asks for it */
     fill_look(rain, out);
 }
 

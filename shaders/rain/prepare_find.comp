@@ -31,6 +31,8 @@ uint kind_of_streak(uint slot_index)
     const float nearest = max(min(head.w, tail.w), 0.1);
     const float width_px = diameter / (nearest * view.pixel_angle);
     const float depth = 0.5 * (max(head.w, NEAR_W) + max(tail.w, NEAR_W)), blur = blur_px(depth);
+    // As far as prepare_write.comp may lengthen it.
+    const vec4 beyond = (0.5 * look.parts - 0.5) * (head - tail);
     // Half of the drop and a pixel, as seen at the end that is farther away.
     const vec2 margin = (width_px + blur + 2.0) * max(head.w, tail.w) / vec2(view.viewport[2], view.viewport[3]);
     // As prepare_write.comp has it, where the way is seen: along its fall a drop hardly moves and covers more.
@@ -38,8 +40,8 @@ uint kind_of_streak(uint slot_index)
     const vec2 moved = (head.xy / head_w - tail.xy / tail_w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const float way_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
     const float body_px = diameter / (depth * view.pixel_angle);
-    const bool seen = !outside(head, tail, margin) && diameter >= look.bodies_min_m &&
-                      weight * streak_coverage(body_px, body_px, way_px, blur) > LEAST_COVERAGE;
+    const bool seen = !outside(head + beyond, tail - beyond, margin) && diameter >= look.bodies_min_m &&
+                      weight * streak_coverage(body_px, body_px, look.parts * way_px, blur) > LEAST_COVERAGE;
     return !seen ? NOT_PICKED : width_px > max(WIDE_PX, blur) ? SECOND_KIND : FIRST_KIND;
 }
 

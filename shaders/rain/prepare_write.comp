@@ -5,6 +5,10 @@
 // D / l of the time (all of it where l < D); towards the ends less, over a ramp of the shorter of the two. In all that
 // is D x l / l: what the drop covers does not depend on its speed (after Garg and Nayar 2007, who have l >> D). What is
 // narrower than the sampling is drawn as wide as that and covers less.
+//
+// Of a picture that is averaged from several views each shows its part of that way, with as much more coverage. Where a
+// streak of a slot that stands for many drops, or one made brighter by streak_gain, would have to cover more than all,
+// it covers all and is longer, so that the views' mean is as bright as one view of all of the way.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -67,6 +71,24 @@ float coverage(float width_px, float body_px, float way_px, float blur, float we
     return min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
 }
 
+// Of this view alone, from that over the whole way of all views' shutters, and how much longer than the drop's way in it
+// the streak is.
+vec2 part_of_coverage(float whole, float body_px, float way_px, float blur)
+{
+    const float least = max(body_px, blur), drawn = max(way_px, least);
+    const float alpha = whole * max(look.parts * way_px, least) / drawn;
+    const float longer = alpha > 1.0 ? alpha * drawn / max(way_px, 1e-3) : 1.0;
+    return vec2(min(alpha, 1.0), clamp(longer, 1.0, look.parts));
+}
+
+// What is seen of the way between two ends, in pixels.
+float way_on_picture(vec4 head, vec4 tail)
+{
+    cut_at_near_plane(head, tail);
+    cut_at_near_plane(tail, head);
+    return length((head.xy / head.w - tail.xy / tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]));
+}
+
 void set_light(inout virga_streak_gpu streak, vec3 middle)
 {
     const vec3 d = normalize(middle);
@@ -79,13 +101,13 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
 
 // Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996). Where the lens
 // blurs one wave into the next there is none.
-void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float way_px, float blur, float kept)
+void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float way_px, float blur, vec2 times)
 {
     const float radius = 0.5e-3 * diameter_mm;
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
-    const float turns = hz * (view.time_close_s - view.time_open_s) * kept;
+    const float turns = hz * (times.y - times.x);
     streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) +
-                                       fract(hz * (float(tick.tick) * tick.tick_s + view.time_open_s))));
+                                       fract(hz * (float(tick.tick) * tick.tick_s + times.x))));
     const float waves_blurred = blur * turns / max(way_px, 1.0);
     const float size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
     streak.body_wave = halves(max(body_px, blur), size * look.oscillation);
@@ -128,40 +150,53 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     const float diameter = classes[size_class].diameter_m;
     const vec3 velocity = velocity_of(slot_index, size_class);
     vec3 head = at_tick + velocity * view.time_close_s, tail = at_tick + velocity * view.time_open_s;
-    const float whole_way = distance(head, tail);
+    vec4 clip_head = project(to_mat(view.clip_from_rel), head + to_vec(view.origin_offset));
+    vec4 clip_tail = project(to_mat(view.open_clip_from_rel), tail + to_vec(view.origin_offset));
+    if (max(clip_head.w, clip_tail.w) < NEAR_W)
+        return streak;
+    const float depth = 0.5 * (max(clip_head.w, NEAR_W) + max(clip_tail.w, NEAR_W)), blur = blur_px(depth);
+    const float width_px = diameter / (depth * view.pixel_angle);
+    const float mm = diameter * 1e3, body_px = width_px * axis_ratio(mm), way_px = way_on_picture(clip_head, clip_tail);
+    const float distance_m = length(0.5 * (head + tail) + to_vec(view.origin_offset));
+    const float near = view.near_m > 0.0 ? clamp(distance_m / view.near_m - 1.0, 0.0, 1.0) : 1.0;
+    const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
+    const vec2 alpha_longer =
+        part_of_coverage(coverage(width_px, body_px, look.parts * way_px, blur, weight), body_px, way_px, blur);
+
+    // The drop's way, longer by that around its middle, up to where it met something. A cut streak is as bright along
+    // its length as the whole one: the drop passed it at the same speed.
+    const float further = 0.5 * alpha_longer.y - 0.5;
+    const vec3 way = head - tail;
+    const vec4 clip_way = clip_head - clip_tail;
+    head += further * way;
+    tail -= further * way;
+    clip_tail -= further * clip_way;
     if (!cut_at_surface(tail, head, classes[size_class].slant))
         return streak;
+    const float kept = clamp(distance(head, tail) / max(length(way) * alpha_longer.y, 1e-6), 0.0, 1.0);
+    clip_head = clip_tail + kept * alpha_longer.y * clip_way;
     head += to_vec(view.origin_offset);
     tail += to_vec(view.origin_offset);
-
-    vec4 clip_head = project(to_mat(view.clip_from_rel), head);
-    vec4 clip_tail = project(to_mat(view.open_clip_from_rel), tail);
     cut_at_near_plane(clip_head, clip_tail);
     cut_at_near_plane(clip_tail, clip_head);
     if (clip_head.w < NEAR_W || clip_tail.w < NEAR_W)
         return streak;
+
     const vec3 ndc_head = clip_head.xyz / clip_head.w, ndc_tail = clip_tail.xyz / clip_tail.w;
-    const vec2 way = (ndc_head.xy - ndc_tail.xy) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
-    const float depth = 0.5 * (clip_head.w + clip_tail.w);
-    const float width_px = diameter / (depth * view.pixel_angle);
-    const float mm = diameter * 1e3, body_px = width_px * axis_ratio(mm);
-    const float near = view.near_m > 0.0 ? clamp(length(0.5 * (head + tail)) / view.near_m - 1.0, 0.0, 1.0) : 1.0;
-    const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
-    // A cut streak is as bright along its length as the whole one: the drop passed it at the same speed.
-    const float kept = clamp(distance(head, tail) / max(whole_way, 1e-6), 0.02, 1.0);
-    const float blur = blur_px(depth);
+    const vec2 shown = (ndc_head.xy - ndc_tail.xy) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     vec2 from = ndc_tail.xy, to = ndc_head.xy;
-    round_off(to, from, way, blur);
+    round_off(to, from, shown, blur);
     streak.head = float[2](to.x, to.y);
     streak.tail = float[2](from.x, from.y);
     streak.depth = float[2](ndc_head.z, ndc_tail.z);
     streak.distance = float[2](clip_head.w, clip_tail.w);
-    streak.width_alpha =
-        halves(drawn_width(width_px, blur), coverage(width_px, body_px, length(way) / kept, blur, weight));
+    streak.width_alpha = halves(drawn_width(width_px, blur), alpha_longer.x);
     streak.id = drop.id;
     write_motion(index, head, tail, velocity);
     set_light(streak, 0.5 * (head + tail));
-    set_wave(streak, mm, body_px, length(way), blur, kept);
+    const float open_s = view.time_close_s - view.time_open_s;
+    const float begin_s = view.time_open_s - further * open_s;
+    set_wave(streak, mm, body_px, length(shown), blur, begin_s + vec2(0.0, open_s * alpha_longer.y * kept));
     return streak;
 }
 

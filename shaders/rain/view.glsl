@@ -40,6 +40,8 @@ float drawn_width(float width_px, float blur) { return max(width_px, max(view.mi
 // Coverage of the middle line of a streak by one drop: the share of the time that the drop covers it (body / way, and
 // all of the time where it moves by less than its own length), and of the width and length that it is drawn over where
 // the drop is narrower than the sampling or out of focus.
+// Of a picture that is averaged from several views all of the shutter counts, so that the same streaks are drawn
+// whatever their number.
 float streak_coverage(float width_px, float body, float way, float blur)
 {
     const float longer = max(way, body);

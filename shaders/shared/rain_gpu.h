@@ -100,6 +100,7 @@ struct virga_rain_look_gpu {
     float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
     float begin[4];      /* a ray, as long as to a view depth of 1 m, is hazed from the depth 1 / (begin.xyz ray + begin.w)
                           * on; not at all where that is no depth */
+    float parts;         /* views that are averaged, each with its part of the shutter */
     uint max_streaks;
     uint motion;         /* 1: motions are written behind the streaks, a vec4 each: of head and tail (px) */
 };
@@ -166,7 +167,7 @@ VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 360);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 364);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);

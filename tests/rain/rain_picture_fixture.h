@@ -70,7 +70,8 @@ typedef struct shot {
     virga_target *layer; /* of the pass that is drawn into */
     virga_target_def layer_def;
     host_camera camera, open;
-    double shutter_s;
+    double shutter_s, ago_s; /* the time drawn is so much before that of the rain */
+    uint32_t sub_frames;
     float aperture_m, focus_m;
     host_buffer streaks, prepared, slots, order;
     float scene_depth; /* in the depth buffer's terms */
@@ -94,16 +95,12 @@ static inline void remove_picture(shot *s)
     host_target_destroy(&s->f.gpu.device, &s->picture);
 }
 
-/* Rain in the open, a camera at a man's height that looks level along -Z. */
-static inline void open_shot(shot *s, float rate_mm_h)
+/* Rain, a camera at a man's height that looks level along -Z. */
+static inline void open_shot_of(shot *s, const virga_rain_def *def, float rate_mm_h)
 {
-    virga_rain_def def = virga_default_rain_def();
-    def.max_drops = 16384;
-    def.range_m = 8;
-    def.occlusion_size = 0;
     memset(s, 0, sizeof *s);
     rain_fixture_open(&s->f);
-    rain_fixture_rain(&s->f, &def);
+    rain_fixture_rain(&s->f, def);
     const virga_rain *rain = s->f.rain;
     rain_fixture_readback(&s->f, rain->streak_buffer->size, &s->streaks);
     rain_fixture_readback(&s->f, rain->prepared_buffer->size, &s->prepared);
@@ -112,8 +109,19 @@ static inline void open_shot(shot *s, float rate_mm_h)
     s->f.settings.rate_mm_h = rate_mm_h;
     s->f.camera[1] = 1.7;
     s->shutter_s = 1.0 / 96;
+    s->sub_frames = 1;
     s->only = EVERY_STREAK;
     s->scene_depth = 1;
+}
+
+/* In the open. */
+static inline void open_shot(shot *s, float rate_mm_h)
+{
+    virga_rain_def def = virga_default_rain_def();
+    def.max_drops = 16384;
+    def.range_m = 8;
+    def.occlusion_size = 0;
+    open_shot_of(s, &def, rate_mm_h);
 }
 
 static inline void close_shot(shot *s)
@@ -149,6 +157,7 @@ static inline virga_view view_of(const shot *s)
     host_camera_view(&s->camera, &s->open, s->shutter_s, &view);
     if (s->reversed)
         picture_reverse_depth(&view);
+    view.sub_frames = s->sub_frames;
     view.aperture_m = s->aperture_m;
     view.focus_m = s->focus_m;
     if (s->give_depth)
@@ -249,7 +258,7 @@ static const float *draw_without_step(shot *s, VkCommandBuffer cmd)
 {
     record_scene_depth(s, cmd);
     const virga_view view = view_of(s);
-    REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain)) == VIRGA_OK);
+    REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain) - s->ago_s) == VIRGA_OK);
     record_prepared(s, cmd);
     record_layer(s, cmd);
     host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER);

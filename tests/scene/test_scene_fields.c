@@ -365,6 +365,7 @@ static void view_fields(void **state)
         F(position_m, REFUSED, -FAR, FAR),
         F(open_position_m, REFUSED, -FAR, FAR),
         F(shutter_s, REFUSED, 0, 1),
+        F(sub_frames, REFUSED, 1, 65536),
         F(open_camera_s, REFUSED, 0, 1e9),
         F(aperture_m, REFUSED, 0, 1),
         F(focus_m, REFUSED, 0, 1e6),

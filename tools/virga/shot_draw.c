@@ -167,6 +167,7 @@ static virga_view look_through(const shot *s, double close_s, double part_s, dou
     view.depth = host_target_depth(&s->target);
     view.color = host_target_color(&s->target);
     host_camera_view(&cameras->now, &cameras->open, part_s, &view);
+    view.sub_frames = s->options.samples;
     set_frame_ago(s, &cameras->frame_ago, &view);
     view.aperture_m = (float)(s->scene->camera.aperture_mm * 1e-3);
     view.focus_m = (float)s->scene->camera.focus_m;

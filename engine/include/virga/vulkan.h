@@ -332,6 +332,10 @@ typedef struct virga_view {
     double shutter_s;             /* [0; 1] how long the shutter is open before the time drawn: streaks are as long
                                    * as drops fall in it. Default 1/96; half of a frame is 1/48 in film and 1/120 in a
                                    * game of 60 frames a second */
+    uint32_t sub_frames;          /* [1; 65536] so many views, each with a shutter of shutter_s behind the one before,
+                                   * are averaged into a picture: rain covers in each what makes their mean that of one
+                                   * view with all of the shutter, and no less rain is to be seen the more there are.
+                                   * Default 1 */
     double open_camera_s;         /* [0; 1e9] how long before the time drawn the open camera was; 0 means shutter_s, the
                                    * default. A game whose open camera is the previous frame's gives the time between
                                    * the two: without it, motion counts as that of the shorter shutter */
