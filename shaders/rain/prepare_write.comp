@@ -71,8 +71,8 @@ float coverage(float width_px, float body_px, float way_px, float blur, float we
     return min(all, max(one, MOST_COVERAGE)) * clamp(all / LEAST_COVERAGE - 1.0, 0.0, 1.0);
 }
 
-// Of this view alone, from that over the whole way of all views' shutters, and how much longer than the drop's way in it
-// the streak is.
+// Of this view alone, from that over the whole way of all views' shutters, and how much longer than the drop's way in
+// it the streak is.
 vec2 part_of_coverage(float whole, float body_px, float way_px, float blur)
 {
     const float least = max(body_px, blur), drawn = max(way_px, least);
@@ -81,12 +81,58 @@ vec2 part_of_coverage(float whole, float body_px, float way_px, float blur)
     return vec2(min(alpha, 1.0), clamp(longer, 1.0, look.parts));
 }
 
-// What is seen of the way between two ends, in pixels.
-float way_on_picture(vec4 head, vec4 tail)
+// Where a drop goes while the shutter is open: relative to the tick's origin, and in the camera's clip coordinates, in
+// which it is as straight.
+struct Way {
+    vec3 head, tail;
+    vec4 clip_head, clip_tail;
+};
+
+Way way_of(vec3 at_tick, vec3 velocity)
 {
-    cut_at_near_plane(head, tail);
-    cut_at_near_plane(tail, head);
-    return length((head.xy / head.w - tail.xy / tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]));
+    Way way;
+    way.head = at_tick + velocity * view.time_close_s;
+    way.tail = at_tick + velocity * view.time_open_s;
+    way.clip_head = project(to_mat(view.clip_from_rel), way.head + to_vec(view.origin_offset));
+    way.clip_tail = project(to_mat(view.open_clip_from_rel), way.tail + to_vec(view.origin_offset));
+    return way;
+}
+
+// The part of it before the near plane.
+void cut_at_near(inout Way way)
+{
+    cut_at_near_plane(way.clip_head, way.clip_tail);
+    cut_at_near_plane(way.clip_tail, way.clip_head);
+}
+
+float way_in_px(Way way)
+{
+    cut_at_near(way);
+    const vec2 moved = way.clip_head.xy / way.clip_head.w - way.clip_tail.xy / way.clip_tail.w;
+    return length(moved * 0.5 * vec2(view.viewport[2], view.viewport[3]));
+}
+
+// Around its middle.
+void lengthen(inout Way way, float times)
+{
+    const vec3 further = (0.5 * times - 0.5) * (way.head - way.tail);
+    const vec4 clip_further = (0.5 * times - 0.5) * (way.clip_head - way.clip_tail);
+    way.head += further;
+    way.tail -= further;
+    way.clip_head += clip_further;
+    way.clip_tail -= clip_further;
+}
+
+// Up to where it meets something; returns the share that is left, and -1 where nothing is. A cut streak is as bright
+// along its length as the whole one: the drop passed it at the same speed.
+float cut_at_what_it_meets(inout Way way, uint slant)
+{
+    const vec3 whole = way.head;
+    if (!cut_at_surface(way.tail, way.head, slant))
+        return -1.0;
+    const float kept = clamp(distance(way.head, way.tail) / max(distance(whole, way.tail), 1e-6), 0.0, 1.0);
+    way.clip_head = mix(way.clip_tail, way.clip_head, kept);
+    return kept;
 }
 
 void set_light(inout virga_streak_gpu streak, vec3 middle)
@@ -101,6 +147,7 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
 
 // Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996). Where the lens
 // blurs one wave into the next there is none.
+// `times`: from when to when the streak shows it.
 void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, float way_px, float blur, vec2 times)
 {
     const float radius = 0.5e-3 * diameter_mm;
@@ -140,63 +187,55 @@ void round_off(inout vec2 head, inout vec2 tail, vec2 way_px, float blur)
     tail = middle - half_way;
 }
 
+// Where it is drawn; returns its length on the picture, in pixels.
+float place_streak(inout virga_streak_gpu streak, Way way, float blur)
+{
+    const vec3 head = way.clip_head.xyz / way.clip_head.w, tail = way.clip_tail.xyz / way.clip_tail.w;
+    const vec2 shown = (head.xy - tail.xy) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    vec2 from = tail.xy, to = head.xy;
+    round_off(to, from, shown, blur);
+    streak.head = float[2](to.x, to.y);
+    streak.tail = float[2](from.x, from.y);
+    streak.depth = float[2](head.z, tail.z);
+    streak.distance = float[2](way.clip_head.w, way.clip_tail.w);
+    return length(shown);
+}
+
 virga_streak_gpu make_streak(uint slot_index, uint index)
 {
     virga_streak_gpu streak = empty_streak();
     const uint class_rank = slot_of(slot_index).class_rank;
     const uint size_class = class_rank & 0xffffu;
     const virga_drop_gpu drop = drop_of(slot_index);
-    const vec3 at_tick = to_vec(drop.position);
-    const float diameter = classes[size_class].diameter_m;
-    const vec3 velocity = velocity_of(slot_index, size_class);
-    vec3 head = at_tick + velocity * view.time_close_s, tail = at_tick + velocity * view.time_open_s;
-    vec4 clip_head = project(to_mat(view.clip_from_rel), head + to_vec(view.origin_offset));
-    vec4 clip_tail = project(to_mat(view.open_clip_from_rel), tail + to_vec(view.origin_offset));
-    if (max(clip_head.w, clip_tail.w) < NEAR_W)
+    const vec3 at_tick = to_vec(drop.position), velocity = velocity_of(slot_index, size_class);
+    Way way = way_of(at_tick, velocity);
+    if (max(way.clip_head.w, way.clip_tail.w) < NEAR_W)
         return streak;
-    const float depth = 0.5 * (max(clip_head.w, NEAR_W) + max(clip_tail.w, NEAR_W)), blur = blur_px(depth);
-    const float width_px = diameter / (depth * view.pixel_angle);
-    const float mm = diameter * 1e3, body_px = width_px * axis_ratio(mm), way_px = way_on_picture(clip_head, clip_tail);
-    const float distance_m = length(0.5 * (head + tail) + to_vec(view.origin_offset));
+
+    const float depth = 0.5 * (max(way.clip_head.w, NEAR_W) + max(way.clip_tail.w, NEAR_W)), blur = blur_px(depth);
+    const float diameter = classes[size_class].diameter_m, mm = diameter * 1e3;
+    const float width_px = diameter / (depth * view.pixel_angle), body_px = width_px * axis_ratio(mm);
+    const float distance_m = length(0.5 * (way.head + way.tail) + to_vec(view.origin_offset));
     const float near = view.near_m > 0.0 ? clamp(distance_m / view.near_m - 1.0, 0.0, 1.0) : 1.0;
     const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
-    const vec2 alpha_longer =
-        part_of_coverage(coverage(width_px, body_px, look.parts * way_px, blur, weight), body_px, way_px, blur);
+    const float way_px = way_in_px(way);
+    const float whole = coverage(width_px, body_px, look.parts * way_px, blur, weight);
+    const vec2 alpha_longer = part_of_coverage(whole, body_px, way_px, blur);
 
-    // The drop's way, longer by that around its middle, up to where it met something. A cut streak is as bright along
-    // its length as the whole one: the drop passed it at the same speed.
-    const float further = 0.5 * alpha_longer.y - 0.5;
-    const vec3 way = head - tail;
-    const vec4 clip_way = clip_head - clip_tail;
-    head += further * way;
-    tail -= further * way;
-    clip_tail -= further * clip_way;
-    if (!cut_at_surface(tail, head, classes[size_class].slant))
+    lengthen(way, alpha_longer.y);
+    const float kept = cut_at_what_it_meets(way, classes[size_class].slant);
+    cut_at_near(way);
+    if (kept < 0.0 || way.clip_head.w < NEAR_W || way.clip_tail.w < NEAR_W)
         return streak;
-    const float kept = clamp(distance(head, tail) / max(length(way) * alpha_longer.y, 1e-6), 0.0, 1.0);
-    clip_head = clip_tail + kept * alpha_longer.y * clip_way;
-    head += to_vec(view.origin_offset);
-    tail += to_vec(view.origin_offset);
-    cut_at_near_plane(clip_head, clip_tail);
-    cut_at_near_plane(clip_tail, clip_head);
-    if (clip_head.w < NEAR_W || clip_tail.w < NEAR_W)
-        return streak;
-
-    const vec3 ndc_head = clip_head.xyz / clip_head.w, ndc_tail = clip_tail.xyz / clip_tail.w;
-    const vec2 shown = (ndc_head.xy - ndc_tail.xy) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
-    vec2 from = ndc_tail.xy, to = ndc_head.xy;
-    round_off(to, from, shown, blur);
-    streak.head = float[2](to.x, to.y);
-    streak.tail = float[2](from.x, from.y);
-    streak.depth = float[2](ndc_head.z, ndc_tail.z);
-    streak.distance = float[2](clip_head.w, clip_tail.w);
+    const float shown_px = place_streak(streak, way, blur);
     streak.width_alpha = halves(drawn_width(width_px, blur), alpha_longer.x);
     streak.id = drop.id;
+    const vec3 head = way.head + to_vec(view.origin_offset), tail = way.tail + to_vec(view.origin_offset);
     write_motion(index, head, tail, velocity);
     set_light(streak, 0.5 * (head + tail));
-    const float open_s = view.time_close_s - view.time_open_s;
-    const float begin_s = view.time_open_s - further * open_s;
-    set_wave(streak, mm, body_px, length(shown), blur, begin_s + vec2(0.0, open_s * alpha_longer.y * kept));
+    const float open_s = view.time_close_s - view.time_open_s, longer_s = open_s * alpha_longer.y;
+    const float begin_s = view.time_open_s - 0.5 * (longer_s - open_s);
+    set_wave(streak, mm, body_px, shown_px, blur, vec2(begin_s, begin_s + longer_s * kept));
     return streak;
 }
 
