@@ -6,7 +6,8 @@
 //
 // It is a counting sort, the same whatever order the device runs workgroups in:
 //
-// write: each workgroup of streaks counts those of each area; a streak's rank is how many of its workgroup and area
+// write: tells each streak's area
+// count: each workgroup of streaks counts those of each area; a streak's rank is how many of its workgroup and area
 //        come before it
 // scan:  a lane for each area turns counts into places
 // order: each streak's six indices go to their place

@@ -2,28 +2,21 @@
 #ifndef VIRGA_TESTS_RAIN_ONE_STREAK_H
 #define VIRGA_TESTS_RAIN_ONE_STREAK_H
 
+#include "memory.h"
 #include "rain/rain_internal.h"
-
-static inline void one_streak_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
-                                      VkPipelineStageFlags to, VkAccessFlags reads)
-{
-    const VkMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = wrote, .dstAccessMask = reads};
-    vkCmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
-}
 
 /* Between prepare and draw: the streak at a place of the list alone, as a thin one. */
 static inline void record_only(const virga_rain *rain, VkCommandBuffer cmd, uint32_t streak)
 {
     const virga_draw_gpu draws[2] = {{0, 1, 0, 0, 0}, {6, 1, 0, 0, 0}};
     const uint32_t first = 4 * streak, corners[6] = {first, first + 1, first + 2, first + 2, first + 1, first + 3};
-    one_streak_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                       VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                        VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     vkCmdUpdateBuffer(cmd, rain->prepared_buffer->buffer, 0, sizeof draws, draws);
     vkCmdUpdateBuffer(cmd, rain->order_buffer->buffer, 0, sizeof corners, corners);
-    one_streak_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
-                       VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT);
+    host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                        VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
+                        VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT);
 }
 
 #endif
