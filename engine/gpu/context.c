@@ -135,6 +135,15 @@ static virga_result check_family(const virga_context *context, uint32_t family, 
                                 family);
 }
 
+static virga_result check_lines(const virga_context *context, const virga_context_def *def)
+{
+    VkPhysicalDeviceFeatures2 there = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    context->vk.GetPhysicalDeviceFeatures2(def->physical_device, &there);
+    if (!def->wide_lines || there.features.wideLines)
+        return VIRGA_OK;
+    return virga_wrong_argument(&context->log, "context_def.wide_lines: the device has no wideLines");
+}
+
 static virga_result create_timers(virga_context *context, const virga_context_def *def)
 {
     virga_result result = VIRGA_OK;
@@ -228,6 +237,8 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
     context->vk.GetPhysicalDeviceProperties(def->physical_device, &context->properties);
     context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    TRY(check_lines(context, def));
+    context->lines = def->wide_lines && context->software && context->properties.limits.strictLines;
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
     TRY(virga_pipeline_cache_create(context, def->pipeline_cache, def->pipeline_cache_size));
     TRY(create_timers(context, def));

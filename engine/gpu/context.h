@@ -98,6 +98,7 @@ struct virga_context {
     bool debug_names;
     bool lost;
     bool software; /* the device is a processor: forms of passes that were measured to suit it */
+    bool lines;    /* what is as wide as a pixel may be drawn as a line: see virga_context_def.wide_lines */
     virga_pipelines_when pipelines_when;
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* pipelines to be built, in the order they were asked for */
@@ -309,6 +310,7 @@ typedef struct virga_graphics_def {
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
     bool cull_back;    /* counter-clockwise on the picture is the front */
+    bool lines;        /* and not triangles; their width is dynamic */
     uint32_t constant; /* specialisation constant 0 of either shader, where it has one */
     VkSampleCountFlagBits samples;
     virga_pipeline_group *group; /* (optional) */

@@ -69,6 +69,7 @@
     X(CmdWriteTimestamp)            \
     X(CmdPipelineBarrier)           \
     X(CmdBindPipeline)              \
+    X(CmdSetLineWidth)              \
     X(CmdBindDescriptorSets)        \
     X(CmdPushConstants)             \
     X(CmdDispatch)                  \

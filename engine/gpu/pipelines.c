@@ -113,7 +113,7 @@ typedef struct graphics_state {
     VkPipelineDepthStencilStateCreateInfo depth;
     VkPipelineColorBlendAttachmentState attachments[VIRGA_MAX_ATTACHMENTS];
     VkPipelineColorBlendStateCreateInfo blend;
-    VkDynamicState dynamics[2];
+    VkDynamicState dynamics[3];
     VkPipelineDynamicStateCreateInfo dynamic;
     VkPipelineRenderingCreateInfo rendering;
 } graphics_state;
@@ -162,9 +162,9 @@ static void describe_input(const virga_graphics_def *def, graphics_state *state)
                                                .pVertexBindingDescriptions = &state->binding,
                                                .vertexAttributeDescriptionCount = used,
                                                .pVertexAttributeDescriptions = &state->attribute};
-    state->assembly =
-        (VkPipelineInputAssemblyStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-                                                 .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    state->assembly = (VkPipelineInputAssemblyStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = def->lines ? VK_PRIMITIVE_TOPOLOGY_LINE_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
 }
 
 static void describe_raster(const virga_graphics_def *def, graphics_state *state)
@@ -186,8 +186,9 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
         .depthCompareOp = def->reversed_depth ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL};
     state->dynamics[0] = VK_DYNAMIC_STATE_VIEWPORT;
     state->dynamics[1] = VK_DYNAMIC_STATE_SCISSOR;
+    state->dynamics[2] = VK_DYNAMIC_STATE_LINE_WIDTH;
     state->dynamic = (VkPipelineDynamicStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                        .dynamicStateCount = 2,
+                                                        .dynamicStateCount = def->lines ? 3 : 2,
                                                         .pDynamicStates = state->dynamics};
 }
 

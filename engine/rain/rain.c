@@ -127,11 +127,11 @@ static void plan_boxes(const virga_rain_def *def, uint32_t *levels, uint32_t *gr
     *side_m = widest;
 }
 
-/* Six indices a streak, and counts by area and workgroup, see shaders/rain/order.glsl. */
+/* Six indices a streak, and counts by bucket and workgroup, see shaders/rain/order.glsl. */
 static VkDeviceSize order_bytes(const virga_rain_def *def)
 {
     const VkDeviceSize groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
-    return (6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_AREAS * (1 + groups)) * sizeof(uint32_t);
+    return (6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_BUCKETS * (1 + groups)) * sizeof(uint32_t);
 }
 
 VkDeviceSize virga_rain_estimate(const virga_rain_def *given)

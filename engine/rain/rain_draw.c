@@ -43,8 +43,7 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
     const double width_px = c->diameter_m / (distance_m * (double)view->pixel_angle);
     const double blur_px = (double)view->lens_px * fabs((double)view->inv_focus - 1 / distance_m);
     const double drawn_px = fmax(width_px, fmax((double)view->min_width_px, blur_px));
-    const double way =
-        c->terminal_m_s * (double)(view->time_close_s - view->time_open_s) * (double)block->look.parts;
+    const double way = c->terminal_m_s * (double)(view->time_close_s - view->time_open_s) * (double)block->look.parts;
     const double one = (double)block->look.streak_gain * c->diameter_m / (way > c->diameter_m ? way : c->diameter_m);
     return (one < 1 ? one : 1) * width_px / drawn_px * drops;
 }
@@ -118,6 +117,7 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     fill_bent(out);
     out->look.begin[3] = AT_THE_CAMERA;
     out->look.max_streaks = rain->def.max_streaks;
+    out->look.lines = rain->context->lines;
     out->look.motion = wants_motion(rain);
 }
 
@@ -178,7 +178,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->prepare_order_count, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, rain->prepare_order_scan, VIRGA_RAIN_AREAS / VIRGA_RAIN_ORDER_LANES);
+    virga_dispatch(context, cmd, rain->prepare_order_scan, VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES);
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->prepare_order, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
@@ -239,6 +239,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
     rain->frame_stats[rain->context->ring_slot].prepared = true;
     rain->prepared_depth = has_depth;
+    rain->prepared_line_px = rain->settings.min_width_px + 1; /* as their corners would be, see streak.glsl */
     rain->prepared_haze = has_depth && hazes(rain);
     rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
     rain->prepared = true;
@@ -259,6 +260,7 @@ static void target_clear(virga_rain *rain, rain_target *target)
 {
     for (int depth = 0; depth < 2; depth++) {
         VIRGA_RETIRE(rain->context, target->thin[depth]);
+        VIRGA_RETIRE(rain->context, target->lines[depth]);
         VIRGA_RETIRE(rain->context, target->wide[depth]);
     }
     VIRGA_RETIRE(rain->context, target->haze);
@@ -271,6 +273,15 @@ void rain_targets_destroy(virga_rain *rain)
     for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++) {
         target_clear(rain, &rain->targets[i]);
     }
+}
+
+/* Of thin streaks, but as lines. */
+static virga_result line_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline)
+{
+    def.lines = true;
+    def.constant |= VIRGA_RAIN_STREAKS_LINES;
+    def.name = "rain.line_streaks";
+    return virga_target_pipeline(target, def, pipeline);
 }
 
 virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
@@ -292,11 +303,13 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
     virga_graphics_def def = {
         .layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
     for (uint32_t depth = 0; depth < 2; depth++) {
-        def.constant = depth;
+        def.constant = depth ? VIRGA_RAIN_STREAKS_DEPTH : 0;
         def.vertex = VIRGA_VERTEX_FORM(rain_streak_thin_vert, outputs);
         def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_thin_frag, outputs);
         def.name = "rain.thin_streaks";
         TRY(virga_target_pipeline(target, def, &slot->thin[depth]));
+        if (rain->context->lines)
+            TRY(line_pipeline(target, def, &slot->lines[depth]));
         def.vertex = VIRGA_VERTEX_FORM(rain_streak_wide_vert, outputs);
         def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_wide_frag, outputs);
         def.name = "rain.wide_streaks";
@@ -352,8 +365,9 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
         return virga_not_drawn(rain->context, "virga_rain_draw", found != NULL, virga_group_ready(&rain->needed),
                                &rain->told_not_drawn);
-    const virga_pipeline *used[] = {found->haze, found->glow, found->thin[rain->prepared_depth],
-                                    found->wide[rain->prepared_depth]};
+    const virga_pipeline *thin = found->thin[rain->prepared_depth], *wide = found->wide[rain->prepared_depth],
+                         *lines = found->lines[rain->prepared_depth];
+    const virga_pipeline *used[] = {found->haze, found->glow, thin, wide, lines ? lines : thin};
     const virga_result result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     rain->told_not_drawn = false;
     if (result)
@@ -367,8 +381,12 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
         draw_plain(rain, cmd, found->glow, 6, rain->prepared_glows, "rain.glow");
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
     context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
-    draw_streaks(rain, cmd, found->thin[rain->prepared_depth], offsetof(virga_prepared_gpu, thin));
-    draw_streaks(rain, cmd, found->wide[rain->prepared_depth], offsetof(virga_prepared_gpu, wide));
+    if (lines) {
+        context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
+        draw_streaks(rain, cmd, lines, offsetof(virga_prepared_gpu, lines));
+    }
+    draw_streaks(rain, cmd, thin, offsetof(virga_prepared_gpu, thin));
+    draw_streaks(rain, cmd, wide, offsetof(virga_prepared_gpu, wide));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

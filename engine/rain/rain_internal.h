@@ -86,6 +86,7 @@ typedef struct rain_map {
 typedef struct rain_target {
     uint64_t serial;                   /* of the virga_target; 0: free */
     virga_pipeline *thin[2], *wide[2]; /* without and with the scene's depth to read */
+    virga_pipeline *lines[2];          /* thin streaks that are lines, NULL where none is */
     virga_pipeline *haze, *glow;
     bool motion; /* it has motion vectors */
 } rain_target;
@@ -160,6 +161,7 @@ struct virga_rain {
     uint32_t view_slot;
     bool prepared;
     bool told_not_drawn; /* since the last draw that had all it needs */
+    float prepared_line_px; /* width of lines */
     bool prepared_haze, prepared_depth;
     uint32_t prepared_glows; /* lamps that glow */
     VkDescriptorSet prepared_set;

@@ -1,5 +1,5 @@
-// prepare_order_scan.comp - where the streaks of an area begin that a workgroup of prepare_write has: behind those of
-// all areas before it, and of its own in the workgroups before.
+// prepare_order_scan.comp - where the streaks of a bucket begin that a workgroup of prepare_write has: behind those of
+// all buckets before it, and of its own in the workgroups before.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,15 +15,15 @@ layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, first_area = gl_WorkGroupID.x * SCAN_LANES, area = first_area + lane;
-    uint before = 0u; // streaks of the areas of the workgroups before
-    for (uint i = lane; i < first_area; i += SCAN_LANES)
+    const uint lane = gl_LocalInvocationIndex, first_bucket = gl_WorkGroupID.x * SCAN_LANES, bucket = first_bucket + lane;
+    uint before = 0u; // streaks of the buckets of the workgroups before
+    for (uint i = lane; i < first_bucket; i += SCAN_LANES)
         before += order[total_at(i)];
     uvec2 all;
-    uint place = scan_group(uvec2(order[total_at(area)], before), all).x + all.y;
+    uint place = scan_group(uvec2(order[total_at(bucket)], before), all).x + all.y;
     for (uint group = 0u; group < list.group_count[0]; group++) {
-        const uint count = order[count_at(area, group)];
-        order[count_at(area, group)] = place;
+        const uint count = order[count_at(bucket, group)];
+        order[count_at(bucket, group)] = place;
         place += count;
     }
 }

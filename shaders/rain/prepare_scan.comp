@@ -1,5 +1,5 @@
-// prepare_scan.comp - gives the marked slots their places among the streaks, writes the draw's arguments, and sets back
-// what prepare_write.comp counts.
+// prepare_scan.comp - gives the marked slots their places among the streaks, writes the draw of wide streaks (that of others is
+// not known before prepare_order.comp), and sets back what prepare_order_count.comp counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,9 +18,9 @@ void main()
     const uvec2 found = scan_picks(tick.groups, look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;
-    // The index buffer holds six indices a streak, so a streak's place tells where its own begin.
     prepared.wide = virga_draw_gpu(6u * list.second_kind, 1u, 0u, 0, 0u);
-    prepared.thin = virga_draw_gpu(6u * (list.count - list.second_kind), 1u, 6u * list.second_kind, 0, 0u);
+    prepared.lines = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
+    prepared.thin = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
     prepared.streaks = list.count;
     prepared.dropped = found.x + found.y - list.count;
 }

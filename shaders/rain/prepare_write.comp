@@ -239,12 +239,26 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     return streak;
 }
 
-// By its middle; what is beyond the picture counts as at its border.
-uint area_of(virga_streak_gpu streak)
+// As thin as streaks are drawn (but for how its half float is rounded), so that all lines have one width; and whole on
+// the picture, as a line is cut off square where it leaves it.
+bool is_line(virga_streak_gpu streak)
 {
+    const float width = unpackHalf2x16(streak.width_alpha).x, body = unpackHalf2x16(streak.body_wave).x;
+    const vec2 furthest = max(abs(vec2(streak.head[0], streak.head[1])), abs(vec2(streak.tail[0], streak.tail[1])));
+    const vec2 margin = (body + 2.0) / vec2(view.viewport[2], view.viewport[3]);
+    return width <= 1.001 * view.min_width_px && all(lessThan(furthest + margin, vec2(1.0)));
+}
+
+// By its middle; what is beyond the picture counts as at its border.
+uint bucket_of(virga_streak_gpu streak)
+{
+    if (streak.width_alpha >> 16 == 0u)
+        return NOT_DRAWN;
     const vec2 middle = 0.5 * vec2(streak.head[0] + streak.tail[0], streak.head[1] + streak.tail[1]);
-    const vec2 at = clamp((0.5 * middle + 0.5) * float(AREAS_ACROSS), 0.0, float(AREAS_ACROSS) - 0.5);
-    return min(uint(at.y) * AREAS_ACROSS + uint(at.x), AREAS - 1u);
+    const vec2 areas = vec2(float(AREAS_ACROSS), float(areas_down()));
+    const uvec2 area = uvec2(clamp((0.5 * middle + 0.5) * areas, vec2(0.0), areas - 0.5));
+    const uint bucket = area.y * AREAS_ACROSS + area.x;
+    return look.lines == 0u || is_line(streak) ? bucket : first_bucket_of_quads() + bucket;
 }
 
 void main()
@@ -253,6 +267,6 @@ void main()
     if (index >= list.count)
         return;
     virga_streak_gpu streak = make_streak(listed[index], index);
-    streak.order = area_of(streak);
+    streak.order = bucket_of(streak);
     streaks[index] = streak;
 }

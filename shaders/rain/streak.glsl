@@ -1,9 +1,15 @@
 // streak.glsl - a streak's record taken apart, and its four corners around its way on the screen, half a pixel wider
-// than it is drawn.
+// than it is drawn; or the two ends of a line of that width.
+//
+// Software Vulkan sets up one primitive for a line, and shades each block of pixels once where two triangles both touch
+// nearly all blocks of a thin streak: lines are drawn in two thirds of the time.
 //
 // Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
 // vertices cost software Vulkan half as much again. The buffer is read as texels: those are fetched for eight vertices
 // at once there, and a storage buffer word by word and vertex by vertex.
+#include "shared/rain_limits.h"
+#include "streak_form.glsl"
+
 layout(set = 0, binding = 17) uniform usamplerBuffer streaks; // a virga_streak_gpu is four texels
 #ifdef MOTION
 layout(location = 4) noperspective out vec2 motion; // px, see prepare_write.comp
@@ -13,6 +19,7 @@ struct Streak {
     vec3 centre, rim; // radiance
     float alpha, half_width, body_px, way_px;
     float turns, turns_at_tail, wave_size;
+    vec3 middle_line;    // . (x, y, 1) of a pixel: how far (px) it is beside the way
     // of this corner
     vec4 position;
     float across, along; // px from the middle line; px from the tail
@@ -46,10 +53,13 @@ Streak streak_corner(uint vertex)
 
     const vec2 along = streak.way_px > 1e-3 ? way / streak.way_px : vec2(0.0, 1.0);
     const float margin = 0.5 * streak.body_px + 0.5;
-    streak.across = ((vertex & 1u) == 0u ? -1.0 : 1.0) * (streak.half_width + 0.5);
+    const float beside = LINES ? 0.0 : (vertex & 1u) == 0u ? -1.0 : 1.0;
+    streak.across = beside * (streak.half_width + 0.5);
     streak.along = at_head ? streak.way_px + margin : -margin;
     streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
     const vec2 side = vec2(-along.y, along.x);
+    const vec2 tail_px = vec2(view.viewport[0], view.viewport[1]) + (tail + 1.0) * half_viewport;
+    streak.middle_line = vec3(side, -dot(side, tail_px));
     const vec2 corner =
         (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // The same w at all corners, so that everything is interpolated without perspective.

@@ -1,4 +1,6 @@
 // streak_pixel.glsl - what thin and wide streaks do alike at a pixel.
+#include "shared/rain_limits.h"
+#include "streak_form.glsl"
 #include "gpu/scene_depth.glsl"
 #include "gpu/temporal.glsl"
 #ifdef MOTION

@@ -8,20 +8,20 @@
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
 
-layout(constant_id = 0) const bool HAS_DEPTH = true;
-
-layout(location = 0) noperspective in vec4 place;
+layout(location = 0) noperspective in vec3 place;
 layout(location = 1) flat in vec4 light_alpha;
 layout(location = 2) flat in vec3 shape;
+layout(location = 3) flat in vec3 middle_line; // a line has one place all across
 layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    float alpha = light_alpha.a * streak_profile(abs(place.x), shape.x) * streak_length(place.y, shape.y);
+    const float across = abs(dot(middle_line, vec3(gl_FragCoord.xy, 1.0)));
+    float alpha = light_alpha.a * streak_profile(across, shape.x) * streak_length(place.x, shape.y);
     if (HAS_DEPTH)
-        alpha *= soft_edge(place.w, depth_terms);
-    radiance = vec4(light_alpha.rgb * streak_wave(place.z, shape.z) * alpha, alpha);
+        alpha *= soft_edge(place.z, depth_terms);
+    radiance = vec4(light_alpha.rgb * streak_wave(place.y, shape.z) * alpha, alpha);
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

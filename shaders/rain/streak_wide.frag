@@ -7,8 +7,6 @@
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
 
-layout(constant_id = 0) const bool HAS_DEPTH = true;
-
 layout(location = 0) noperspective in vec4 place;
 layout(location = 1) flat in vec4 centre_alpha;
 layout(location = 2) flat in vec4 rim_wave;

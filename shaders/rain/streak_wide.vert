@@ -6,8 +6,6 @@
 #include "view.glsl"
 #include "streak.glsl"
 
-layout(constant_id = 0) const bool HAS_DEPTH = true;
-
 layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; turns; view depth
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave

@@ -102,6 +102,7 @@ struct virga_rain_look_gpu {
                           * on; not at all where that is no depth */
     float parts;         /* views that are averaged, each with its part of the shutter */
     uint max_streaks;
+    uint lines;          /* 1: the thinnest streaks are lines */
     uint motion;         /* 1: motions are written behind the streaks, a vec4 each: of head and tail (px) */
 };
 
@@ -129,7 +130,7 @@ struct virga_streak_gpu {
     uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its
                           * light */
     uint turns;          /* oscillations along the streak; where in a turn it is at the tail */
-    uint order;          /* see shaders/rain/order.glsl: area of the picture x VIRGA_RAIN_GROUP + rank there */
+    uint order;          /* see shaders/rain/order.glsl: bucket x VIRGA_RAIN_GROUP + rank there */
     uint light[3];       /* radiance at the middle line (rgb), then at the edge (rgb) */
     uint id;             /* of the drop */
 };
@@ -151,9 +152,11 @@ struct virga_draw_gpu {
     uint first_instance;
 };
 
-/* What a prepare found: draws of wide streaks, which show what is in a drop, and of thin ones; and counts. */
+/* What a prepare found: draws of wide streaks, which show what is in a drop, of thin ones and of those of these that
+ * are lines; and counts, also of streaks that turned out to cover nothing. */
 struct virga_prepared_gpu {
     virga_draw_gpu wide;
+    virga_draw_gpu lines;
     virga_draw_gpu thin;
     uint streaks;
     uint dropped;
@@ -167,12 +170,12 @@ VIRGA_ASSERT_SIZE(virga_weight_gpu, 8);
 VIRGA_ASSERT_SIZE(virga_tick_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_tick_gpu, wind_min, 64);
 VIRGA_ASSERT_SIZE(virga_map_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 364);
+VIRGA_ASSERT_SIZE(virga_rain_look_gpu, 368);
 VIRGA_ASSERT_SIZE(virga_rain_pane_gpu, 72);
 VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_prepared_gpu, 48);
+VIRGA_ASSERT_SIZE(virga_prepared_gpu, 68);
 #undef uint
 #endif
 

@@ -68,6 +68,7 @@ static inline virga_context_def gpu_context_def(gpu_fixture *f)
     def.device = f->gpu.device.device;
     def.queue_family = f->gpu.device.queue_family;
     def.get_instance_proc_addr = watch_get_instance_proc_addr;
+    def.wide_lines = f->gpu.device.wide_lines;
     def.memory_budget = (VkDeviceSize)256 << 20; /* keeps pages of device memory small, and with that quick to make */
     def.log = gpu_log;
     def.log_user = f;

@@ -55,6 +55,7 @@ static void required_features_are_enough_for_every_pipeline(void **state)
     const VkDevice device = bare_device(f);
     virga_context_def def = gpu_context_def(f);
     def.device = device;
+    def.wide_lines = false;
     virga_context *context = NULL;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
     virga_rain *rain = gpu_rain(context);
@@ -245,6 +246,28 @@ static void device_without_a_required_feature_is_refused(void **state)
     }
 }
 
+static void lie_lines(VkPhysicalDeviceFeatures2 *features)
+{
+    features->features.wideLines = VK_FALSE;
+}
+
+/* It cannot have been made with them. */
+static void wide_lines_that_a_device_lacks_are_refused(void **state)
+{
+    gpu_fixture *f = *state;
+    watch.lie_features = lie_lines;
+    virga_context_def def = gpu_context_def(f);
+    virga_context *context = NULL;
+    def.wide_lines = true;
+    gpu_forget_log(f);
+    assert_int_equal(virga_context_create(&def, &context), VIRGA_ERROR_INVALID);
+    assert_one_error(f, VIRGA_LOG_ARGUMENT);
+    assert_non_null(strstr(f->last, "wide_lines"));
+    def.wide_lines = false;
+    assert_int_equal(virga_context_create(&def, &context), VIRGA_OK);
+    virga_context_destroy(&context);
+}
+
 static void device_without_a_format_is_refused(void **state)
 {
     watch.lie_format = lie_format;
@@ -272,6 +295,7 @@ int main(void)
         gpu_test(device_with_small_workgroups_is_refused),
         gpu_test(device_with_few_storage_buffers_is_refused),
         gpu_test(device_without_a_required_feature_is_refused),
+        gpu_test(wide_lines_that_a_device_lacks_are_refused),
         gpu_test(device_without_a_format_is_refused),
         gpu_test(instance_without_a_function_is_refused),
     };

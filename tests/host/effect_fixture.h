@@ -41,6 +41,7 @@ static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, vir
     def.device = gpu->device.device;
     def.queue_family = gpu->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = gpu->device.wide_lines;
     def.log = log;
     def.log_user = user;
     def.timings = timings;

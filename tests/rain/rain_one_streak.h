@@ -8,7 +8,7 @@
 /* Between prepare and draw: the streak at a place of the list alone, as a thin one. */
 static inline void record_only(const virga_rain *rain, VkCommandBuffer cmd, uint32_t streak)
 {
-    const virga_draw_gpu draws[2] = {{0, 1, 0, 0, 0}, {6, 1, 0, 0, 0}};
+    const virga_draw_gpu draws[3] = {{0, 1, 0, 0, 0}, {0, 1, 0, 0, 0}, {6, 1, 0, 0, 0}};
     const uint32_t first = 4 * streak, corners[6] = {first, first + 1, first + 2, first + 2, first + 1, first + 3};
     host_memory_barrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                         VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);

@@ -3,31 +3,68 @@
 
 enum { AREAS_ACROSS = 16 };
 
-/* As shaders/rain/order.glsl has it, in doubles. A streak on a border between areas may be counted to either. */
-static uint32_t area_of(const virga_streak_gpu *streak, double shift)
+static bool has_lines(const shot *s)
 {
+    return s->f.context->lines;
+}
+
+/* As shaders/rain/order.glsl has it, in doubles. A streak on a border between areas may be counted to either. */
+static uint32_t area_of(const virga_streak_gpu *streak, uint32_t down, double shift)
+{
+    const uint32_t areas[2] = {AREAS_ACROSS, down};
     double at[2];
     for (int i = 0; i < 2; i++) {
         const double middle = 0.5 * ((double)streak->head[i] + (double)streak->tail[i]);
-        at[i] = fmin(fmax((0.5 * middle + 0.5) * AREAS_ACROSS + shift, 0), AREAS_ACROSS - 0.5);
+        at[i] = fmin(fmax((0.5 * middle + 0.5) * areas[i] + shift, 0), areas[i] - 0.5);
     }
     return (uint32_t)at[1] * AREAS_ACROSS + (uint32_t)at[0];
 }
 
-static bool is_in_area(const virga_streak_gpu *streak, uint32_t area)
+static bool is_in_area(const shot *s, const virga_streak_gpu *streak, uint32_t area)
 {
-    return area_of(streak, -1e-4) == area || area_of(streak, 1e-4) == area || area_of(streak, 0) == area;
+    const uint32_t down = has_lines(s) ? AREAS_ACROSS / 2 : AREAS_ACROSS;
+    return area_of(streak, down, -1e-4) == area || area_of(streak, down, 1e-4) == area ||
+           area_of(streak, down, 0) == area;
 }
 
-/* The streak whose two triangles lie at a place of the index buffer. */
-static uint32_t streak_at(const shot *s, uint32_t place)
+static const virga_prepared_gpu *prepared_of(const shot *s)
 {
-    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
-    const uint32_t *indices = (const uint32_t *)s->order.mapped + (size_t)place * 6;
+    return s->prepared.mapped;
+}
+
+/* The streak whose two triangles or line are at a place of a draw. */
+static uint32_t streak_at(const shot *s, const virga_draw_gpu *draw, uint32_t place)
+{
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3}, ends[2] = {0, 2};
+    const bool line = draw == &prepared_of(s)->lines;
+    const uint32_t *indices = (const uint32_t *)s->order.mapped + draw->first_index + (size_t)place * (line ? 2 : 6);
     const uint32_t streak = indices[0] / 4;
-    for (uint32_t i = 0; i < 6; i++)
-        assert_int_equal(indices[i], 4 * streak + corners[i]);
+    for (uint32_t i = 0; i < (line ? 2 : 6); i++)
+        assert_int_equal(indices[i], 4 * streak + (line ? ends : corners)[i]);
+    assert_true(streak < streak_count(s));
     return streak;
+}
+
+static uint32_t count_of(const shot *s, const virga_draw_gpu *draw)
+{
+    return draw->index_count / (draw == &prepared_of(s)->lines ? 2 : 6);
+}
+
+static bool covers(const virga_streak_gpu *streak)
+{
+    return high_half(streak->width_alpha) > 0;
+}
+
+/* As thin as the thinnest and whole on the picture, by a margin either way. */
+static bool is_line_by(const shot *s, const virga_streak_gpu *streak, double margin)
+{
+    const double width = low_half(streak->width_alpha), body = low_half(streak->body_wave);
+    const double sizes[2] = {s->picture.width, s->picture.height};
+    bool inside = true;
+    for (int i = 0; i < 2; i++)
+        inside = inside && fmax(fabs((double)streak->head[i]), fabs((double)streak->tail[i])) + (body + 2) / sizes[i] <
+                               1 + margin;
+    return inside && width < ((double)s->f.settings.min_width_px + 0.001) * (1 + margin);
 }
 
 /* Heavy rain before a camera that sees much of it: near by big drops are wide. */
@@ -45,25 +82,28 @@ static void prepare_shot(shot *s, float rate_mm_h)
     draw_frame(s, 0.2);
 }
 
-static uint32_t wide_count(const shot *s)
-{
-    return ((const virga_prepared_gpu *)s->prepared.mapped)->wide.index_count / 6;
-}
-
 static void each_streak_is_drawn_once(void **state)
 {
     (void)state;
     shot s;
     prepare_shot(&s, 100);
+    const virga_prepared_gpu *prepared = prepared_of(&s);
+    const virga_draw_gpu *draws[3] = {&prepared->wide, &prepared->lines, &prepared->thin};
     const uint32_t count = streak_count(&s);
-    printf("%u streaks\n", count);
-    assert_true(count > 2 * VIRGA_RAIN_GROUP && count % VIRGA_RAIN_GROUP);
     bool *drawn = calloc(count, sizeof *drawn);
-    for (uint32_t place = 0; place < count; place++) {
-        const uint32_t streak = streak_at(&s, place);
-        assert_true(streak < count && !drawn[streak]);
-        drawn[streak] = true;
+    for (int i = 0; i < 3; i++)
+        for (uint32_t place = 0; place < count_of(&s, draws[i]); place++) {
+            const uint32_t streak = streak_at(&s, draws[i], place);
+            assert_false(drawn[streak]);
+            drawn[streak] = true;
+        }
+    uint32_t nothing = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(drawn[i] == covers(&streak_list(&s)[i]) || i < count_of(&s, &prepared->wide));
+        nothing += !drawn[i];
     }
+    printf("%u streaks, %u of them cover nothing\n", count, nothing);
+    assert_true(count > 2 * VIRGA_RAIN_GROUP && count % VIRGA_RAIN_GROUP);
     free(drawn);
     close_shot(&s);
 }
@@ -73,32 +113,70 @@ static void wide_streaks_keep_their_places(void **state)
     (void)state;
     shot s;
     prepare_shot(&s, 100);
-    printf("%u of %u streaks are wide\n", wide_count(&s), streak_count(&s));
-    assert_true(wide_count(&s) > 0);
-    for (uint32_t place = 0; place < wide_count(&s); place++)
-        assert_int_equal(streak_at(&s, place), place);
+    const virga_draw_gpu *wide = &prepared_of(&s)->wide;
+    printf("%u of %u streaks are wide\n", count_of(&s, wide), streak_count(&s));
+    assert_true(count_of(&s, wide) > 0);
+    for (uint32_t place = 0; place < count_of(&s, wide); place++)
+        assert_int_equal(streak_at(&s, wide, place), place);
     close_shot(&s);
 }
 
-/* Areas one after another, and within one the streaks in the order of the list, whatever ran first. */
+/* Areas one after another, and within one the streaks in the order of the list, whatever ran first. Returns in how many
+ * areas there are any. */
+static uint32_t check_order(const shot *s, const virga_draw_gpu *draw, uint32_t first_bucket)
+{
+    uint32_t area = 0, before = 0, areas = 0;
+    for (uint32_t place = 0; place < count_of(s, draw); place++) {
+        const uint32_t streak = streak_at(s, draw, place);
+        const virga_streak_gpu *here = &streak_list(s)[streak];
+        const uint32_t own = here->order / VIRGA_RAIN_GROUP - first_bucket;
+        assert_true(is_in_area(s, here, own));
+        assert_true(place == 0 || own > area || (own == area && streak > before));
+        areas += place == 0 || own != area;
+        area = own;
+        before = streak;
+    }
+    return areas;
+}
+
 static void thin_streaks_follow_the_picture(void **state)
 {
     (void)state;
     shot s;
     prepare_shot(&s, 100);
-    uint32_t area = 0, before = 0, areas = 0;
-    for (uint32_t place = wide_count(&s); place < streak_count(&s); place++) {
-        const uint32_t streak = streak_at(&s, place);
-        const virga_streak_gpu *here = &streak_list(&s)[streak];
-        const uint32_t own = here->order / VIRGA_RAIN_GROUP;
-        assert_true(is_in_area(here, own));
-        assert_true(place == wide_count(&s) || own > area || (own == area && streak > before));
-        areas += own != area;
-        area = own;
-        before = streak;
-    }
-    assert_true(areas > AREAS_ACROSS * AREAS_ACROSS / 2);
+    const virga_prepared_gpu *prepared = prepared_of(&s);
+    const uint32_t lines = check_order(&s, &prepared->lines, 0);
+    const uint32_t quads = check_order(&s, &prepared->thin, has_lines(&s) ? VIRGA_RAIN_BUCKETS / 2 : 0);
+    assert_true(quads > VIRGA_RAIN_BUCKETS / 4);
+    assert_true(!has_lines(&s) || lines > VIRGA_RAIN_BUCKETS / 4);
     close_shot(&s);
+}
+
+static void the_thinnest_are_lines_where_the_device_has_them(void **state)
+{
+    (void)state;
+    shot s;
+    prepare_shot(&s, 100);
+    const virga_prepared_gpu *prepared = prepared_of(&s);
+    const uint32_t lines = count_of(&s, &prepared->lines), quads = count_of(&s, &prepared->thin);
+    printf("%u lines, %u thin streaks of two triangles\n", lines, quads);
+    assert_true(quads > 0 && (lines > 0) == has_lines(&s));
+    for (uint32_t place = 0; place < lines; place++)
+        assert_true(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->lines, place)], 1e-4));
+    for (uint32_t place = 0; has_lines(&s) && place < quads; place++)
+        assert_false(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->thin, place)], -1e-4));
+    close_shot(&s);
+}
+
+static uint64_t sum_of_places(const shot *s)
+{
+    const virga_prepared_gpu *prepared = prepared_of(s);
+    const virga_draw_gpu *draws[3] = {&prepared->wide, &prepared->lines, &prepared->thin};
+    uint64_t sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (uint32_t place = 0; place < count_of(s, draws[i]); place++)
+            sum += 1 + streak_at(s, draws[i], place);
+    return sum;
 }
 
 /* What a view has left must not be counted in the next. */
@@ -107,19 +185,16 @@ static void a_view_without_rain_draws_nothing_in_order(void **state)
     (void)state;
     shot s;
     prepare_shot(&s, 100);
-    const uint32_t before = streak_count(&s);
+    const uint64_t before = sum_of_places(&s);
     s.f.settings.streak_gain = 0;
     apply_settings(&s);
     draw_frame(&s, 0);
     assert_int_equal(streak_count(&s), 0);
+    assert_int_equal(sum_of_places(&s), 0);
     s.f.settings.streak_gain = 4;
     apply_settings(&s);
     draw_frame(&s, 0);
-    assert_int_equal(streak_count(&s), before);
-    uint64_t sum = 0;
-    for (uint32_t place = 0; place < before; place++)
-        sum += streak_at(&s, place);
-    assert_int_equal(sum, (uint64_t)before * (before - 1) / 2);
+    assert_int_equal(sum_of_places(&s), before);
     close_shot(&s);
 }
 
@@ -129,6 +204,7 @@ int main(void)
         cmocka_unit_test(each_streak_is_drawn_once),
         cmocka_unit_test(wide_streaks_keep_their_places),
         cmocka_unit_test(thin_streaks_follow_the_picture),
+        cmocka_unit_test(the_thinnest_are_lines_where_the_device_has_them),
         cmocka_unit_test(a_view_without_rain_draws_nothing_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,6 +34,10 @@ static bool create_device(drive *d, const host_device_info *chosen)
     if (!fine(d, virga_enable_features(&features), "features"))
         return false;
     /* ... and here a host sets its own. */
+    VkPhysicalDeviceFeatures there;
+    vkGetPhysicalDeviceFeatures(chosen->physical, &there);
+    features.features.wideLines = there.wideLines; /* worth it on software Vulkan */
+    d->device.wide_lines = there.wideLines;
     const float priority = 1;
     const char *extensions[HOST_DEVICE_EXTENSIONS];
     const VkDeviceQueueCreateInfo queue = {
@@ -98,6 +102,7 @@ static bool create_context(drive *d)
     def.queue_family = d->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.frames_in_flight = HOST_FRAMES;
+    def.wide_lines = d->device.wide_lines;
     def.pipeline_cache = compiled;
     def.pipeline_cache_size = size;
     def.log = say;

@@ -19,6 +19,8 @@ static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled
     enabled->independentBlend = there.independentBlend;
     device->clip_distance = there.shaderClipDistance;
     enabled->shaderClipDistance = there.shaderClipDistance;
+    device->wide_lines = there.wideLines;
+    enabled->wideLines = there.wideLines;
     if (there.samplerAnisotropy) {
         enabled->samplerAnisotropy = VK_TRUE;
         bool software = device->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;

@@ -99,6 +99,7 @@ typedef struct host_device {
     VkPhysicalDeviceMemoryProperties memory;
     bool independent_blend;   /* else glass is drawn as a cut-out */
     bool clip_distance;       /* else puddles mirror the sky alone */
+    bool wide_lines;          /* enabled, see virga_context_def */
     float anisotropy;         /* of texture samplers; 0 where absent. May be lowered before a renderer is created */
     PFN_vkSetDebugUtilsObjectNameEXT set_name;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;

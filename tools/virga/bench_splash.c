@@ -189,6 +189,7 @@ static bool open_untimed(bench *b, virga_context **context)
     def.device = b->device.device;
     def.queue_family = b->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = b->device.wide_lines;
     def.timings = false;
     return virga_context_create(&def, context) == VIRGA_OK || splash_bench_say(b, "the device was refused");
 }

@@ -52,6 +52,7 @@ static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pip
     def.device = b->device.device;
     def.queue_family = b->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = b->device.wide_lines;
     def.pipeline_cache = blob;
     def.pipeline_cache_size = blob_size;
     def.pipelines = when;

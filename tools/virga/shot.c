@@ -60,6 +60,7 @@ static bool open_device(shot *s, char *error, size_t error_size)
     def.device = s->device.device;
     def.queue_family = s->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = s->device.wide_lines;
     def.frames_in_flight = HOST_FRAMES + 1;
     def.log = take_log;
     def.log_user = s;

@@ -131,6 +131,10 @@ typedef struct virga_context_def {
     virga_pipelines_when pipelines;    /* default VIRGA_PIPELINES_AT_ONCE */
     virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
+    bool wide_lines;   /* the device was made with the feature wideLines (one that lacks it is refused). Streaks as thin
+                        * as they are drawn are lines then where that was measured to be quicker, which is on software
+                        * devices with strictLines: rain is drawn in two thirds of the time. The picture is the same.
+                        * Default false */
     bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none. Costs two
                         * timestamps a pass; on a software device also two barriers, so that passes run one by one */
     bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled: where
