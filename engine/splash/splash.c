@@ -89,10 +89,16 @@ static virga_result check_def(const virga_log *log, const virga_splash_def *give
     return VIRGA_OK;
 }
 
-/* Quads of sprites, pyramids, and the mesh of a sheet. */
+/* Quads of sprites, pyramids, the mesh of a sheet, and lines of sprites. */
 static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
 {
-    return (18ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
+    return (20ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
+}
+
+/* Of droplets as lines, as quads and for their piles, and of splashes for sprites and for sheets. */
+static VkDeviceSize pick_bytes(const virga_splash_def *def)
+{
+    return VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
 }
 
 /* Splashes, droplets and sprites are read as texels. True: less than asked for. */
@@ -146,8 +152,8 @@ VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
            (VkDeviceSize)def.max_returns * sizeof(virga_impact_gpu) +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * splash_tick_bytes() +
                                                        splash_rules_bytes() + SPLASH_MAX_VIEWS * splash_view_bytes()) +
-           VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def.max_droplets + def.max_splashes)) +
-           (VkDeviceSize)splash_max_sprites(&def) * (SPLASH_SPRITE_BYTES + 4) + splash_index_bytes(&def);
+           pick_bytes(&def) + (VkDeviceSize)splash_max_sprites(&def) * (SPLASH_SPRITE_BYTES + 4) +
+           splash_index_bytes(&def);
 }
 
 /* ---- creating */
@@ -173,8 +179,7 @@ static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
         {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
         {&splash->returns, sizeof(virga_impacts_gpu) + (VkDeviceSize)def->max_returns * sizeof(virga_impact_gpu),
          indirect, VIRGA_HEAP_DEVICE, "splash.returns"},
-        {&splash->picks, VIRGA_PICK_BYTES(2 * ((VkDeviceSize)def->max_droplets + def->max_splashes)), storage,
-         VIRGA_HEAP_DEVICE, "splash.picks"},
+        {&splash->picks, pick_bytes(def), storage, VIRGA_HEAP_DEVICE, "splash.picks"},
         {&splash->lists, 2 * sizeof(virga_list_gpu) + ((VkDeviceSize)sprites + splash_max_crowns(def)) * 4, indirect,
          VIRGA_HEAP_DEVICE, "splash.lists"},
         {&splash->sprites, sprites * SPLASH_SPRITE_BYTES, texels, VIRGA_HEAP_DEVICE, "splash.sprites"},

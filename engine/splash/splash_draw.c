@@ -89,6 +89,7 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .max_sprites = splash_max_sprites(&splash->def),
                                         .max_crowns = splash_max_crowns(&splash->def),
                                         .physical = settings->mode == VIRGA_SPLASH_MODE_PHYSICAL,
+                                        .lines = splash->context->lines,
                                         .motion = wants_motion(splash),
                                         .handed = handedness(out->view.clip_from_rel)};
 }
@@ -174,6 +175,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     splash->prepared_set = splash_write_set(splash, place, splash_current(splash), view);
     record_prepare(splash, cmd, form_wanted(splash));
     memcpy(splash->prepared_viewport, view->viewport, sizeof splash->prepared_viewport);
+    splash->prepared_line_px = splash->settings.min_width_px + 1; /* as corners would be, see sprite_corner.glsl */
     splash->prepared_style = splash->settings.style;
     splash->prepared = true;
     return virga_uploaded(context);
@@ -206,20 +208,28 @@ void splash_targets_destroy(virga_splash *splash)
 typedef struct draw_row {
     virga_spirv vertex, fragment;
     const char *name;
+    uint32_t sprites; /* VIRGA_SPLASH_SPRITES_... beside the depth */
+    bool cull_back;
 } draw_row;
 
 static void list_draws(virga_target_outputs outputs, draw_row rows[SPLASH_DRAWS])
 {
     const virga_spirv sprite = VIRGA_VERTEX_FORM(splash_sprite_vert, outputs);
+    const virga_spirv thin = VIRGA_FRAGMENT_FORM(splash_sprite_thin_frag, outputs);
+    const virga_spirv wide = VIRGA_FRAGMENT_FORM(splash_sprite_wide_frag, outputs);
+    const virga_spirv sheet = VIRGA_FRAGMENT_FORM(splash_crown_frag, outputs);
     const virga_spirv pyramid = VIRGA_FRAGMENT_FORM(splash_pyramid_frag, outputs);
-    rows[SPLASH_DRAW_THIN] = (draw_row){sprite, VIRGA_FRAGMENT_FORM(splash_sprite_thin_frag, outputs), "splash.thin"};
-    rows[SPLASH_DRAW_WIDE] = (draw_row){sprite, VIRGA_FRAGMENT_FORM(splash_sprite_wide_frag, outputs), "splash.wide"};
-    rows[SPLASH_DRAW_SHEETS] = (draw_row){VIRGA_VERTEX_FORM(splash_crown_vert, outputs),
-                                          VIRGA_FRAGMENT_FORM(splash_crown_frag, outputs), "splash.sheets"};
+    const uint32_t puffs = VIRGA_SPLASH_SPRITES_PUFFS, lines = VIRGA_SPLASH_SPRITES_LINES;
+    rows[SPLASH_DRAW_LINES] = (draw_row){sprite, thin, "splash.lines", lines, false};
+    rows[SPLASH_DRAW_THIN] = (draw_row){sprite, thin, "splash.thin", 0, false};
+    rows[SPLASH_DRAW_PUFFS] = (draw_row){sprite, thin, "splash.puffs", puffs, false};
+    rows[SPLASH_DRAW_WIDE] = (draw_row){sprite, wide, "splash.wide", 0, false};
+    rows[SPLASH_DRAW_SHEETS] =
+        (draw_row){VIRGA_VERTEX_FORM(splash_crown_vert, outputs), sheet, "splash.sheets", 0, false};
     rows[SPLASH_DRAW_PILES] =
-        (draw_row){VIRGA_VERTEX_FORM(splash_pile_pyramid_vert, outputs), pyramid, "splash.pile_pyramids"};
+        (draw_row){VIRGA_VERTEX_FORM(splash_pile_pyramid_vert, outputs), pyramid, "splash.pile_pyramids", 0, true};
     rows[SPLASH_DRAW_CROWNS] =
-        (draw_row){VIRGA_VERTEX_FORM(splash_crown_pyramid_vert, outputs), pyramid, "splash.crown_pyramids"};
+        (draw_row){VIRGA_VERTEX_FORM(splash_crown_pyramid_vert, outputs), pyramid, "splash.crown_pyramids", 0, true};
 }
 
 virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)
@@ -243,11 +253,15 @@ virga_result virga_splash_attach(virga_splash *splash, const virga_target *targe
     virga_graphics_def def = {
         .layout = splash->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
     for (uint32_t i = 0; i < SPLASH_DRAWS * 2; i++) {
-        def.constant = i % 2;
-        def.vertex = rows[i / 2].vertex;
-        def.fragment = rows[i / 2].fragment;
-        def.name = rows[i / 2].name;
-        def.cull_back = i / 2 == SPLASH_DRAW_PILES || i / 2 == SPLASH_DRAW_CROWNS;
+        const draw_row *row = &rows[i / 2];
+        def.lines = row->sprites == VIRGA_SPLASH_SPRITES_LINES;
+        if (def.lines && !splash->context->lines)
+            continue;
+        def.constant = row->sprites | (i % 2 ? VIRGA_SPLASH_SPRITES_DEPTH : 0);
+        def.vertex = row->vertex;
+        def.fragment = row->fragment;
+        def.name = row->name;
+        def.cull_back = row->cull_back;
         TRY(virga_target_pipeline(target, def, &slot->draws[i / 2][i % 2]));
     }
     slot->motion = outputs & VIRGA_OUTPUTS_MOTION;
@@ -288,8 +302,10 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     const int depth = splash->prepared_depth;
     const virga_pipeline *used[] = {found->draws[film ? SPLASH_DRAW_SHEETS : SPLASH_DRAW_CROWNS][depth],
                                     found->draws[film ? SPLASH_DRAW_WIDE : SPLASH_DRAW_PILES][depth],
-                                    found->draws[SPLASH_DRAW_THIN][depth]};
-    const virga_result result = virga_pipelines_ready(used, 3);
+                                    found->draws[SPLASH_DRAW_THIN][depth], found->draws[SPLASH_DRAW_PUFFS][depth],
+                                    found->draws[SPLASH_DRAW_LINES][depth]};
+    const bool lines = used[4];
+    const virga_result result = virga_pipelines_ready(used, lines ? 5 : 4);
     splash->told_not_drawn = false;
     if (result)
         return result;
@@ -299,7 +315,12 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw(splash, cmd, used[0], offsetof(virga_splash_prepared_gpu, crowns));
     draw(splash, cmd, used[1], offsetof(virga_splash_prepared_gpu, wide));
+    if (lines) {
+        context->vk.CmdSetLineWidth(cmd, splash->prepared_line_px);
+        draw(splash, cmd, used[4], offsetof(virga_splash_prepared_gpu, lines));
+    }
     draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin));
+    draw(splash, cmd, used[3], offsetof(virga_splash_prepared_gpu, puffs));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

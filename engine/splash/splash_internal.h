@@ -36,7 +36,9 @@ typedef struct splash_readback {
 } splash_readback;
 
 enum {
+    SPLASH_DRAW_LINES, /* where the context has them */
     SPLASH_DRAW_THIN,
+    SPLASH_DRAW_PUFFS,
     SPLASH_DRAW_WIDE,
     SPLASH_DRAW_SHEETS,
     SPLASH_DRAW_PILES,  /* (paper) */
@@ -85,6 +87,7 @@ struct virga_splash {
     virga_splash_style prepared_style;
     VkDescriptorSet prepared_set;
     float prepared_viewport[4];
+    float prepared_line_px; /* width of lines */
     uint64_t prepared_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose prepare the ring holds; 0: none */
     uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose state the ring holds; 0: none */
     virga_splash_stats stats;

@@ -31,6 +31,11 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
  * would skip. Those that find know of the first bit alone. */
 #define VIRGA_SPLASH_FORM_FILM 1 /* the film's style, not the paper's */
 #define VIRGA_SPLASH_FORM_FULL 2 /* there may be lamps, and motions are written where they are wanted */
+
+/* And what pipelines of sprites are made for. */
+#define VIRGA_SPLASH_SPRITES_DEPTH 1 /* the scene's depth is there to be read */
+#define VIRGA_SPLASH_SPRITES_LINES 2 /* lines from end to end, of droplets, in place of two triangles around them */
+#define VIRGA_SPLASH_SPRITES_PUFFS 4 /* of puffs alone; without it, of all else */
 #define VIRGA_SPLASH_FORMS     4
 
 /* All that a tick's passes need. */
@@ -86,7 +91,7 @@ struct virga_splash_state_gpu {
     uint find_groups[3];    /* of the pass that finds what a view may see of few droplets and splashes */
     uint find_droplet_groups[3]; /* of those for many */
     uint find_splash_groups[3];
-    uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets, piles, splashes */
+    uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets as lines, droplets, piles, splashes */
     uint view_groups[3];    /* the same over droplets alone */
     virga_splash_count_gpu counts[165];
 };
@@ -102,6 +107,7 @@ struct virga_splash_look_gpu {
     uint max_sprites;
     uint max_crowns;
     uint physical;
+    uint lines;          /* 1: the thinnest droplets are lines */
     uint motion;         /* 1: motions are written behind the sprites, a vec4 each: of head and tail (px) */
     float handed;        /* 1, or -1 where the picture is mirrored: which way round faces are the front */
 };
@@ -139,7 +145,9 @@ struct virga_splash_draw_gpu {
 
 /* What a prepare found. */
 struct virga_splash_prepared_gpu {
-    virga_splash_draw_gpu thin;     /* sprites that show one colour */
+    virga_splash_draw_gpu lines;    /* of those that show one colour droplets that are lines */
+    virga_splash_draw_gpu thin;     /* and other droplets and piles; */
+    virga_splash_draw_gpu puffs;    /* splashes from afar */
     virga_splash_draw_gpu wide;     /* sprites that show what is behind them; (paper) pyramids */
     virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
     uint sprites;
@@ -154,9 +162,9 @@ struct virga_splash_prepared_gpu {
 #define VIRGA_CROWN_PYRAMIDS 10
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 44);
+VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
-VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 84);
+VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
 VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);

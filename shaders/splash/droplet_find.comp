@@ -3,11 +3,11 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "state.glsl"
-#define COMPACT_SETS 2
+#define COMPACT_SETS 3
 #include "sprite_find.glsl"
 
 void main()
 {
     const uint groups = state.view_groups[0];
-    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[2](groups, groups));
+    mark_picks(droplet_kinds(gl_GlobalInvocationID.x), droplet_sets(), uint[3](groups, groups, groups));
 }

@@ -82,7 +82,7 @@ void main()
     state.staying = all.y - fallen;
     state.fall_groups = state.droplet_groups;
     state.view_groups = ring_groups(0u, all.y - fallen);
-    state.sprite_groups = uint[3](2u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
+    state.sprite_groups = uint[3](3u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
     const uint most = max(state.view_groups[0], state.splash_groups[0]);
     const bool both = most <= FEW_GROUPS;
     state.find_groups = uint[3](both ? most : 0u, 1u, 1u);

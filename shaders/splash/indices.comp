@@ -1,4 +1,5 @@
-// indices.comp - the index buffer, once: quads of sprites, pyramids, and the mesh of one sheet.
+// indices.comp - the index buffer, once: quads of sprites, pyramids, the mesh of one sheet, and lines of
+// sprites.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -19,14 +20,17 @@ uint index_at(uint i)
         return i / 6u * 4u + quad[i % 6u];
     if (i < quads + pyramids)
         return (i - quads) / 12u * 8u + pyramid[(i - quads) % 12u];
-    const uint j = i - quads - pyramids, cell = j / 6u, corner = quad[j % 6u];
+    const uint j = i - quads - pyramids;
+    if (j >= VIRGA_CROWN_INDICES)
+        return (j - VIRGA_CROWN_INDICES) * 2u; // of four corners the first and the third are left, one at each end
+    const uint cell = j / 6u, corner = quad[j % 6u];
     // Columns in turns left and right of the farthest, so that what is behind is drawn first: see crown.vert.
     return ((cell / VIRGA_CROWN_ROWS * 2u + (corner & 1u)) << 4) | (cell % VIRGA_CROWN_ROWS + (corner >> 1));
 }
 
 void main()
 {
-    const uint all = 18u * max_sprites + VIRGA_CROWN_INDICES, stride = gl_NumWorkGroups.x * VIRGA_SPLASH_GROUP;
+    const uint all = 20u * max_sprites + VIRGA_CROWN_INDICES, stride = gl_NumWorkGroups.x * VIRGA_SPLASH_GROUP;
     for (uint i = gl_GlobalInvocationID.x; i < all; i += stride)
         indices[i] = index_at(i);
 }

@@ -15,14 +15,14 @@ Slot slot_of(uint slot)
 {
     const uint span = state.view_groups[0] * VIRGA_SPLASH_GROUP;
     Slot found = Slot(SLOT_NONE, NO_PLACE);
-    if (slot < 2u * span) {
-        found.kind = slot < span ? SLOT_DROPLET : SLOT_PILE;
-        found.place = slot < span ? slot : slot - span;
+    if (slot < 3u * span) {
+        found.kind = slot < 2u * span ? SLOT_DROPLET : SLOT_PILE;
+        found.place = slot < span ? slot : slot < 2u * span ? slot - span : slot - 2u * span;
         if (found.place >= state.staying)
             found.place = NO_PLACE;
     } else {
         found.kind = SLOT_SPLASH;
-        found.place = ring_place(state.first_splash, state.end_splash, look.max_splashes, slot - 2u * span);
+        found.place = ring_place(state.first_splash, state.end_splash, look.max_splashes, slot - 3u * span);
     }
     if (found.place == NO_PLACE)
         found.kind = SLOT_NONE;

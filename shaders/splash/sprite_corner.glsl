@@ -1,8 +1,10 @@
 // sprite_corner.glsl - a sprite's record taken apart, and its four corners around its way on the picture, half a pixel
-// wider than it is drawn.
+// wider than it is drawn; or the two ends of a line of that width, for a droplet (see rain/streak.glsl).
 //
 // Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
 // half as much again. The buffer is read as texels, see state.glsl.
+#include "sprite_form.glsl"
+
 layout(set = 0, binding = 20) uniform usamplerBuffer sprite_texels; // four a sprite; behind all a motion each
 
 #ifdef MOTION
@@ -14,7 +16,7 @@ layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
 // Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
-// above); share; columns, and a fraction by lot.
+// above); share; columns, and a fraction by lot. Of a line: . (x, y, 1) of a pixel is how far (px) it is beside the way.
 layout(location = 4) flat out vec4 turn;
 
 void set_corner(uint vertex)
@@ -36,7 +38,7 @@ void set_corner(uint vertex)
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
     const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
     const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
-    const float across = (vertex & 1u) == 0u ? -own : own;
+    const float across = LINES ? 0.0 : (vertex & 1u) == 0u ? -own : own;
     const vec2 corner =
         (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
 #ifdef MOTION
@@ -54,6 +56,10 @@ void set_corner(uint vertex)
     turn = vec4(along, shares.x, shares.y - 32.0 * rows + lot);
     if (kind == VIRGA_SPRITE_PUFF)
         turn.xy = vec2(rows + life, widths.y);
+    if (LINES) {
+        const vec2 tail_px = vec2(view.viewport[0], view.viewport[1]) + (tail + 1.0) * half_viewport;
+        turn = vec4(side, -dot(side, tail_px), 0.0);
+    }
     // The same w at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

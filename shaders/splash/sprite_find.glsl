@@ -8,24 +8,40 @@
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 // In the film's style the second kind shows what is behind it; in the paper's it is a pyramid.
-uint kind_of(Sprite sprite)
+uint kind_of(Sprite sprite, Projected p)
 {
-    const Projected p = project_sprite(sprite);
     const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
     const bool second = is_film() ? p.width_px >= WIDE_PX && sprite.kind != VIRGA_SPRITE_PUFF : pile;
     return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
 }
 
-// A droplet's, and its pile's.
-uint[2] droplet_kinds(uint place)
+// As thin as droplets are drawn, so that all lines have one width; and whole on the picture, as a line is cut off square
+// where it leaves it.
+bool is_line(Projected p)
 {
-    if (place >= state.staying)
-        return uint[2](NOT_PICKED, NOT_PICKED);
-    const virga_droplet_gpu droplet = droplet_of(place);
-    return uint[2](kind_of(droplet_sprite(droplet, 0.0)), kind_of(pile_sprite(droplet, 0.0)));
+    const vec2 furthest = max(abs(p.head.xy) / p.head.w, abs(p.tail.xy) / p.tail.w);
+    const vec2 margin = (view.min_width_px + 2.0) / vec2(view.viewport[2], view.viewport[3]);
+    return look.lines != 0u && p.width_px <= view.min_width_px && all(lessThan(furthest + margin, vec2(1.0)));
 }
 
-uint[2] droplet_sets() { return uint[2](0u, state.view_groups[0]); }
+// A droplet's as a line, and else; and its pile's.
+uint[3] droplet_kinds(uint place)
+{
+    if (place >= state.staying)
+        return uint[3](NOT_PICKED, NOT_PICKED, NOT_PICKED);
+    const virga_droplet_gpu droplet = droplet_of(place);
+    const Sprite flies = droplet_sprite(droplet, 0.0), pile = pile_sprite(droplet, 0.0);
+    const Projected p = project_sprite(flies);
+    const uint kind = kind_of(flies, p);
+    const bool line = kind == FIRST_KIND && is_line(p);
+    return uint[3](line ? kind : NOT_PICKED, line ? NOT_PICKED : kind, kind_of(pile, project_sprite(pile)));
+}
+
+uint[3] droplet_sets()
+{
+    const uint groups = state.view_groups[0];
+    return uint[3](0u, groups, 2u * groups);
+}
 
 // In the film's style by its sheet; in the paper's by its pyramids, a crown where it is large enough.
 bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
@@ -59,9 +75,10 @@ uint[2] splash_kinds(uint entry)
         return uint[2](NOT_PICKED, NOT_PICKED);
     const virga_splash_gpu splash = splash_of(place);
     const Crown crown = crown_at(splash, view.time_close_s);
-    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(puff_sprite(splash, 0.0));
+    const Sprite sprite = puff_sprite(splash, 0.0);
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(sprite, project_sprite(sprite));
     return uint[2](puff, sheet_kind(splash, crown));
 }
 
 // Behind droplets and piles; and behind all sprites.
-uint[2] splash_sets() { return uint[2](2u * state.view_groups[0], state.sprite_groups[0]); }
+uint[2] splash_sets() { return uint[2](3u * state.view_groups[0], state.sprite_groups[0]); }

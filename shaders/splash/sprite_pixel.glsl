@@ -1,4 +1,5 @@
 // sprite_pixel.glsl - how much of a pixel a sprite covers.
+#include "sprite_form.glsl"
 #include "gpu/streak_profile.glsl"
 #include "shared/random.h"
 #define SCENE_DEPTH_BINDING 16
@@ -8,8 +9,6 @@
 layout(location = 5) noperspective in vec2 motion;
 #endif
 
-layout(constant_id = 0) const bool HAS_DEPTH = true;
-
 layout(location = 0) noperspective in vec4 place;
 layout(location = 1) flat in vec4 centre_alpha;
 layout(location = 2) flat in vec4 rim_kind;
@@ -17,12 +16,15 @@ layout(location = 3) flat in vec4 shape;
 layout(location = 4) flat in vec4 turn;
 layout(location = 0) out vec4 radiance;
 
+// px from the middle line, of which a line's ends know nothing.
+float from_middle() { return LINES ? dot(turn.xyz, vec3(gl_FragCoord.xy, 1.0)) : place.x; }
+
 // The share of the time for which a disc covers a place while it goes its way: of the chord through it there, what lies
 // on the way, over the way. One that hardly moves goes a pixel, and so has soft ends.
 float droplet_cover()
 {
     const float half_width = shape.x, way = max(shape.z, 1.0), y = place.y + 0.5 * (way - shape.z);
-    const float across = streak_profile(abs(place.x), half_width);
+    const float across = streak_profile(abs(from_middle()), half_width);
     const float chord = max(shape.w, 0.0) * across;
     const float passed = clamp(min(y + 0.5 * chord, way) - max(y - 0.5 * chord, 0.0), 0.0, way) / way;
     return min(passed, 1.0);
@@ -119,7 +121,6 @@ float puff_cover()
 
 float sprite_cover()
 {
-    const float kind = rim_kind.w;
-    const float cover = kind < 0.5 ? droplet_cover() : kind < 1.5 ? pile_cover() : puff_cover();
-    return min(centre_alpha.a * cover, kind < 1.5 ? 1.0 : MOST_HIDDEN) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
+    const float cover = PUFFS ? puff_cover() : LINES || rim_kind.w < 0.5 ? droplet_cover() : pile_cover();
+    return min(centre_alpha.a * cover, PUFFS ? MOST_HIDDEN : 1.0) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
 }

@@ -16,12 +16,22 @@ layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gp
 
 #define LITTLE 512u // words that are listed here: a dispatch costs software Vulkan as much as these
 
+// Where in the list those begin that only show one colour and are of a set (see droplet_sets and splash_sets).
+uint first_of_set(uint groups_before, virga_list_gpu head)
+{
+    return min(groups_before < state.sprite_groups[0] ? picks[groups_before * GROUP_WORDS].z : head.count, head.count);
+}
+
+// Six indices a sprite, two a line, or twelve a pyramid; those of the second kind come first in the list, then lines.
 void draw_sprites(virga_list_gpu head)
 {
-    // Six indices a sprite, or twelve a pyramid; those of the second kind come first in the list.
-    const uint each = is_film() ? 6u : 12u, second = head.second_kind, first = head.count - second;
+    const uint each = is_film() ? 6u : 12u, second = head.second_kind;
+    const uint quads = first_of_set(state.view_groups[0], head), puffs = first_of_set(3u * state.view_groups[0], head);
+    const uint first_line = 18u * look.max_sprites + VIRGA_CROWN_INDICES;
     prepared.wide = virga_splash_draw_gpu(each * second, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
-    prepared.thin = virga_splash_draw_gpu(6u * first, 1u, 6u * second, 0, 0u);
+    prepared.lines = virga_splash_draw_gpu(2u * (quads - second), 1u, first_line + 2u * second, 0, 0u);
+    prepared.thin = virga_splash_draw_gpu(6u * (puffs - quads), 1u, 6u * quads, 0, 0u);
+    prepared.puffs = virga_splash_draw_gpu(6u * (head.count - puffs), 1u, 6u * puffs, 0, 0u);
     prepared.sprites = head.count;
 }
 
@@ -42,6 +52,8 @@ void main()
     const virga_list_gpu head = list_head(found, words.most);
     const bool listed_here = all <= LITTLE;
     const uvec2 own = listed_here ? lane_words(words.first, words.count) : uvec2(0u);
+    memoryBarrierBuffer();
+    barrier();
     for (uint i = own.x; i < own.y; i++)
         list_word(i, 32u * (i - words.first), words.entry, head);
     if (gl_LocalInvocationIndex != 0u)

@@ -80,7 +80,7 @@ typedef struct virga_device_memory {
     void (*free)(void *user, const virga_memory_block *block);
 } virga_device_memory;
 
-/* When the pipelines of effects are built. A scene of all effects has some 90 (120 with three targets); a driver takes
+/* When the pipelines of effects are built. A scene of all effects has some 100 (140 with three targets); a driver takes
  * 1 to 80 ms for each that its caches do not know. */
 typedef enum virga_pipelines_when {
     VIRGA_PIPELINES_AT_ONCE = 0,  /* in create and attach, on their thread, before they return: for loading screens */
@@ -132,9 +132,9 @@ typedef struct virga_context_def {
     virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
     bool wide_lines;   /* the device was made with the feature wideLines (one that lacks it is refused). Streaks as thin
-                        * as they are drawn are lines then where that was measured to be quicker, which is on software
-                        * devices with strictLines: rain is drawn in two thirds of the time. The picture is the same.
-                        * Default false */
+                        * and droplets as they are drawn are lines then where that was measured to be quicker, which is
+                        * on software devices with strictLines: rain is drawn in two thirds to three quarters of the time,
+                        * splashes in half to three quarters. The picture is the same. Default false */
     bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none. Costs two
                         * timestamps a pass; on a software device also two barriers, so that passes run one by one */
     bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled: where
