@@ -123,7 +123,7 @@ void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out)
 
 void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps)
 {
-    maps->far = ground->far.map->layer_views[0];
+    maps->far_wet = ground->far.map->layer_views[0];
     maps->far_cells = ground->def.far_cells;
     maps->far_cell_m = (float)cell_m(ground);
     for (int axis = 0; axis < 2; axis++)

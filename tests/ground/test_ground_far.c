@@ -421,7 +421,7 @@ static void test_without_a_far_map_there_are_materials(void **state)
     assert_true(cell_at(200, 0).held_nl > 0);
     virga_ground_maps maps;
     virga_ground_maps_get(f.ground, &maps);
-    assert_true(maps.far != VK_NULL_HANDLE && maps.far_cells == 0);
+    assert_true(maps.far_wet != VK_NULL_HANDLE && maps.far_cells == 0);
     ground_fixture_close(&f);
 }
 

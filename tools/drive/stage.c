@@ -344,7 +344,7 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
         host_set_write_image(s->device, set, 4, s->nearest, maps->spots, general);
         host_set_write_image(s->device, set, 5, s->smooth, maps->ripples, general);
         host_set_write_image(s->device, set, 6, s->smooth, s->behind.view, read);
-        host_set_write_image(s->device, set, 7, s->nearest, maps->far, general);
+        host_set_write_image(s->device, set, 7, s->nearest, maps->far_wet, general);
     }
     host_set_write_image(s->device, s->show_set, 0, s->nearest, s->color.view, read);
 }

@@ -177,10 +177,10 @@ VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer c
 /* Surveys all of the window anew in the next step: after meshes were changed. Water stays. */
 VIRGA_API void virga_ground_survey(virga_ground *ground);
 
-/* What materials read. Wet and spots are cells x cells (spots: twice as wide), and wrap around: the
- * texel of a place is its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL, and
- * the same as long as the ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame.
- * `wet`, `spots` and `far` are fetched by texel, so any sampler will do; ripples may be filtered. All zero for NULL. */
+/* What materials read. Wet and spots are cells x cells (spots: twice as wide), and wrap around: the texel of a place is
+ * its cell's number, floor(x / cell_m), modulo cells. They stay in VK_IMAGE_LAYOUT_GENERAL, and the same as long as the
+ * ground lives: bind them once. Where they lie (low_m, ripple_low_m) changes every frame. `wet`, `spots` and `far_wet`
+ * are fetched by texel, so any sampler will do; ripples may be filtered. All zero for NULL. */
 typedef struct virga_ground_maps {
     VkImageView wet;     /* R16G16B16A16_SFLOAT: r wetness [0; 1], g depth of water (mm), b slope variance of
                         * ripples, a height of the floor above base_m (m). Water that is hidden between blades of grass
@@ -199,7 +199,7 @@ typedef struct virga_ground_maps {
     double low_m[2], high_m[2]; /* corners of the window in x and z; outside there is nothing */
     float reach_m;      /* as far from the step's camera, in x and in z, there is window all around and impacts land:
                          * blend into the far map before that. 0: nowhere (def.cells 128), and nothing to blend in */
-    VkImageView far;    /* R16G16B16A16_SFLOAT, like `wet` but for b: where no water lies it is minus the share of dark
+    VkImageView far_wet; /* R16G16B16A16_SFLOAT, like `wet` but for b: where no water lies it is minus the share of dark
                          * spots. Texel (0, 0) lies at far_low_m; it does not wrap. A row of VIRGA_GROUND_MATERIALS
                          * texels more, y = far_cells, has level open ground by material, for what is beyond */
     uint32_t far_cells; /* along its side; 0: only that row, y = 0 */
