@@ -9,6 +9,6 @@ mat4 to_mat(float a[16])
 // A pair of half floats, the first in the low bits; what is beyond their range becomes their end.
 uint halves(float a, float b) { return packHalf2x16(clamp(vec2(a, b), vec2(-65000.0), vec2(65000.0))); }
 
-// Where all corners go of what is not drawn. Beyond the picture they would have to be clipped, and software Vulkan takes
-// a thousand triangles the long way for one of those.
+// Where all corners go of what is not drawn. Beyond the picture they would have to be clipped, and software Vulkan
+// takes a thousand triangles the long way for one of those.
 #define DRAWN_NOWHERE vec4(0.0, 0.0, 0.0, 1.0)

@@ -41,9 +41,10 @@ float shows()
     return seen / float(LOOKS);
 }
 
-// F over the angles from a to b as far as light goes out into them: the cone of a spot, the end of a range. What is bent
-// by an angle x leaves the lamp along -d cos x + n sin x, n from the lamp to where the ray is nearest, so its cosine with
-// the spot's axis is A cos(x - p); and it has gone h / sin x when it is bent. Parts grow: most light is bent by little.
+// F over the angles from a to b as far as light goes out into them: the cone of a spot, the end of a range. What is
+// bent by an angle x leaves the lamp along -d cos x + n sin x, n from the lamp to where the ray is nearest, so its
+// cosine with the spot's axis is A cos(x - p); and it has gone h / sin x when it is bent. Parts grow: most light is
+// bent by little.
 float lit(Pass pass, vec3 direction, float from, float to)
 {
     const float u = -dot(direction, spot.xyz), v = dot(pass.aside, spot.xyz) / pass.nearest;

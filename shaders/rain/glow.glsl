@@ -7,8 +7,8 @@
 //     L = int (k / 2) (I / r^2) p(a) ds      with   r = h / sin a,   s = -h / tan a,   ds / r^2 = da / h
 //       = (k / 2) (I / h) (F(a1) - F(a0))    where  F(a) = int_0^a p,
 //
-// with a0 at the camera, or where haze begins, and a1 where the ray ends. A lamp's glow is that of the haze around it, so k is the extinction
-// there, and what the lamp loses on its way to the camera the glow loses too.
+// with a0 at the camera, or where haze begins, and a1 where the ray ends. A lamp's glow is that of the haze around it,
+// so k is the extinction there, and what the lamp loses on its way to the camera the glow loses too.
 
 // F, read linearly from its values at the borders of the phase function's bins.
 float bent_up_to(float angle)

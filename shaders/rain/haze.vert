@@ -9,8 +9,8 @@
 layout(location = 0) noperspective out vec3 ray; // as long as it takes to a view depth of 1 m
 layout(location = 1) flat out vec4 depth_and_reach; // depth_a, depth_b, far_depth of the view; half the innermost box
 layout(location = 2) flat out vec4 per_m[HAZE_VECTORS]; // extinction in each box and beyond the last
-layout(location = 6) flat out vec4 sky[SKY_VECTORS]; // coefficients of the environment, red, green, blue, red and so on; the
-                                                    // last word: metres of haze before it
+layout(location = 6) flat out vec4 sky[SKY_VECTORS]; // coefficients of the environment, red, green, blue, red and so
+                                                     // on; the last word: metres of haze before it
 layout(location = 13) noperspective out float begins; // 1 / the view depth that haze begins at
 
 void main()

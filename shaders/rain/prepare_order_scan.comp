@@ -15,7 +15,8 @@ layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, first_bucket = gl_WorkGroupID.x * SCAN_LANES, bucket = first_bucket + lane;
+    const uint lane = gl_LocalInvocationIndex;
+    const uint first_bucket = gl_WorkGroupID.x * SCAN_LANES, bucket = first_bucket + lane;
     uint before = 0u; // streaks of the buckets of the workgroups before
     for (uint i = lane; i < first_bucket; i += SCAN_LANES)
         before += order[total_at(i)];

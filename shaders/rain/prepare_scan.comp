@@ -1,5 +1,5 @@
-// prepare_scan.comp - gives the marked slots their places among the streaks, writes the draw of wide streaks (that of others is
-// not known before prepare_order.comp), and sets back what prepare_order_count.comp counts.
+// prepare_scan.comp - gives the marked slots their places among the streaks, writes the draw of wide streaks (that of
+// others is not known before prepare_order.comp), and sets back what prepare_order_count.comp counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

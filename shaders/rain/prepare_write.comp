@@ -174,8 +174,8 @@ void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
     motions[4u * look.max_streaks + index] = vec4(at_head, at_tail);
 }
 
-// A way much shorter than what the lens blurs a point to is drawn as long as 0.7 of that, so that both ends rise slowly:
-// a soft spot, where it would be a square.
+// A way much shorter than what the lens blurs a point to is drawn as long as 0.7 of that, so that both ends rise
+// slowly: a soft spot, where it would be a square.
 void round_off(inout vec2 head, inout vec2 tail, vec2 way_px, float blur)
 {
     const float way = length(way_px), wanted = 0.7 * blur;

@@ -98,8 +98,8 @@ struct virga_rain_look_gpu {
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
     float haze_inner_m;  /* radius of the innermost box; each next one is twice as wide */
     float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
-    float begin[4];      /* a ray, as long as to a view depth of 1 m, is hazed from the depth 1 / (begin.xyz ray + begin.w)
-                          * on; not at all where that is no depth */
+    float begin[4];      /* a ray, as long as to a view depth of 1 m, is hazed from the depth
+                          * 1 / (begin.xyz ray + begin.w) on; not at all where that is no depth */
     float parts;         /* views that are averaged, each with its part of the shutter */
     uint max_streaks;
     uint lines;          /* 1: the thinnest streaks are lines */

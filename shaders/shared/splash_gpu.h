@@ -91,7 +91,7 @@ struct virga_splash_state_gpu {
     uint find_groups[3];    /* of the pass that finds what a view may see of few droplets and splashes */
     uint find_droplet_groups[3]; /* of those for many */
     uint find_splash_groups[3];
-    uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets as lines, droplets, piles, splashes */
+    uint sprite_groups[3];  /* of a dispatch over all that a view may see: droplets as lines, others, piles, splashes */
     uint view_groups[3];    /* the same over droplets alone */
     virga_splash_count_gpu counts[165];
 };

@@ -16,7 +16,8 @@ layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
 // Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
-// above); share; columns, and a fraction by lot. Of a line: . (x, y, 1) of a pixel is how far (px) it is beside the way.
+// above); share; columns, and a fraction by lot. Of a line: . (x, y, 1) of a pixel is how far (px) it is beside its
+// way.
 layout(location = 4) flat out vec4 turn;
 
 void set_corner(uint vertex)

@@ -15,8 +15,8 @@ uint kind_of(Sprite sprite, Projected p)
     return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
 }
 
-// As thin as droplets are drawn, so that all lines have one width; and whole on the picture, as a line is cut off square
-// where it leaves it.
+// As thin as droplets are drawn, so that all lines have one width; and whole on the picture, as a line is cut off
+// square where it leaves it.
 bool is_line(Projected p)
 {
     const vec2 furthest = max(abs(p.head.xy) / p.head.w, abs(p.tail.xy) / p.tail.w);

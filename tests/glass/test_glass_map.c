@@ -245,8 +245,8 @@ static void slopes_are_differences_of_heights(void **state)
     shot_close(&s);
 }
 
-/* A pane far away uses a part of its map. What a draw filters at the border lies beside texels that no view has written:
- * they count with a weight of 0, which makes nothing of a number alone. */
+/* A pane far away uses a part of its map. What a draw filters at the border lies beside texels that no view has
+ * written: they count with a weight of 0, which makes nothing of a number alone. */
 static void what_no_view_has_written_is_zero(void **state)
 {
     (void)state;

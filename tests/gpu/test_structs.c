@@ -1,4 +1,5 @@
-/* test_structs.c - structs that a default function did not fill, and definitions and views with wrong numbers in them. */
+/* test_structs.c - structs that a default function did not fill, and definitions and views with wrong numbers in them.
+ * */
 #include "gpu_fixture.h"
 
 #include <math.h>

@@ -62,8 +62,8 @@ static double lamp_along(const double ray[3])
     return ray[0] * lamp_at[0] + ray[1] * lamp_at[1] + ray[2] * lamp_at[2];
 }
 
-/* Single scattering along a ray from `begins` up to `ends`, by drops that take half of the extinction: the other half is diffraction.
- * The lamp is 0.1 m wide, and a pixel half of its own width. */
+/* Single scattering along a ray from `begins` up to `ends`, by drops that take half of the extinction: the other half
+ * is diffraction. The lamp is 0.1 m wide, and a pixel half of its own width. */
 static double glow_along(const shot *s, const double ray[3], double begins, double ends)
 {
     const virga_light *lamp = &s->f.settings.lighting.lights[0];

@@ -102,10 +102,10 @@ static bool create_context(drive *d)
     def.queue_family = d->device.queue_family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.frames_in_flight = HOST_FRAMES;
-    def.wide_lines = d->device.wide_lines;
     def.pipeline_cache = compiled;
     def.pipeline_cache_size = size;
     def.log = say;
+    def.wide_lines = d->device.wide_lines;
     const virga_result result = virga_context_create(&def, &d->context);
     free(compiled); /* copied */
     return fine(d, result, "context");

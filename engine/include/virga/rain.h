@@ -92,10 +92,10 @@ typedef struct virga_rain_settings {
     float haze_sky_m;      /* [0; 100000] m of haze before the sky, where the depth has nothing: how far off it is what
                             * a panorama shows, houses and clouds. Without it what is far in the scene is paler than
                             * the panorama behind. 0: that was taken in such rain, or has its haze. Default 400 */
-    float glow;            /* [0; 100] multiplies the light of lighting.lights that the haze scatters, beside light_gain:
-                            * the glow around lamps in the rain. 1 is physical. Needs the scene's depth, by which lamps
-                            * are found hidden. Costs a pass over the pixels around each lamp, at night and near
-                            * ones all of the picture; 0: nothing. Default 1 */
+    float glow;            /* [0; 100] multiplies the light of lighting.lights that the haze scatters, beside
+                            * light_gain: the glow around lamps in the rain. 1 is physical. Needs the scene's depth, by
+                            * which lamps are found hidden. Costs a pass over the pixels around each lamp, at night and
+                            * near ones all of the picture; 0: nothing. Default 1 */
     float bodies_min_mm;   /* [0.2; 2] smaller drops are never drawn one by one, only as haze. They land all the same.
                             * Default 0.4 */
     uint32_t default_material; /* of surfaces that come without (host depth). [0; 255] default 0 */
@@ -221,14 +221,14 @@ VIRGA_API virga_result virga_rain_attach(virga_rain *rain, const virga_target *t
  * frame. */
 VIRGA_API virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target);
 
-/* Draws haze and the glow of lamps alone, as another view sees them: over what puddles, mirrors and probes show, a world
- * in which it rains as well. There are no streaks in it, so haze is all of the rain. `view` is the other picture's, that
- * of a mirror with a rotation that mirrors; it needs depth and no prepare. `begin` (optional) is a plane (x, y, z) . n =
- * d of the world (m) as n and d: haze begins where rays cross it. For a mirror that is its own: the way from the camera
- * to it is hazed where the mirror itself is. NULL: at the camera.
- * Blended as virga_rain_draw, inside rendering of `target`; what comes after sets its own state. In a frame of a
- * step or a prepare, of which it counts as one view; else, and for a target that was not attached, VIRGA_NOT_READY.
- * Costs what haze and glow do for as many pixels. */
+/* Draws haze and the glow of lamps alone, as another view sees them: over what puddles, mirrors and probes show, a
+ * world in which it rains as well. There are no streaks in it, so haze is all of the rain. `view` is the other
+ * picture's, that of a mirror with a rotation that mirrors; it needs depth and no prepare. `begin` (optional) is a
+ * plane (x, y, z) . n = d of the world (m) as n and d: haze begins where rays cross it. For a mirror that is its own:
+ * the way from the camera to it is hazed where the mirror itself is. NULL: at the camera. Blended as virga_rain_draw,
+ * inside rendering of `target`; what comes after sets its own state. In a frame of a step or a prepare, of which it
+ * counts as one view; else, and for a target that was not attached, VIRGA_NOT_READY. Costs what haze and glow do for as
+ * many pixels. */
 VIRGA_API virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
                                             const double begin[4], const virga_target *target);
 

@@ -16,8 +16,9 @@
  *     ... host ends, submits, and says in a later frame that this one completed ...
  *
  * Command buffers are of the context's queue family, one or several a frame; they go to one queue in the order they
- * were recorded in, each once. Virga orders its own work by barriers alone. What a host writes (vertex buffers, images of a
- * view) it makes visible itself before Virga's call, and what a frame was told of lives until that frame has completed.
+ * were recorded in, each once. Virga orders its own work by barriers alone. What a host writes (vertex buffers, images
+ * of a view) it makes visible itself before Virga's call, and what a frame was told of lives until that frame has
+ * completed.
  *
  * Thread-safety: calls on one context and on what was made from it must not overlap; different contexts, also on
  * one device, may be used from different threads at once.
@@ -131,10 +132,11 @@ typedef struct virga_context_def {
     virga_pipelines_when pipelines;    /* default VIRGA_PIPELINES_AT_ONCE */
     virga_pipeline_jobs pipeline_jobs; /* required with VIRGA_PIPELINES_AS_JOBS, else all zero */
 
-    bool wide_lines;   /* the device was made with the feature wideLines (one that lacks it is refused). Streaks as thin
-                        * and droplets as they are drawn are lines then where that was measured to be quicker, which is
-                        * on software devices with strictLines: rain is drawn in two thirds to three quarters of the time,
-                        * splashes in half to three quarters. The picture is the same. Default false */
+    bool wide_lines;   /* the device was made with the feature wideLines (one that lacks it is refused). Streaks and
+                        * droplets that are no wider than the least that is drawn are lines then where that was measured
+                        * to be quicker, which is on software devices with strictLines: rain takes two thirds to three
+                        * quarters of the time to draw, splashes half to three quarters. The picture is the same.
+                        * Default false */
     bool timings;      /* write timestamps around each pass; default true, ignored where the queue has none. Costs two
                         * timestamps a pass; on a software device also two barriers, so that passes run one by one */
     bool debug_names;  /* name objects and label passes where VK_EXT_debug_utils is enabled: where

@@ -3,8 +3,8 @@
 // Pores full of water darken what is rough (Lagarde 2013: albedo falls to a fifth where porosity is one); a film makes
 // it glossier; from a tenth of a millimetre on water has a level surface of its own over it, with the reflectance of
 // water (0.0204 at right angles), still rough where it is thin, and a mirror where it is a puddle. One surface for
-// both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim. So does what is
-// merely soaked: a street between houses has little of the sky, and wet asphalt is darker than dry.
+// both, that mirrors the scene: were film to mirror the sky alone, every puddle would have a bright rim. So does what
+// is merely soaked: a street between houses has little of the sky, and wet asphalt is darker than dry.
 //
 // What water does not cover are stones (grain.glsl): their film follows them, and mirrors by their slopes. Around each
 // the water climbs a little, and what is shallower than a third of a millimetre does as they do.
