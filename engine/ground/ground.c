@@ -113,7 +113,7 @@ VkDeviceSize virga_ground_estimate(const virga_ground_def *given)
            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + sizeof(virga_spawns_gpu) +
            (VkDeviceSize)def.max_spawns * sizeof(virga_spawn_gpu) + sizeof(virga_splash_rules_gpu) +
            ground_far_estimate(&def) + (VkDeviceSize)def.ripple_texels * def.ripple_texels * 4 +
-           VIRGA_RINGS * sizeof(virga_ring_gpu) + 2ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
+           VIRGA_RINGS * sizeof(virga_ring_gpu) + 8ull * VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII +
            (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
                ((def.max_ticks_per_step + 1) * ground_tick_bytes() + ground_list_bytes());
 }
@@ -251,7 +251,7 @@ static void write_set(virga_ground *ground, uint32_t source)
         {.view = ground->wet_map->view, .image_layout = general},
         {.view = ground->spot_map->view, .image_layout = general},
         whole(ground->rings),
-        {.sampler = ground->context->linear, .view = ground->ripples->waves->view, .image_layout = read_only},
+        {.sampler = ground->context->nearest, .view = ground->ripples->waves->view, .image_layout = read_only},
         {.sampler = nearest,
          .view = mapped ? info->materials.image.view : ground->blank_materials->layer_views[0],
          .image_layout = mapped ? info->materials.image.before.layout : read_only},

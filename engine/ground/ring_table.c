@@ -93,10 +93,10 @@ void ring_table_fill(float *slope, double blur_m)
     }
 }
 
-uint16_t ring_half(float slope)
+uint16_t ring_half(float number)
 {
-    const int sign = signbit(slope) ? 0x8000 : 0;
-    const float size = fabsf(slope);
+    const int sign = signbit(number) ? 0x8000 : 0;
+    const float size = fabsf(number);
     if (!(size < 65520)) /* halfway from the largest half float to the next power of two */
         return (uint16_t)(sign | 0x7c00);
     int exponent = -13; /* below 2^-14 all half floats are whole numbers of 2^-24 */

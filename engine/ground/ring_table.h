@@ -54,10 +54,10 @@ double ring_reach(double t);
  * texels can not carry do not turn up in it as longer ones: half of a texel. 0: none. */
 void ring_table_fill(float *slope, double blur_m);
 
-/* An entry as the image of the table holds it: the nearest half float, the even one of two as near. Off by 1 / 2048 of
- * the slope at most (below 6e-5 by 3e-8), where reading between entries is off by 6 % of the highest. Beyond the
- * largest half float (65504, 200 times the steepest entry): infinite. */
-uint16_t ring_half(float slope);
+/* A number as the image of the table holds it: the nearest half float, the even one of two as near. Off by 1 / 2048 at
+ * most (below 6e-5 by 3e-8), where reading between entries is off by 6 % of the highest. Beyond the largest half float
+ * (65504): infinite. */
+uint16_t ring_half(float number);
 
 /* The table read as shaders/ground/ring.frag does, before it softens the ends: layer ring_layer(h), linear in
  * r / ring_reach(t) and in t. 0 outside. h, r in m, t in s, none negative. */

@@ -8,14 +8,16 @@
 #include "gpu/vectors.glsl"
 
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
-layout(location = 1) flat out vec3 moment;            // age (s), layer of the table, crater (m)
+// Radii of the table to a metre; how far between two of its times; crater (cm), less where waves end
+layout(location = 1) flat out vec3 moment;
+layout(location = 2) flat out vec2 row; // of the table: its time, as a share of all, and layer
 
-float layer_of(float depth_m)
+int layer_of(float depth_m)
 {
     const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](VIRGA_RING_DEPTH_LIST);
-    float layer = 0.0;
+    int layer = 0;
     for (int i = 1; i < VIRGA_RING_DEPTHS; i++)
-        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? float(i) : layer; // nearest by ratio
+        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? i : layer; // nearest by ratio
     return layer;
 }
 
@@ -32,7 +34,10 @@ void main()
     offset_m = side * radius;
     const vec2 at =
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
-    moment = vec3(age, layer_of(ring.depth_m), ring.crater_m);
+    const float time = clamp(age / VIRGA_RING_TIME_S, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
+    const float ends = 1.0 - smoothstep(0.7, 1.0, age / VIRGA_RING_TIME_S);
+    moment = vec3(float(VIRGA_RING_RADII - 1) / radius, fract(time), 100.0 * ring.crater_m * ends);
+    row = vec2((floor(time) + 0.5) / float(VIRGA_RING_TIMES), float(layer_of(ring.depth_m)));
     const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < VIRGA_RING_TIME_S;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : DRAWN_NOWHERE;
 }
