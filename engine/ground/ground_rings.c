@@ -78,30 +78,29 @@ error:
     return result;
 }
 
-/* What a texel's corner holds: an entry over its radius in centimetres (in metres the crater's may be beyond half
- * floats), so that a pixel takes it times where it is, and softly ended where the table ends. In the middle, where both
- * are 0, that of the next radius, which is as near as makes no difference. Behind the last entries 0. */
-static uint16_t texel_corner(const float *slopes, size_t layer, size_t time, size_t radius)
+/* An entry of the table as its image holds it: slope over radius in centimetres (in metres the crater's may be beyond
+ * half floats), so that a pixel takes it times where it is, and softly ended where the table ends. In the middle, where
+ * both are 0, that of the next radius, which is as near as makes no difference. */
+static uint16_t wave_entry(const float *slopes, size_t i)
 {
-    if (time >= VIRGA_RING_TIMES || radius >= VIRGA_RING_RADII)
-        return 0;
-    const size_t entry = radius > 0 ? radius : 1;
+    const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
+    const size_t middle = radius > 0 ? 0 : 1;
     const double reach = ring_reach((double)time * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1));
-    const double share = (double)entry / (VIRGA_RING_RADII - 1), last = fmin(fmax((share - 0.9) / 0.1, 0), 1);
-    const double ends = 1 - last * last * (3 - 2 * last);
-    const float slope = slopes[(layer * VIRGA_RING_TIMES + time) * VIRGA_RING_RADII + entry];
-    return ring_half((float)((double)slope * ends / (100 * share * reach)));
+    const double share = (double)(radius + middle) / (VIRGA_RING_RADII - 1);
+    const double last = fmin(fmax((share - 0.9) / 0.1, 0), 1), ends = 1 - last * last * (3 - 2 * last);
+    return ring_half((float)((double)slopes[i + middle] * ends / (100 * share * reach)));
 }
 
-/* A texel holds what lies around it: an entry, that of the next radius, and both a time later, so that one fetch does
- * where a filter has four. */
-static void fill_texels(const float *slopes, uint16_t *halves)
+/* A texel holds what lies around it: an entry, that of the next radius, and both a time later (0 behind the last), so
+ * that one fetch does where a filter has four. */
+static void fill_texels(const uint16_t *entries, uint16_t *texels)
 {
     for (size_t i = 0; i < WAVE_VALUES; i++) {
         const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
-        const size_t layer = i / VIRGA_RING_RADII / VIRGA_RING_TIMES;
-        for (size_t corner = 0; corner < 4; corner++)
-            halves[4 * i + corner] = texel_corner(slopes, layer, time + corner / 2, radius + corner % 2);
+        for (size_t corner = 0; corner < 4; corner++) {
+            const bool there = radius + corner % 2 < VIRGA_RING_RADII && time + corner / 2 < VIRGA_RING_TIMES;
+            texels[4 * i + corner] = there ? entries[i + corner % 2 + corner / 2 * VIRGA_RING_RADII] : 0;
+        }
     }
 }
 
@@ -109,18 +108,24 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
 {
     virga_result result = VIRGA_OK;
     float *slopes = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *slopes);
-    if (!slopes)
-        return virga_out_of_host_memory(context, "the table of rings");
+    uint16_t *entries = virga_alloc_array(&context->heap, WAVE_VALUES, sizeof *entries);
+    if (!slopes || !entries) {
+        result = virga_out_of_host_memory(context, "the table of rings");
+        goto error;
+    }
     TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){VIRGA_RING_RADII, VIRGA_RING_TIMES},
                            VIRGA_RING_DEPTHS, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                            VK_IMAGE_ASPECT_COLOR_BIT, "ground.waves", &ripples->waves));
     TRY(virga_buffer_create(context, WAVE_VALUES * 4 * sizeof(uint16_t), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                             VIRGA_HEAP_UPLOAD, "ground.waves_upload", &ripples->upload));
     ring_table_fill(slopes, 0.5 * texel_m);
-    fill_texels(slopes, ripples->upload->memory.block.mapped);
+    for (size_t i = 0; i < WAVE_VALUES; i++)
+        entries[i] = wave_entry(slopes, i);
+    fill_texels(entries, ripples->upload->memory.block.mapped);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
     TRY(virga_uploaded(context));
 error:
+    virga_free(&context->heap, entries);
     virga_free(&context->heap, slopes);
     return result;
 }
