@@ -17,6 +17,7 @@
 #include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
 #include "order.glsl"
+#include "gpu/line.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 layout(scalar, set = 0, binding = 7) writeonly buffer Streaks { virga_streak_gpu streaks[]; };
@@ -239,14 +240,12 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     return streak;
 }
 
-// As thin as streaks are drawn (but for how its half float is rounded), so that all lines have one width; and whole on
-// the picture, as a line is cut off square where it leaves it.
+// As thin as streaks are drawn (but for how its half float is rounded), so that all lines have one width.
 bool is_line(virga_streak_gpu streak)
 {
     const float width = unpackHalf2x16(streak.width_alpha).x, body = unpackHalf2x16(streak.body_wave).x;
-    const vec2 furthest = max(abs(vec2(streak.head[0], streak.head[1])), abs(vec2(streak.tail[0], streak.tail[1])));
-    const vec2 margin = (body + 2.0) / vec2(view.viewport[2], view.viewport[3]);
-    return width <= 1.001 * view.min_width_px && all(lessThan(furthest + margin, vec2(1.0)));
+    const vec2 head = vec2(streak.head[0], streak.head[1]), tail = vec2(streak.tail[0], streak.tail[1]);
+    return width <= 1.001 * view.min_width_px && is_whole(head, tail, 0.5 * body + 0.5);
 }
 
 // By its middle; what is beyond the picture counts as at its border.

@@ -9,6 +9,7 @@
 // at once there, and a storage buffer word by word and vertex by vertex.
 #include "shared/rain_limits.h"
 #include "streak_form.glsl"
+#include "gpu/line.glsl"
 
 layout(set = 0, binding = 17) uniform usamplerBuffer streaks; // a virga_streak_gpu is four texels
 #ifdef MOTION
@@ -19,7 +20,7 @@ struct Streak {
     vec3 centre, rim; // radiance
     float alpha, half_width, body_px, way_px;
     float turns, turns_at_tail, wave_size;
-    vec3 middle_line;    // . (x, y, 1) of a pixel: how far (px) it is beside the way
+    vec3 middle_line;    // see line_equation
     // of this corner
     vec4 position;
     float across, along; // px from the middle line; px from the tail
@@ -58,8 +59,7 @@ Streak streak_corner(uint vertex)
     streak.along = at_head ? streak.way_px + margin : -margin;
     streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
     const vec2 side = vec2(-along.y, along.x);
-    const vec2 tail_px = vec2(view.viewport[0], view.viewport[1]) + (tail + 1.0) * half_viewport;
-    streak.middle_line = vec3(side, -dot(side, tail_px));
+    streak.middle_line = line_equation(tail, side);
     const vec2 corner =
         (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
     // The same w at all corners, so that everything is interpolated without perspective.

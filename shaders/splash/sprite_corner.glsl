@@ -4,6 +4,7 @@
 // Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
 // half as much again. The buffer is read as texels, see state.glsl.
 #include "sprite_form.glsl"
+#include "gpu/line.glsl"
 
 layout(set = 0, binding = 20) uniform usamplerBuffer sprite_texels; // four a sprite; behind all a motion each
 
@@ -16,8 +17,7 @@ layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
 // Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
-// above); share; columns, and a fraction by lot. Of a line: . (x, y, 1) of a pixel is how far (px) it is beside its
-// way.
+// above); share; columns, and a fraction by lot. Of a line: see line_equation.
 layout(location = 4) flat out vec4 turn;
 
 void set_corner(uint vertex)
@@ -57,10 +57,8 @@ void set_corner(uint vertex)
     turn = vec4(along, shares.x, shares.y - 32.0 * rows + lot);
     if (kind == VIRGA_SPRITE_PUFF)
         turn.xy = vec2(rows + life, widths.y);
-    if (LINES) {
-        const vec2 tail_px = vec2(view.viewport[0], view.viewport[1]) + (tail + 1.0) * half_viewport;
-        turn = vec4(side, -dot(side, tail_px), 0.0);
-    }
+    if (LINES)
+        turn = vec4(line_equation(tail, side), 0.0);
     // The same w at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

@@ -3,6 +3,7 @@
 #define IN_FORMS
 #include "sprite.glsl"
 #include "compact.glsl"
+#include "gpu/line.glsl"
 #include "gpu/compact_find.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
@@ -15,13 +16,11 @@ uint kind_of(Sprite sprite, Projected p)
     return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
 }
 
-// As thin as droplets are drawn, so that all lines have one width; and whole on the picture, as a line is cut off
-// square where it leaves it.
+// As thin as droplets are drawn, so that all lines have one width.
 bool is_line(Projected p)
 {
-    const vec2 furthest = max(abs(p.head.xy) / p.head.w, abs(p.tail.xy) / p.tail.w);
-    const vec2 margin = (view.min_width_px + 2.0) / vec2(view.viewport[2], view.viewport[3]);
-    return look.lines != 0u && p.width_px <= view.min_width_px && all(lessThan(furthest + margin, vec2(1.0)));
+    return look.lines != 0u && p.width_px <= view.min_width_px &&
+           is_whole(p.head.xy / p.head.w, p.tail.xy / p.tail.w, 0.5 * view.min_width_px + 0.5);
 }
 
 // A droplet's as a line, and else; and its pile's.
