@@ -2,7 +2,7 @@
 // than it is drawn; or the two ends of a line of that width.
 //
 // Software Vulkan sets up one primitive for a line, and shades each block of pixels once where two triangles both touch
-// nearly all blocks of a thin streak: lines are drawn in two thirds of the time.
+// nearly all blocks of a thin streak: lines take two thirds to three quarters of the time.
 //
 // Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
 // vertices cost software Vulkan half as much again. The buffer is read as texels: those are fetched for eight vertices
