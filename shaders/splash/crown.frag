@@ -45,6 +45,31 @@ Rim rim_of(vec3 n)
     return Rim((rim.x - CROWN_REACH * sheet.x) * rim_at.w * steep, (u - slope * around) * steep);
 }
 
+// How the wall's face leans aside where water streams up it into the fingers: a ridge below each, and finer ones
+// between them, that come together towards the rim. Waves that are no pixels long do not show.
+float leaning()
+{
+    const float finger = rim_at.x, slow = rim_at.y, up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0);
+    const vec3 waves = vec3(finger, 2.0 * finger + slow + 1.3 * sin(slow + 2.0 * up), 3.0 * finger - slow - 1.1 * up);
+    const vec3 shown = 1.0 - smoothstep(0.6, 1.8, fwidth(finger) * vec3(1.0, 2.0, 3.0));
+    return dot(sin(waves) * shown, vec3(0.3, 0.26, 0.2) * vec3(0.4 + 0.6 * up, 1.0, 1.0 - 0.4 * up));
+}
+
+// What is behind the wall, bent by as much as its faces lean towards each other, a prism of water; from there it is as
+// far to what is seen as the scene is.
+vec3 through_wall(vec3 d, vec3 lean)
+{
+    if (view.color_given == 0u)
+        return around_of(d);
+    const float stored = HAS_DEPTH ? buffer_depth(gl_FragCoord.xy) : view.far_depth;
+    const float beyond = stored == view.far_depth ? 1.0 : clamp(1.0 - sheet.w / view_depth(stored), 0.0, 1.0);
+    const vec2 bent = 0.333 * beyond / view.pixel_angle *
+                      vec2(dot(lean, normalize(to_vec(view.right))), dot(lean, normalize(to_vec(view.up))));
+    const vec2 low = vec2(view.viewport[0], view.viewport[1]) + 0.5;
+    const vec2 pixel = clamp(gl_FragCoord.xy + bent, low, low + vec2(view.viewport[2], view.viewport[3]) - 1.0);
+    return textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb;
+}
+
 void main()
 {
     const vec3 d = normalize(position);
@@ -53,26 +78,31 @@ void main()
     n = dot(n, d) > 0.0 ? -n : n;
     // From 0, where the bead begins, to 1 at the rim. What is no pixel thick is drawn a pixel thick. A disk has none.
     const bool disk = rim_at.w <= 0.0;
-    const float bead_m = max(size.y, 1.2 * length(position) * view.pixel_angle);
+    const float least_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(size.y, least_m);
     const float out_of_bead = disk ? 0.0 : clamp(1.0 - ends.below / bead_m, 0.0, 1.0);
     const float a_pixel = max(fwidth(ends.below), 1e-9), cut = disk ? 1.0 : clamp(ends.below / a_pixel + 0.5, 0.0, 1.0);
     // Its face is as round as a rod's that the sheet runs into.
+    const bool has_fingers = !disk && rim_at.z > 0.0;
+    const vec3 lean = leaning() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n));
+    n = normalize(n + lean);
     const float across = (1.7 * out_of_bead - 0.7) * smoothstep(0.0, 0.3, out_of_bead);
     n = n * sqrt(1.0 - across * across) + ends.outward * across;
     n = normalize(n - 1.01 * d * max(dot(n, d), 0.0));
     const float cosine = -dot(n, d), mirror = fresnel(cosine);
-    // Two parallel faces do not bend what is behind them, so the wall of a crown is nearly clear; its rim is a bead,
-    // and at its sides the eye looks along the wall.
-    const float rim = smoothstep(0.0, 0.4, disk ? 1.333 * sheet.x - 0.933 : out_of_bead);
+    // Two parallel faces do not bend what is behind them, so the wall of a crown is clear but for its ridges; its rim
+    // is a bead, and at its sides the eye looks along the wall.
+    const float rim = disk ? smoothstep(0.7, 1.0, sheet.x) : smoothstep(0.0, 0.4, out_of_bead) * size.y / bead_m;
     const float edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
     const float thick = clamp(0.05 + 0.12 * sheet.x * sheet.x + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
     const vec3 side = n + d * cosine; // across the line of sight
-    const vec3 behind = through_ball(d, side * (0.35 + 0.6 * rim));
+    const vec3 behind = mix(through_wall(d, lean), through_ball(d, side * (0.35 + 0.6 * rim)), max(rim, edge));
     const vec3 glitter = lamps(position, d) * thick;
-    const float body = mirror + (1.0 - mirror) * thick;
-    const vec3 light = mirror * around_of(reflect(d, n)) + (1.0 - mirror) * thick * behind + glitter;
+    // With the picture of what is behind it a wall is all that is seen there, but moves as that does.
+    const float hides = !disk && view.color_given != 0u ? 1.0 : thick;
+    const float body = mirror + (1.0 - mirror) * hides, moving = mirror + (1.0 - mirror) * thick;
+    const vec3 light = mirror * around_of(reflect(d, n)) + (1.0 - mirror) * hides * behind + glitter;
     const float there = cut * clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
     radiance = vec4(light * there, body * there);
-    WRITE_MOTION(motion_from(before), body * there);
-    WRITE_REACTIVE(body * there, view.reactive_gain);
+    WRITE_MOTION(motion_from(before), moving * there);
+    WRITE_REACTIVE(moving * there, view.reactive_gain);
 }

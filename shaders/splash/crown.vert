@@ -43,7 +43,9 @@ Shape shape_of(virga_splash_gpu splash, float ago_s)
     s.side = normalize(abs(now.normal.y) > 0.7 ? vec3(now.normal.y, -now.normal.x, 0.0)
                                                : vec3(now.normal.z, 0.0, -now.normal.x));
     s.across = cross(s.side, now.normal);
-    s.fingers = float(clamp(now.droplets, 7u, 11u));
+    // A droplet that falls back is too slow for fingers: what rises around it is a low collar.
+    const bool collar = now.model == VIRGA_SPLASH_DOT;
+    s.fingers = collar ? 0.0 : float(clamp(now.droplets, 7u, 11u));
     s.turn = 6.2831853 * virga_unit(virga_hash2(now.random, 5u));
     return s;
 }

@@ -30,6 +30,7 @@ typedef struct shot {
     double shutter_s, after_s; /* open for so long; drawn so long after the newest tick */
     float scene_depth;         /* in the depth buffer's terms */
     bool give_depth, give_color, reversed;
+    bool even; /* the scene is white all over */
     host_buffer sprites, prepared;
 } shot;
 
@@ -150,7 +151,7 @@ static inline void clear_part(VkCommandBuffer cmd, VkRect2D part, float r, float
     vkCmdClearAttachments(cmd, 1, &clear, 1, &rect);
 }
 
-/* The scene: one depth; red on the left, green on the right, and blue as well in the upper half. */
+/* The scene: one depth; white, or red on the left, green on the right, and blue as well in the upper half. */
 static inline void record_plate(const shot *s, VkCommandBuffer cmd)
 {
     const uint32_t w = s->picture.width / 2, h = s->picture.height / 2;
@@ -158,10 +159,11 @@ static inline void record_plate(const shot *s, VkCommandBuffer cmd)
     const VkClearRect all = {{{0, 0}, {s->picture.width, s->picture.height}}, 0, 1};
     host_target_begin_plate(&s->picture, cmd);
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
-    clear_part(cmd, (VkRect2D){{0, 0}, {w, h}}, 1, 0, 1);
-    clear_part(cmd, (VkRect2D){{(int32_t)w, 0}, {w, h}}, 0, 1, 1);
-    clear_part(cmd, (VkRect2D){{0, (int32_t)h}, {w, h}}, 1, 0, 0);
-    clear_part(cmd, (VkRect2D){{(int32_t)w, (int32_t)h}, {w, h}}, 0, 1, 0);
+    const float white = s->even;
+    clear_part(cmd, (VkRect2D){{0, 0}, {w, h}}, 1, white, 1);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, 0}, {w, h}}, white, 1, 1);
+    clear_part(cmd, (VkRect2D){{0, (int32_t)h}, {w, h}}, 1, white, white);
+    clear_part(cmd, (VkRect2D){{(int32_t)w, (int32_t)h}, {w, h}}, white, 1, white);
     host_target_end_plate(&s->picture, cmd);
 }
 

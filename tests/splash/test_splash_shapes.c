@@ -185,6 +185,68 @@ static void a_crown_near_by_is_a_sheet_while_it_lives(void **state)
     close_shot(&s);
 }
 
+/* A drop of 2 mm on deep water, and its crown after 17 ms, on the left of the picture's middle. */
+static void put_tall_crown(shot *s)
+{
+    splash_fixture_clear(&s->f);
+    s->f.settings.droplets_m = 0; /* nothing but the crown */
+    apply_settings(s);
+    virga_spawn_gpu *spawn = splash_fixture_spawn(&s->f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_10);
+    spawn->kind &= ~(255u << 16);
+    spawn->kind |= VIRGA_SPLASH_CROWN_CONE << 16;
+    spawn->water_nl = 0;
+    splash_fixture_step(&s->f, 1);
+    aim(s, (const double[3]){0, 0.015, 0.05}, (const double[3]){0.004, 0.004, 0});
+    s->give_color = s->give_depth = true;
+    s->scene_depth = stored_depth(s, 0.1);
+}
+
+/* What reflects and refracts light that is the same from everywhere can not be seen before it. */
+static void a_crown_in_even_light_is_not_seen(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_tall_crown(&s);
+    s.even = true;
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    for (int c = 0; c < 3; c++)
+        s.f.settings.lighting.environment_sh[0][c] = (float)(2 * sqrt(M_PI));
+    apply_settings(&s);
+    const float *pixels = draw_frame(&s);
+    double worst = 0;
+    for (size_t i = 0; i < pixel_count(&s); i++)
+        worst = fmax(worst, fabs((double)pixels[i * 4] - (double)pixels[i * 4 + 3]));
+    printf("alpha %.1f px, worst pixel off by %.1e\n", sum_of(&s, pixels, 3), worst);
+    assert_true(sum_of(&s, pixels, 3) > 300);
+    assert_true(worst < 1e-4);
+    close_shot(&s);
+}
+
+/* Just left of the middle, below the rim: there the scene has no green, but what the wall bends comes from beside. Of a
+ * wall that bends nothing it was 3.5 px. */
+static void a_crowns_wall_bends_what_is_behind_it(void **state)
+{
+    (void)state;
+    shot s;
+    open_shot(&s);
+    put_tall_crown(&s);
+    aim(&s, (const double[3]){0, 0.003, 0.03}, (const double[3]){0, 0.003, 0});
+    s.scene_depth = stored_depth(&s, 0.1);
+    memset(s.f.settings.lighting.environment_sh, 0, sizeof s.f.settings.lighting.environment_sh);
+    apply_settings(&s);
+    const float *pixels = draw_frame(&s);
+    double kept = 0, bent = 0;
+    for (size_t y = SIDE / 2 + 7; y < SIDE / 2 + 17; y++)
+        for (size_t x = SIDE / 2 - 16; x < SIDE / 2; x++) {
+            kept += (double)pixels[(y * SIDE + x) * 4];
+            bent += (double)pixels[(y * SIDE + x) * 4 + 1];
+        }
+    printf("of 160 px: red %.1f px, green %.1f px\n", kept, bent);
+    assert_true(kept > 50 && bent > 30);
+    close_shot(&s);
+}
+
 static void a_crown_of_the_paper_is_of_pyramids(void **state)
 {
     (void)state;
@@ -341,6 +403,8 @@ int main(void)
         cmocka_unit_test(sprites_that_have_no_room_are_counted),
         cmocka_unit_test(a_pile_stands_until_its_droplet_leaves_and_then_sinks),
         cmocka_unit_test(a_crown_near_by_is_a_sheet_while_it_lives),
+        cmocka_unit_test(a_crown_in_even_light_is_not_seen),
+        cmocka_unit_test(a_crowns_wall_bends_what_is_behind_it),
         cmocka_unit_test(a_crown_of_the_paper_is_of_pyramids),
         cmocka_unit_test(a_disk_lies_flat_and_stays_for_two_seconds),
         cmocka_unit_test(a_crown_far_away_is_a_blob_that_covers_what_its_size_gives),
