@@ -220,6 +220,9 @@ static void list_passes(virga_glass *glass, virga_compute_row rows[PASSES])
 
 #define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
 
+_Static_assert(VIRGA_GLASS_NODES *VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu) <= 16 * VIRGA_SURE_TEXELS,
+               "nodes are texels on every device");
+
 /* As in shaders/glass: what each file declares. */
 static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE}, /* 0 tick */

@@ -108,6 +108,10 @@ VkDeviceSize glass_picture_estimate(const virga_glass_def *def)
 #define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
 #define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
 
+_Static_assert(VIRGA_MAX_FRAMES_IN_FLIGHT *VIRGA_GLASS_MAX_VIEWS *(sizeof(glass_view_block) + VIRGA_RING_ALIGNMENT) <=
+                   16 * VIRGA_SURE_TEXELS,
+               "views are texels on every device");
+
 /* As in shaders/glass/picture*: what each file declares. */
 static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},                   /* 0 view and look */

@@ -239,6 +239,9 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     TRY(check_lines(context, def));
     context->lines = def->wide_lines && context->software && context->properties.limits.strictLines;
+    /* By the device alone and not by what is asked of it, so that it has one kind of pipelines. GPUs of desktops have
+     * 2^27 texels or more in a view, those of phones often what is promised. */
+    context->small_views = context->properties.limits.maxTexelBufferElements < VIRGA_MOST_TEXELS;
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
     TRY(virga_pipeline_cache_create(context, def->pipeline_cache, def->pipeline_cache_size));
     TRY(create_timers(context, def));

@@ -15,6 +15,8 @@
 #define VIRGA_MAX_PASSES     32  /* names that timings tell apart */
 #define VIRGA_MAX_QUERIES    512 /* timestamps a frame; passes beyond go untimed */
 #define VIRGA_RING_ALIGNMENT 256 /* the largest offset alignment that Vulkan allows a device to ask for */
+#define VIRGA_SURE_TEXELS    65536    /* that Vulkan promises to a view of a buffer */
+#define VIRGA_MOST_TEXELS    33554432 /* more than any pool has at its largest: 4194304 streaks or sprites of 5 each */
 
 /* A piece of device memory. */
 typedef struct virga_memory {
@@ -35,7 +37,8 @@ typedef struct virga_resource {
 typedef struct virga_buffer {
     virga_resource resource; /* first */
     VkBuffer buffer;
-    VkBufferView texels; /* as R32G32B32A32_UINT, where it was made with the usage of a uniform texel buffer */
+    VkBufferView texels; /* as R32G32B32A32_UINT, where it was made with the usage of a uniform texel buffer: all of it,
+                          * or with small_views as much as a view may have */
     VkDeviceSize size;
     virga_memory memory;
     bool coherent;
@@ -99,6 +102,7 @@ struct virga_context {
     bool lost;
     bool software; /* the device is a processor: forms of passes that were measured to suit it */
     bool lines;    /* what is as wide as a pixel may be drawn as a line: see virga_context_def.wide_lines */
+    bool small_views; /* of texels: pools are read from storage buffers, see shaders/gpu/texels.glsl */
     virga_pipelines_when pipelines_when;
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* pipelines to be built, in the order they were asked for */
@@ -254,7 +258,8 @@ typedef struct virga_spirv {
 /* An embedded shader: the array that the build made of shaders/<effect>/<pass>. */
 #define VIRGA_SPIRV(name) ((virga_spirv){name##_spv, sizeof name##_spv})
 
-/* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one. */
+/* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one; constant 1
+ * is the context's small_views. */
 typedef struct virga_compute_def {
     virga_spirv shader;
     VkPipelineLayout layout;

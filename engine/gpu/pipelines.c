@@ -43,6 +43,21 @@ virga_result virga_compute_pipeline_create(virga_context *context, const virga_c
     return pipeline_create(context, def->name, def->group, def, NULL, NULL, pipeline);
 }
 
+/* What shaders are specialised by; one that lacks a constant does without. */
+typedef struct constants {
+    uint32_t own;         /* 0: of the shader, or of both that are a pipeline */
+    VkBool32 small_views; /* 1: see shaders/gpu/texels.glsl */
+} constants;
+
+static const VkSpecializationMapEntry constant_entries[] = {
+    {0, offsetof(constants, own), sizeof((constants *)0)->own},
+    {1, offsetof(constants, small_views), sizeof((constants *)0)->small_views}};
+
+static VkSpecializationInfo specialize(const constants *values)
+{
+    return (VkSpecializationInfo){2, constant_entries, sizeof *values, values};
+}
+
 static VkResult module_create(const virga_context *context, virga_spirv shader, VkShaderModule *module,
                               const char **call)
 {
@@ -61,8 +76,8 @@ static void module_destroy(const virga_context *context, VkShaderModule module)
 VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
                              const char **call)
 {
-    const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
-    const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};
+    const constants values = {def->constant, context->small_views};
+    const VkSpecializationInfo specialization = specialize(&values);
     VkShaderModule module = VK_NULL_HANDLE;
     VkResult result = module_create(context, def->shader, &module, call);
     if (result == VK_SUCCESS) {
@@ -72,7 +87,7 @@ VkResult virga_compute_build(const virga_context *context, const virga_compute_d
                       .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                       .module = module,
                       .pName = "main",
-                      .pSpecializationInfo = &constants},
+                      .pSpecializationInfo = &specialization},
             .layout = def->layout};
         *call = "vkCreateComputePipelines";
         result = context->vk.CreateComputePipelines(context->device, context->pipeline_cache, 1, &info, NULL, pipeline);
@@ -231,8 +246,8 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
 {
     VkShaderModule modules[2] = {VK_NULL_HANDLE, VK_NULL_HANDLE};
     VkPipelineShaderStageCreateInfo stages[2];
-    const VkSpecializationMapEntry entry = {0, 0, sizeof def->constant};
-    const VkSpecializationInfo constants = {1, &entry, sizeof def->constant, &def->constant};
+    const constants values = {def->constant, context->small_views};
+    const VkSpecializationInfo specialization = specialize(&values);
     VkResult result = module_create(context, def->vertex, &modules[0], call);
     if (result == VK_SUCCESS)
         result = module_create(context, def->fragment, &modules[1], call);
@@ -242,7 +257,7 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
                                               .stage = i ? VK_SHADER_STAGE_FRAGMENT_BIT : VK_SHADER_STAGE_VERTEX_BIT,
                                               .module = modules[i],
                                               .pName = "main",
-                                              .pSpecializationInfo = &constants};
+                                              .pSpecializationInfo = &specialization};
     if (result == VK_SUCCESS) {
         graphics_state state;
         const VkGraphicsPipelineCreateInfo info = describe(def, &state, stages);

@@ -51,15 +51,18 @@ static virga_result check_limit(virga_context *context, const char *name, const 
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
-/* A view of the whole of it, for shaders that fetch texels. */
+/* A view of the whole of it, for shaders that fetch texels; with small_views of as much of it as a view may have, to be
+ * bound and not read. */
 static virga_result create_texels(virga_context *context, const char *name, virga_buffer *buffer)
 {
     virga_result result = VIRGA_OK;
+    const VkDeviceSize texels = buffer->size / 16, most = context->properties.limits.maxTexelBufferElements;
     const VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                          .buffer = buffer->buffer,
                                          .format = VK_FORMAT_R32G32B32A32_UINT,
-                                         .range = VK_WHOLE_SIZE};
-    TRY(check_limit(context, name, "texels", buffer->size / 16, context->properties.limits.maxTexelBufferElements));
+                                         .range = texels > most ? most * 16 : VK_WHOLE_SIZE};
+    if (!context->small_views)
+        TRY(check_limit(context, name, "texels", texels, most));
     VK_TRY(context, CreateBufferView(context->device, &info, NULL, &buffer->texels));
     context->objects++;
 error:

@@ -357,16 +357,6 @@ static virga_result make_in_budget(virga_context *context, virga_ground_def *def
     return result;
 }
 
-/* Floors and cells are read as texels, of two each; cells stay a power of two. */
-static void fit_texels(const virga_context *context, virga_ground_def *def)
-{
-    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
-    uint32_t most = 128;
-    while (most < 4096 && 2ull * most * most <= texels)
-        most *= 2;
-    def->cells = virga_clamp_setting_u32(&context->log, "ground_def.cells", def->cells, 128, most, NULL);
-}
-
 virga_result virga_ground_create(virga_context *context, const virga_ground_def *given, virga_ground **ground)
 {
     if (ground)
@@ -379,7 +369,6 @@ virga_result virga_ground_create(virga_context *context, const virga_ground_def 
     virga_result result = check_def(&context->log, given, &def);
     if (result)
         return result;
-    fit_texels(context, &def);
     virga_ground *made = NULL;
     result = make_in_budget(context, &def, &made);
     if (result < 0)

@@ -322,12 +322,6 @@ virga_result virga_rain_create(virga_context *context, const virga_rain_def *def
     virga_result result = check_def(&context->log, def, &checked);
     if (result)
         return result;
-    /* Slots, drops and streaks are read as texels. */
-    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
-    checked.max_drops = virga_clamp_setting_u32(&context->log, "rain_def.max_drops", checked.max_drops, 1024,
-                                                texels - VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_GROUP, NULL);
-    checked.max_streaks = virga_clamp_setting_u32(&context->log, "rain_def.max_streaks", checked.max_streaks, 256,
-                                                  texels / (RAIN_STREAK_BYTES / 16), NULL);
     virga_rain *made = NULL;
     result = make_in_budget(context, &checked, &made);
     if (result < 0)

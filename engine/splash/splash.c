@@ -101,21 +101,6 @@ static VkDeviceSize pick_bytes(const virga_splash_def *def)
     return VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
 }
 
-/* Splashes, droplets and sprites are read as texels. True: less than asked for. */
-static bool fit_texels(const virga_context *context, virga_splash_def *def)
-{
-    const uint32_t texels = context->properties.limits.maxTexelBufferElements;
-    bool smaller = false;
-    def->max_droplets = virga_clamp_setting_u32(&context->log, "splash_def.max_droplets", def->max_droplets,
-                                                VIRGA_SPLASH_BLOCK, texels / (SPLASH_SPRITE_BYTES / 16), &smaller);
-    def->max_splashes = virga_clamp_setting_u32(&context->log, "splash_def.max_splashes", def->max_splashes,
-                                                VIRGA_SPLASH_BLOCK, texels / (sizeof(virga_splash_gpu) / 16), &smaller);
-    /* Rings hold a power of two, and buffers whole blocks. */
-    def->max_splashes = power_of_two(def->max_splashes / 2 + 1);
-    def->max_droplets -= def->max_droplets % VIRGA_SPLASH_BLOCK;
-    return smaller;
-}
-
 /* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked
  * for. */
 static bool fit_device(const virga_context *context, virga_splash_def *def)
@@ -136,10 +121,9 @@ static bool fit_device(const virga_context *context, virga_splash_def *def)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
                       "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
                       def->max_droplets, (unsigned long long)most);
-    const bool smaller = fit_texels(context, def);
     while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
         def->max_returns /= 2;
-    return smaller || asked != def->max_droplets;
+    return asked != def->max_droplets;
 }
 
 VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
@@ -262,15 +246,15 @@ static const virga_binding_kind kinds[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 2 rules */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 spawns */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 4 state */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 splashes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 droplets */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 splashes */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 6 droplets */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 marks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 places */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 returns */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 10 picks */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 11 lists */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 12 droplets that stay */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 13 sprites */
+    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 13 sprites */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 14 prepared */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 15 indices */
     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 scene depth */

@@ -2,7 +2,8 @@
 // NODES_BINDING where it is bound.
 //
 // Nodes are read as texels: those are fetched for eight lanes at once by software Vulkan, and a storage buffer word by
-// word and lane by lane. They are no storage buffer, either, of which a pass may see VIRGA_STORAGE_BUFFERS.
+// word and lane by lane. They are no storage buffer, either, of which a pass may see VIRGA_STORAGE_BUFFERS, and so
+// few that every device has a view for them.
 layout(set = 0, binding = NODES_BINDING) uniform usamplerBuffer nodes; // a virga_glass_node_gpu is three texels
 
 struct Frame {

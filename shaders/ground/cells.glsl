@@ -7,14 +7,14 @@
 #include "shared/random.h"
 #include "shared/impact.h"
 #include "shared/landing.h"
+#include "gpu/texels.glsl"
 
 layout(scalar, set = 0, binding = 3) buffer Floors { virga_floor_gpu floors[]; };
 layout(scalar, set = 0, binding = 4) buffer Cells { virga_cell_gpu cells[]; };
-// The same two words at a time, and as texels of two cells each: software Vulkan goes word by word and lane by lane
-// through a storage buffer, and gathers texels for eight lanes at once. What a pass writes it does not read as texels.
+// The same two words at a time, and as texels of two cells each. What a pass writes it does not read as texels.
 layout(scalar, set = 0, binding = 4) buffer CellWords { uvec2 cell_words[]; };
-layout(set = 0, binding = 21) uniform usamplerBuffer floor_texels;
-layout(set = 0, binding = 22) uniform usamplerBuffer cell_texels;
+TEXELS(floor_texel, 21, 3)
+TEXELS(cell_texel, 22, 4)
 layout(scalar, set = 0, binding = 9) buffer Counts { virga_ground_count_gpu counts[]; };
 
 #define NO_CELL 0xffffffffu
@@ -46,13 +46,13 @@ uvec2 half_of(uvec4 texel, uint place) { return (place & 1u) == 0u ? texel.xy : 
 
 virga_floor_gpu floor_of(uint place)
 {
-    const uvec2 words = half_of(texelFetch(floor_texels, int(place >> 1)), place);
+    const uvec2 words = half_of(floor_texel(place >> 1), place);
     return virga_floor_gpu(int(words.x), words.y);
 }
 
 virga_cell_gpu cell_of(uint place)
 {
-    const uvec2 words = half_of(texelFetch(cell_texels, int(place >> 1)), place);
+    const uvec2 words = half_of(cell_texel(place >> 1), place);
     return virga_cell_gpu(words.x, words.y);
 }
 

@@ -66,8 +66,8 @@ void measure_window(uint first)
     const Sum none = Sum(0u, 0u);
     Sums sums = Sums(none, none, none, 0u);
     for (uint i = 0u; i < CELLS_EACH; i += 2u) {
-        const int texel = int(first + i / 2u * VIRGA_GROUND_GROUP);
-        const uvec4 two_cells = texelFetch(cell_texels, texel), two_floors = texelFetch(floor_texels, texel);
+        const uint texel = first + i / 2u * VIRGA_GROUND_GROUP;
+        const uvec4 two_cells = cell_texel(texel), two_floors = floor_texel(texel);
         measure_cell(virga_cell_gpu(two_cells.x, two_cells.y), two_floors.y, sums);
         measure_cell(virga_cell_gpu(two_cells.z, two_cells.w), two_floors.w, sums);
     }

@@ -1,5 +1,6 @@
 // field.glsl - what every pass over the field of drops shares: slots, drops, boxes, weights, occlusion.
 #include "tick.glsl"
+#include "gpu/texels.glsl"
 
 // See VIRGA_RAIN_FORM. Software Vulkan runs every lane through what a branch would skip, so what a rain was made
 // without is left out of its pipelines.
@@ -8,10 +9,8 @@ const uint CASCADES = FORM & 7u;
 const uint SLANTS = (FORM >> 3) & 7u;
 const bool SWAYS = (FORM & 64u) != 0u;
 
-// Slots and drops are read as texels: software Vulkan gathers those for eight lanes at once, and goes lane by lane and
-// word by word through a storage buffer.
-layout(set = 0, binding = 2) uniform usamplerBuffer slot_texels;
-layout(set = 0, binding = 20) uniform usamplerBuffer drop_texels;
+TEXELS(slot_texel, 2, 22)
+TEXELS(drop_texel, 20, 3)
 #ifndef SWAYS_ACCESS
 #define SWAYS_ACCESS readonly
 #endif
@@ -28,14 +27,14 @@ layout(set = 0, binding = 10) uniform usampler2DArray occlusion_surface;
 
 virga_slot_gpu slot_of(uint slot_index)
 {
-    const uvec4 texel = texelFetch(slot_texels, int(slot_index));
+    const uvec4 texel = slot_texel(slot_index);
     return virga_slot_gpu(uint[3](texel.x, texel.y, texel.z), texel.w);
 }
 
 // The drop that a slot has at the end of the tick.
 virga_drop_gpu drop_of(uint slot_index)
 {
-    const uvec4 texel = texelFetch(drop_texels, int(slot_index));
+    const uvec4 texel = drop_texel(slot_index);
     const vec3 position = uintBitsToFloat(texel.xyz);
     return virga_drop_gpu(float[3](position.x, position.y, position.z), texel.w);
 }

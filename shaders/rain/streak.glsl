@@ -5,13 +5,13 @@
 // nearly all blocks of a thin streak: lines take two thirds to three quarters of the time.
 //
 // Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
-// vertices cost software Vulkan half as much again. The buffer is read as texels: those are fetched for eight vertices
-// at once there, and a storage buffer word by word and vertex by vertex.
+// vertices cost software Vulkan half as much again.
 #include "shared/rain_limits.h"
 #include "streak_form.glsl"
 #include "gpu/line.glsl"
+#include "gpu/texels.glsl"
 
-layout(set = 0, binding = 17) uniform usamplerBuffer streaks; // a virga_streak_gpu is four texels
+TEXELS(streak_texel, 17, 7) // a virga_streak_gpu is four; behind all a motion each
 #ifdef MOTION
 layout(location = 4) noperspective out vec2 motion; // px, see prepare_write.comp
 #endif
@@ -29,9 +29,9 @@ struct Streak {
 
 Streak streak_corner(uint vertex)
 {
-    const int texel = int(vertex & ~3u); // four corners, four texels
-    const uvec4 ends = texelFetch(streaks, texel), depths = texelFetch(streaks, texel + 1),
-                shape = texelFetch(streaks, texel + 2), lit = texelFetch(streaks, texel + 3);
+    const uint texel = vertex & ~3u; // four corners, four texels
+    const uvec4 ends = streak_texel(texel), depths = streak_texel(texel + 1u),
+                shape = streak_texel(texel + 2u), lit = streak_texel(texel + 3u);
     const vec2 head = uintBitsToFloat(ends.xy), tail = uintBitsToFloat(ends.zw);
     const vec2 width_alpha = unpackHalf2x16(shape.x), body_wave = unpackHalf2x16(shape.y);
     const vec2 turns = unpackHalf2x16(shape.z);
@@ -65,7 +65,7 @@ Streak streak_corner(uint vertex)
     // The same w at all corners, so that everything is interpolated without perspective.
     const float depth = uintBitsToFloat(at_head ? depths.x : depths.y);
 #ifdef MOTION
-    const vec4 motions = uintBitsToFloat(texelFetch(streaks, int(4u * look.max_streaks + (vertex >> 2))));
+    const vec4 motions = uintBitsToFloat(streak_texel(4u * look.max_streaks + (vertex >> 2)));
     motion = at_head ? motions.xy : motions.zw;
 #endif
     streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : DRAWN_NOWHERE;

@@ -2,11 +2,12 @@
 // wider than it is drawn; or the two ends of a line of that width, for a droplet (see rain/streak.glsl).
 //
 // Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
-// half as much again. The buffer is read as texels, see state.glsl.
+// half as much again.
 #include "sprite_form.glsl"
 #include "gpu/line.glsl"
+#include "gpu/texels.glsl"
 
-layout(set = 0, binding = 20) uniform usamplerBuffer sprite_texels; // four a sprite; behind all a motion each
+TEXELS(sprite_texel, 20, 13) // four a sprite; behind all a motion each
 
 #ifdef MOTION
 layout(location = 5) noperspective out vec2 motion; // px
@@ -22,10 +23,9 @@ layout(location = 4) flat out vec4 turn;
 
 void set_corner(uint vertex)
 {
-    const int texel = int(vertex & ~3u); // four corners, four texels
-    const vec4 ends = uintBitsToFloat(texelFetch(sprite_texels, texel)),
-               depths = uintBitsToFloat(texelFetch(sprite_texels, texel + 1));
-    const uvec4 shown = texelFetch(sprite_texels, texel + 2), rest = texelFetch(sprite_texels, texel + 3);
+    const uint texel = vertex & ~3u; // four corners, four texels
+    const vec4 ends = uintBitsToFloat(sprite_texel(texel)), depths = uintBitsToFloat(sprite_texel(texel + 1u));
+    const uvec4 shown = sprite_texel(texel + 2u), rest = sprite_texel(texel + 3u);
     const vec2 head = ends.xy, tail = ends.zw;
     const vec2 widths = unpackHalf2x16(shown.x), alpha_body = unpackHalf2x16(shown.y);
     const vec2 light[3] = vec2[3](unpackHalf2x16(shown.z), unpackHalf2x16(shown.w), unpackHalf2x16(rest.x));
@@ -43,8 +43,7 @@ void set_corner(uint vertex)
     const vec2 corner =
         (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
 #ifdef MOTION
-    const vec4 moved =
-        uintBitsToFloat(texelFetch(sprite_texels, int(4u * look.max_sprites + (vertex >> 2))));
+    const vec4 moved = uintBitsToFloat(sprite_texel(4u * look.max_sprites + (vertex >> 2)));
     motion = at_head ? moved.xy : moved.zw;
 #endif
     place = vec4(across, at_head ? way_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);

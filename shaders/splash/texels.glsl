@@ -1,9 +1,10 @@
 // texels.glsl - droplets and splashes as four texels each: how passes read them, and what they write.
 //
-// Software Vulkan gathers texels for eight lanes at once; through a storage buffer it goes lane by lane and word by
-// word. Four words at a time are also what it writes fastest.
-layout(set = 0, binding = 18) uniform usamplerBuffer droplet_texels;
-layout(set = 0, binding = 19) uniform usamplerBuffer splash_texels;
+// Four words at a time are also what software Vulkan writes fastest.
+#include "gpu/texels.glsl"
+
+TEXELS(droplet_texel, 18, 6)
+TEXELS(splash_texel, 19, 5)
 
 float[3] floats(uvec3 words)
 {
@@ -22,9 +23,9 @@ virga_droplet_gpu droplet_from(uvec4 a, uvec4 b, uvec4 c, uvec4 d)
 
 virga_droplet_gpu droplet_of(uint place)
 {
-    const int texel = int(4u * place);
-    return droplet_from(texelFetch(droplet_texels, texel), texelFetch(droplet_texels, texel + 1),
-                        texelFetch(droplet_texels, texel + 2), texelFetch(droplet_texels, texel + 3));
+    const uint texel = 4u * place;
+    return droplet_from(droplet_texel(texel), droplet_texel(texel + 1u), droplet_texel(texel + 2u),
+                        droplet_texel(texel + 3u));
 }
 
 // One that this very invocation has written, which its texels may not show yet.
@@ -43,9 +44,9 @@ uvec4[4] texels_of(virga_droplet_gpu droplet)
 
 virga_splash_gpu splash_of(uint place)
 {
-    const int texel = int(4u * place);
-    const uvec4 a = texelFetch(splash_texels, texel), b = texelFetch(splash_texels, texel + 1),
-                c = texelFetch(splash_texels, texel + 2), d = texelFetch(splash_texels, texel + 3);
+    const uint texel = 4u * place;
+    const uvec4 a = splash_texel(texel), b = splash_texel(texel + 1u), c = splash_texel(texel + 2u),
+                d = splash_texel(texel + 3u);
     return virga_splash_gpu(floats(a.xyz), uintBitsToFloat(a.w), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), b.w,
                             floats(c.xyz), c.w, uintBitsToFloat(d.x), d.y, d.z, d.w);
 }

@@ -204,10 +204,11 @@ static inline VkShaderModule watch_real_module(VkDevice device, VkShaderModule n
 
 static inline uint64_t watch_key_of_stage(const VkPipelineShaderStageCreateInfo *stage)
 {
-    uint32_t constant = 0;
-    if (stage->pSpecializationInfo && stage->pSpecializationInfo->dataSize == sizeof constant)
-        memcpy(&constant, stage->pSpecializationInfo->pData, sizeof constant);
-    return (uint64_t)(uintptr_t)stage->module << 32 | constant;
+    /* The second is the same for all pipelines of a device. */
+    uint32_t constants[2] = {0};
+    if (stage->pSpecializationInfo && stage->pSpecializationInfo->dataSize == sizeof constants)
+        memcpy(constants, stage->pSpecializationInfo->pData, sizeof constants);
+    return (uint64_t)(uintptr_t)stage->module << 32 | constants[0];
 }
 
 /* What pipelines of the library differ in, besides their layouts, which follow from their shaders. */

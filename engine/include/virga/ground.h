@@ -46,8 +46,7 @@ typedef struct virga_ground_def {
     uint32_t size, cookie;
     uint32_t seed;          /* of what is left to chance: fractions of spots, of infiltration. Default 1 */
     uint32_t cells;         /* [128; 4096] along the window's side, a power of two. About 64 bytes of device memory a
-                          * cell. Two cells need one of the device's maxTexelBufferElements. Default 1024: 51 m at
-                          * 5 cm */
+                          * cell. Default 1024: 51 m at 5 cm */
     float cell_m;           /* [0.01; 0.1] side of a cell. Default 0.05 */
     uint32_t kept_tiles;    /* [0; 60000] tiles kept when they leave the window, 64 KiB each; raised to twice the
                           * tiles of the window, so that a cut of the camera and back loses nothing. Default 1024 */

@@ -32,14 +32,13 @@ typedef struct virga_rain_def {
     uint32_t size, cookie;
     uint32_t seed;         /* another seed, other drops with the same statistics. Default 1 */
     uint32_t max_drops;    /* [1024; 4194304] slots, rounded up to whole workgroups a box. Quality falls with it, the
-                            * rate never. 32 bytes of device memory each, 40 more with wind_texture. Not more than the
-                            * device's maxTexelBufferElements less 3072. Default 131072 */
+                            * rate never. 32 bytes of device memory each, 40 more with wind_texture. Default 131072 */
     float range_m;         /* [4; 512] drops are drawn and land up to here from the camera, haze takes over beyond.
                             * Default 32 */
     uint32_t max_impacts;  /* [256; 4194240] impacts that one step can hold, 64 bytes each; more are counted and
                             * logged. Default 65536 */
     uint32_t max_streaks;  /* [256; 4194304] streaks that one prepare can hold, 108 bytes each. 0 means max_drops, the
-                            * default. Not more than a quarter of the device's maxTexelBufferElements */
+                            * default */
     uint32_t max_ticks_per_step; /* [1; 64] a step that asks for more drops the rest of its time. Default 16 */
     double tick_s;         /* [1/1000; 1/20] the fixed tick. Default 1/60 */
     uint32_t occlusion_size; /* [64; 8192] texels along a side of an occlusion map; 0: no occlusion. Default 1024 */

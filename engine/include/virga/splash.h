@@ -40,11 +40,10 @@ typedef struct virga_splash virga_splash; /* opaque */
 typedef struct virga_splash_def {
     uint32_t size, cookie;
     uint32_t max_splashes; /* [256; 1048576] alive at once, raised to a power of two; 64 bytes each. The oldest make
-                            * room. Not more than a quarter of maxTexelBufferElements. Default 65536 */
+                            * room. Default 65536 */
     uint32_t max_droplets; /* [256; 4194304] in the air at once, raised to a multiple of 256; 128 bytes each, 64 for the
                             * sprites that a view needs and 72 for their indices. Where there is no room the water
-                            * falls back at once. At most what a storage buffer of the device holds, and a fifth of
-                            * its maxTexelBufferElements. Default 131072 */
+                            * falls back at once. At most what a storage buffer of the device holds. Default 131072 */
     uint32_t max_spawns;   /* [256; 1048576] of one step, the same as the ground's. Default 65536 */
     uint32_t max_returns;  /* [max_spawns; 4194240] droplets that fall in one step, 64 bytes each; more wait in the air
                             * for the next. The ground's must be as large. Default 131072 */
