@@ -25,7 +25,8 @@ typedef struct offline {
     double covered[3]; /* share of the picture that splashes, rain and pane cover by 1 % and more, over all jitters */
 } offline;
 
-static inline void offline_open(offline *o, uint32_t seed)
+/* Virga finds its functions through `find`. */
+static inline void offline_open_through(offline *o, uint32_t seed, PFN_vkGetInstanceProcAddr find)
 {
     memset(o, 0, sizeof *o);
     if (!fixture_begin(&o->f)) {
@@ -40,6 +41,7 @@ static inline void offline_open(offline *o, uint32_t seed)
                          .memory = {&o->gpu, world_allocate, world_free}};
     o->gpu.instance.instance = o->f.instance.instance;
     virga_context_def def = world_context_def(&o->gpu);
+    def.get_instance_proc_addr = find;
     REQUIRE(virga_context_create(&def, &o->context) == VIRGA_OK);
     o->scene = world_scene(o->context, seed);
     REQUIRE(host_target_create(&o->f.device, WORLD_WIDTH, WORLD_HEIGHT, &o->images, o->f.error, sizeof o->f.error));
@@ -53,6 +55,11 @@ static inline void offline_open(offline *o, uint32_t seed)
         .render_pass = o->images.plate_pass, .color_count = HOST_PLATE_COLORS, .samples = VK_SAMPLE_COUNT_1_BIT};
     street_open(&o->gpu, &pass, virga_scene_ground(o->scene), &o->street);
     state_open(&o->gpu, o->scene, &o->state);
+}
+
+static inline void offline_open(offline *o, uint32_t seed)
+{
+    offline_open_through(o, seed, vkGetInstanceProcAddr);
 }
 
 static inline void offline_close(offline *o)
