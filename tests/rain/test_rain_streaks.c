@@ -102,6 +102,32 @@ static void no_streak_is_missing_when_one_looks_up(void **state)
     close_shot(&s);
 }
 
+/* Streaks that pass the camera's plane end there, all of them: what is cut at the plane lies on it, however the cut is
+ * rounded. */
+static void no_streak_that_passes_the_camera_is_missing(void **state)
+{
+    (void)state;
+    shot s;
+    uint32_t cut = 0, missing = 0;
+    open_shot(&s, 200);
+    add_picture(&s, 320, 240);
+    s.shutter_s = 0.1;
+    s.f.settings.bodies_min_mm = 0.2f;
+    apply_settings(&s);
+    aim(&s, &s.camera, s.f.camera, (const double[3]){0.2, 10, -2});
+    s.open = s.camera;
+    draw_frame(&s, 0.2);
+    for (uint32_t i = 0; i < streak_count(&s); i++) {
+        const virga_streak_gpu *streak = &streak_list(&s)[i];
+        missing += streak->id == 0 && streak->width_alpha == 0;
+        cut += fabs((double)streak->distance[0] - 0.01) < 1e-6 || fabs((double)streak->distance[1] - 0.01) < 1e-6;
+    }
+    printf("%u streaks of %u are cut at the camera's plane, %u are missing\n", cut, streak_count(&s), missing);
+    assert_true(cut > 3);
+    assert_int_equal(missing, 0);
+    close_shot(&s);
+}
+
 /* ---- light */
 
 /* Radiant intensity over the square of the distance, times the drop's phase function: 1 / sr. */
@@ -279,6 +305,7 @@ int main(void)
         cmocka_unit_test(streaks_lie_where_doubles_put_them),
         cmocka_unit_test(streaks_follow_a_moving_camera),
         cmocka_unit_test(no_streak_is_missing_when_one_looks_up),
+        cmocka_unit_test(no_streak_that_passes_the_camera_is_missing),
         cmocka_unit_test(streaks_show_the_environment),
         cmocka_unit_test(streaks_glitter_by_the_phase_function),
         cmocka_unit_test(a_lamp_behind_the_rain_brightens_it_and_most_near_the_lamp),
