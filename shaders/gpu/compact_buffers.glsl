@@ -23,7 +23,7 @@
 #include "shared/compact.h"
 
 #ifndef COMPACT_ACCESS
-#define COMPACT_ACCESS // readonly where a vertex shader reads the list
+#define COMPACT_ACCESS // readonly where a vertex shader reads the list, coherent where lanes see what others wrote
 #endif
 
 layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) COMPACT_ACCESS buffer Picks

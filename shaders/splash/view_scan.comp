@@ -6,6 +6,7 @@
 #include "state.glsl"
 #include "look.glsl"
 #include "compact.glsl"
+#define COMPACT_ACCESS coherent // the first lane looks at what others have written, see first_of_set
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/compact_scan.glsl"
 #include "gpu/compact_list.glsl"

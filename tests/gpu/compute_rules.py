@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""What compute shaders need of a device, and what software Vulkan, which runs a workgroup in order, never notices.
+
+Every compute shader that ships is compiled, and its SPIR-V is read:
+  - shared memory is within the 16 KiB that Vulkan promises (maxComputeSharedMemorySize);
+  - a workgroup has no more invocations than the 256 that virga_check_device asks for;
+  - where invocations wait for what others of their workgroup write to a buffer (memoryBarrierBuffer) there is a buffer
+    that is coherent: without it each may go on to see what its own cache has (GLSL 4.60, section 4.10);
+  - subgroups are known to the forms of glass's passes that are chosen by the device's size of them, and to no other.
+
+usage: compute_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
+"""
+import os
+import shutil
+import sys
+import tempfile
+
+from graphics_rules import GLSLANG, instructions, run
+
+SHARED_BYTES = 16384
+INVOCATIONS = 256
+BUFFERS = 0x40  # UniformMemory, among a barrier's semantics
+OF_SUBGROUPS = ("_shuffle.comp", "_narrow.comp")
+
+
+def bytes_of(name, types, numbers):
+    op, words = types[name]
+    if op in ("OpTypeInt", "OpTypeFloat"):
+        return int(words[0]) // 8
+    if op == "OpTypeVector":
+        return int(words[1]) * bytes_of(words[0], types, numbers)
+    if op == "OpTypeArray":
+        return numbers[words[1]] * bytes_of(words[0], types, numbers)
+    if op == "OpTypeStruct":
+        return sum(bytes_of(word, types, numbers) for word in words)
+    return 4  # a boolean, which has no size of its own
+
+
+def shared_bytes(code):
+    types = {result: (op, words) for result, op, words in code if result and op.startswith("OpType")}
+    numbers = {result: int(words[1]) for result, op, words in code if op == "OpConstant" and words[1].isdigit()}
+    return sum(bytes_of(types[words[0]][1][1], types, numbers) for _, op, words in code
+               if op == "OpVariable" and words[1] == "Workgroup")
+
+
+def invocations(code):
+    for _, op, words in code:
+        if op == "OpExecutionMode" and words[1] == "LocalSize":
+            return int(words[2]) * int(words[3]) * int(words[4])
+    return 0
+
+
+def waits_for_buffers(code):
+    numbers = {result: int(words[1]) for result, op, words in code if op == "OpConstant" and words[1].isdigit()}
+    return any(op == "OpMemoryBarrier" and numbers[words[1]] & BUFFERS for _, op, words in code)
+
+
+def wrong_in(code, shader):
+    found, shared, lanes = [], shared_bytes(code), invocations(code)
+    coherent = any("Coherent" in words for _, op, words in code if op in ("OpDecorate", "OpMemberDecorate"))
+    subgroups = any(op == "OpCapability" and words[0].startswith("GroupNonUniform") for _, op, words in code)
+    if shared > SHARED_BYTES:
+        found.append("has %d bytes of shared memory, of %d" % (shared, SHARED_BYTES))
+    if not 0 < lanes <= INVOCATIONS:
+        found.append("has %d invocations in a workgroup, of %d" % (lanes, INVOCATIONS))
+    if waits_for_buffers(code) and not coherent:
+        found.append("waits for what is written to buffers, none of which is coherent")
+    if subgroups and not shader.endswith(OF_SUBGROUPS):
+        found.append("looks at its subgroup")
+    return found
+
+
+def main():
+    source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
+    if not shutil.which("spirv-dis"):
+        print("compute_rules.py: skipped, there is no spirv-dis (package spirv-tools)")
+        sys.exit(77)
+    modules, wrong = 0, []
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "pass.spv")
+        for shader in filter(lambda name: name.endswith(".comp"), shaders):
+            run([glslang] + GLSLANG + ["-I" + os.path.join(source, "shaders"), "-o", output,
+                                       os.path.join(source, "shaders", shader)])
+            code = instructions(run(["spirv-dis", "--raw-id", output]))
+            wrong += [shader + ": " + text for text in wrong_in(code, shader)]
+            modules += 1
+    for text in wrong:
+        print("compute_rules.py: " + text, file=sys.stderr)
+    print("compute_rules.py: %d modules, %d wrong" % (modules, len(wrong)))
+    sys.exit(1 if wrong or not modules else 0)
+
+
+if __name__ == "__main__":
+    main()
