@@ -33,6 +33,7 @@ Slot slot_of(uint slot)
 struct Sprite {
     uint kind;
     vec3 head, tail;       // relative to the camera, as the camera sees them at the shutter's end and start
+    vec3 normal;           // (puff) of what it stands on, from tail to head
     bool moves;            // head and tail are of different times
     vec2 widths;           // m, at the head and the tail
     float body;            // m; 0: its whole length
@@ -46,7 +47,7 @@ Sprite empty_sprite()
 {
     Sprite sprite;
     sprite.kind = VIRGA_SPRITE_DROPLET;
-    sprite.head = sprite.tail = vec3(0.0);
+    sprite.head = sprite.tail = sprite.normal = vec3(0.0);
     sprite.moves = false;
     sprite.widths = vec2(0.0);
     sprite.body = 0.0;
@@ -121,6 +122,7 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.kind = VIRGA_SPRITE_PUFF;
     sprite.tail = crown.centre;
     sprite.head = crown.centre + crown.normal * up;
+    sprite.normal = crown.normal;
     sprite.widths = vec2(across);
     sprite.body = across;
     // What is not ground, a leaf or a railing, may end beside the drop.
@@ -166,10 +168,10 @@ vec2 strewn_m(float spread, float sine, float distance)
 
 // Both ends get the depth of the ground where they are, or it would hide what stands before the middle; a little
 // nearer, as distances on the picture are those of a chord.
-void lay_down(Sprite sprite, vec3 normal, float reach_m, inout Projected p)
+void lay_down(Sprite sprite, float reach_m, inout Projected p)
 {
     const mat4 m = to_mat(view.clip_from_rel);
-    const vec3 level = sprite.tail - normal * dot(normal, sprite.tail);
+    const vec3 level = sprite.tail - sprite.normal * dot(sprite.normal, sprite.tail);
     const vec3 away = level * inversesqrt(max(dot(level, level), 1e-12));
     const float middle = p.tail.w, reach = min(reach_m, 0.5 * middle);
     const float nearer = min(reach * reach / middle + distance(sprite.head, sprite.tail), 0.25 * middle);
@@ -183,8 +185,7 @@ void lay_down(Sprite sprite, vec3 normal, float reach_m, inout Projected p)
 // seen from the eye; some are twice as high as they are in the mean.
 void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
 {
-    const vec3 normal = normalize(sprite.head - sprite.tail);
-    p.sine = abs(dot(normalize(sprite.tail), normal));
+    p.sine = abs(dot(normalize(sprite.tail), sprite.normal));
     p.body_px = max(p.width_px, drawn);
     const vec2 strewn = strewn_m(sprite.spread, p.sine, p.tail.w);
     const float wide_px = pixels(2.0 * strewn.x, nearest), each_px = max(1.5 * p.width_px, LEAST_APART * drawn);
@@ -200,7 +201,7 @@ void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projec
         p.spread_px = wide_px;
         reach_m += strewn.y;
     }
-    lay_down(sprite, normal, reach_m, p);
+    lay_down(sprite, reach_m, p);
     const vec2 pixel = 2.0 * up / vec2(view.viewport[2], view.viewport[3]);
     p.head.xy += above_px * pixel * p.head.w;
     p.tail.xy -= below_px * pixel * p.tail.w;
