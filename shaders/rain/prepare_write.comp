@@ -146,6 +146,14 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
     streak.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
+// Oscillations up to a time after the tick's, less whole ones. A tick has so many 2^32ths of one, and whole numbers of
+// these wrap around where they should: seconds since it began to rain would soon have no room for a part of one.
+float turn_at(float hz, float time_s)
+{
+    const uint in_a_tick = uint(fract(hz * tick.tick_s) * 4294967296.0);
+    return fract(virga_unit(in_a_tick * tick.tick) + hz * time_s);
+}
+
 // Second mode, Rayleigh 1879; drops below about 1 mm are too stiff to show it (Tokay and Beard 1996). Where the lens
 // blurs one wave into the next there is none.
 // `times`: from when to when the streak shows it.
@@ -154,8 +162,7 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
     const float radius = 0.5e-3 * diameter_mm;
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
     const float turns = hz * (times.y - times.x);
-    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) +
-                                       fract(hz * (float(tick.tick) * tick.tick_s + times.x))));
+    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + turn_at(hz, times.x)));
     const float waves_blurred = blur * turns / max(way_px, 1.0);
     const float size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
     streak.body_wave = halves(max(body_px, blur), size * look.oscillation);

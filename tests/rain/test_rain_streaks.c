@@ -128,6 +128,61 @@ static void no_streak_that_passes_the_camera_is_missing(void **state)
     close_shot(&s);
 }
 
+/* ---- waves */
+
+/* Where drops are in their oscillation at the tails of streaks, by slot; -1: no streak. */
+static void turns_at_tails(shot *s, double ago_s, double *turns)
+{
+    for (uint32_t slot = 0; slot < s->f.slots; slot++)
+        turns[slot] = -1;
+    s->ago_s = ago_s;
+    draw_frame(s, 0);
+    for (uint32_t i = 0; i < streak_count(s); i++)
+        if (streak_list(s)[i].width_alpha)
+            turns[slot_of(&streak_list(s)[i])] = high_half(streak_list(s)[i].turns);
+}
+
+/* Rayleigh's second mode. */
+static double oscillation_hz(double diameter_m)
+{
+    return sqrt(8 * 0.0728 / (998.2 * pow(0.5 * diameter_m, 3))) / (2 * M_PI);
+}
+
+/* As between the frames of a film, or the parts of one: each drop goes on by what it oscillates in the time between. */
+static void drops_oscillate_alike_after_a_day_of_rain(void **state)
+{
+    (void)state;
+    const double between_s = 1.0 / 384;
+    shot s;
+    uint32_t checked = 0;
+    double worst = 0;
+    open_shot(&s, 40);
+    add_picture(&s, 320, 240);
+    apply_settings(&s);
+    aim_level(&s);
+    draw_frame(&s, 0.2);
+    s.f.rain->ticks += 24 * 3600 * 60;
+    double *before = calloc(s.f.slots, sizeof *before), *now = calloc(s.f.slots, sizeof *now);
+    turns_at_tails(&s, between_s, before);
+    turns_at_tails(&s, 0, now);
+    for (uint32_t slot = 0; slot < s.f.slots; slot++) {
+        if (before[slot] < 0 || now[slot] < 0)
+            continue;
+        const uint32_t k = ((const virga_slot_gpu *)s.slots.mapped)[slot].class_rank & 0xffff;
+        const double diameter =
+            VIRGA_DROP_MIN_M * pow(VIRGA_DROP_MAX_M / VIRGA_DROP_MIN_M, (k + 0.5) / VIRGA_RAIN_CLASSES);
+        const double off = now[slot] - before[slot] - oscillation_hz(diameter) * between_s;
+        worst = fmax(worst, fabs(off - round(off)));
+        checked++;
+    }
+    printf("%u drops, the worst is off by %.4f turns\n", checked, worst);
+    assert_true(checked > 300);
+    assert_true(worst < 0.005);
+    free(before);
+    free(now);
+    close_shot(&s);
+}
+
 /* ---- light */
 
 /* Radiant intensity over the square of the distance, times the drop's phase function: 1 / sr. */
@@ -306,6 +361,7 @@ int main(void)
         cmocka_unit_test(streaks_follow_a_moving_camera),
         cmocka_unit_test(no_streak_is_missing_when_one_looks_up),
         cmocka_unit_test(no_streak_that_passes_the_camera_is_missing),
+        cmocka_unit_test(drops_oscillate_alike_after_a_day_of_rain),
         cmocka_unit_test(streaks_show_the_environment),
         cmocka_unit_test(streaks_glitter_by_the_phase_function),
         cmocka_unit_test(a_lamp_behind_the_rain_brightens_it_and_most_near_the_lamp),
