@@ -108,6 +108,7 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
     REQUIRE(host_buffer_create(&f->gpu.device, 512 + sizeof(virga_impacts_gpu) + sizeof f->drops,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                HOST_BUFFER_UPLOAD, "drops", &f->impacts, error, size));
+    memset(f->impacts.mapped, 0xff, f->impacts.size); /* what is behind a list's drops is of no tick */
     REQUIRE(host_buffer_create(&f->gpu.device, cells * sizeof(virga_cell_gpu), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                HOST_BUFFER_UPLOAD, "cells up", &f->upload, error, size));
     REQUIRE(host_buffer_create(
