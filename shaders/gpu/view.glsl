@@ -15,8 +15,8 @@ vec2 motion_px(vec4 now, vec4 before)
     return clamp(moved, vec2(-16384.0), vec2(16384.0)); // within the range of half floats
 }
 
-// Moves the end `a` of a line in clip coordinates to the near plane if it is before it and the other end is not. Then it
-// lies on the plane, and not before it by how a device rounds.
+// Moves the end `a` of a line in clip coordinates to the near plane if it is before it and the other end is not: onto
+// the plane, and not before it by how a device rounds.
 void cut_at_near_plane(inout vec4 a, vec4 b)
 {
     if (a.w < NEAR_W && b.w > NEAR_W)
