@@ -13,6 +13,10 @@
 
 layout(local_size_x = VIRGA_RAIN_ORDER_LANES) in;
 
+// A lane reads the counts of this many workgroups before it writes any: a read after a write to the same buffer waits,
+// and a million streaks are 3,900 workgroups one after another.
+#define AHEAD 8u
+
 void main()
 {
     const uint lane = gl_LocalInvocationIndex;
@@ -22,9 +26,14 @@ void main()
         before += order[total_at(i)];
     uvec2 all;
     uint place = scan_group(uvec2(order[total_at(bucket)], before), all).x + all.y;
-    for (uint group = 0u; group < list.group_count[0]; group++) {
-        const uint count = order[count_at(bucket, group)];
-        order[count_at(bucket, group)] = place;
-        place += count;
+    const uint groups = list.group_count[0];
+    for (uint group = 0u; group < groups; group += AHEAD) {
+        uint counts[AHEAD];
+        for (uint i = 0u; i < AHEAD; i++)
+            counts[i] = order[count_at(bucket, min(group + i, groups - 1u))];
+        for (uint i = 0u; i < AHEAD && group + i < groups; i++) {
+            order[count_at(bucket, group + i)] = place;
+            place += counts[i];
+        }
     }
 }
