@@ -15,9 +15,19 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 
 #define WIDE_PX 3.0 // as in look.glsl
 
+// A neck flows into the ball on its tip, which is this much wider (see pile_widths), and ends in its lower half: beyond
+// it the ball alone is seen, and not a rod with a flat end in it. One that has let its ball go ends as softly.
+#define BALL_OF_NECK (1.0 / 0.7)
+
+float outside_ball()
+{
+    const float radius = BALL_OF_NECK * shape.x;
+    return 1.0 - smoothstep(shape.z - radius, shape.z - 0.25 * radius, place.y);
+}
+
 void main()
 {
-    const float alpha = sprite_cover();
+    const float alpha = sprite_cover() * (rim_kind.w > 0.5 ? outside_ball() : 1.0);
     if (alpha <= 0.0)
         discard;
     const bool pile = rim_kind.w > 0.5;
