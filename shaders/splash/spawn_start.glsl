@@ -97,7 +97,9 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     const virga_splash_rule_gpu rule = rule_of(spawn);
     const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
     const float turn = virga_unit(virga_hash2(spawn.random, TURN_HASH));
-    const float azimuth = 6.2831853 * (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
+    // In [-pi, pi], where sine and cosine are exact to 2^-11 on any device.
+    const float turns = (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
+    const float azimuth = 6.2831853 * (turns - floor(turns + 0.5));
     // What a crown lets go leaves the way that its rim flares, whatever its cone does.
     const bool crown = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
     const vec2 angles = crown ? vec2(0.87, 1.4) : vec2(rule.angle[0], rule.angle[1]);
@@ -187,7 +189,8 @@ vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
         return vec3(0.0);
     const Frame frame = surface_frame(to_vec(spawn.normal));
     const uint hash = virga_hash2(spawn.random, BESIDE_HASH);
-    const float angle = 6.2831853 * virga_unit(hash), away = BESIDE_M * sqrt(virga_unit(virga_hash1(hash)));
+    const float turns = virga_unit(hash), away = BESIDE_M * sqrt(virga_unit(virga_hash1(hash)));
+    const float angle = 6.2831853 * (turns - floor(turns + 0.5)); // in [-pi, pi] as in start_pile
     return away * (cos(angle) * frame.side + sin(angle) * frame.across);
 }
 
