@@ -180,7 +180,7 @@ void main()
 #else
     out_color = vec4(color, alpha);
     out_normal = vec4(n, 1.0);
-    out_velocity = velocity_of(vec4(in_relative + frame.moved.xyz, 1.0));
+    out_velocity = velocity_of(vec4(in_relative, 1.0), vec4(in_relative + frame.moved.xyz, 1.0));
     out_water = vec2(max(water.damp, water.film), water.depth_mm * 1e-3);
     out_id = uint(surface.traits.z);
 #endif

@@ -38,7 +38,7 @@ void main()
 #else
     out_color = vec4(color, 1.0);
     out_normal = vec4(0.0);
-    out_velocity = velocity_of(vec4(d, 0.0));
+    out_velocity = velocity_of(vec4(d, 0.0), vec4(d, 0.0));
     out_water = vec2(0.0);
     out_id = 0;
 #endif
