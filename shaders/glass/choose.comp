@@ -106,7 +106,7 @@ void run_off(inout virga_glass_drop_gpu drop)
     count(VIRGA_GLASS_RUN_OFF, drop.water_nl + drop.merged_nl);
     drop.kind = VIRGA_GLASS_FREE;
     drop.water_nl = drop.merged_nl = 0u;
-    drop.merged_nl_mm_s = drop.merged_nl_10um = int[2](0, 0);
+    drop.merged_momentum = drop.merged_nl_10um = int[2](0, 0);
     drop.target = OUTSIDE;
 }
 

@@ -41,7 +41,7 @@ void main()
         count(wiped ? VIRGA_GLASS_WIPED : VIRGA_GLASS_RUN_OFF, drops[place].water_nl + drops[place].merged_nl);
         drops[place].kind = VIRGA_GLASS_FREE;
         drops[place].water_nl = drops[place].merged_nl = 0u;
-        drops[place].merged_nl_mm_s = drops[place].merged_nl_10um = int[2](0, 0);
+        drops[place].merged_momentum = drops[place].merged_nl_10um = int[2](0, 0);
         return;
     }
     if (beside)

@@ -15,7 +15,7 @@ void take_in(inout virga_glass_drop_gpu drop)
         return;
     const uint water = drop.water_nl + drop.merged_nl;
     const vec2 momentum = to_vec2(drop.velocity) * float(drop.water_nl) +
-                          0.001 * vec2(drop.merged_nl_mm_s[0], drop.merged_nl_mm_s[1]);
+                          0.001 * float(VIRGA_GLASS_MOMENTUM) * vec2(drop.merged_momentum[0], drop.merged_momentum[1]);
     drop.velocity = to_array(momentum / float(water));
     if (drop.merged_nl > drop.water_nl / 4u)
         drop.kind &= ~uint(VIRGA_GLASS_TAIL);
@@ -24,7 +24,7 @@ void take_in(inout virga_glass_drop_gpu drop)
     drop.water_nl = water;
     drop.kind |= VIRGA_GLASS_CHANGED;
     drop.merged_nl = 0u;
-    drop.merged_nl_mm_s = drop.merged_nl_10um = int[2](0, 0);
+    drop.merged_momentum = drop.merged_nl_10um = int[2](0, 0);
 }
 
 // Cells lie on a grid, but water does not: a drop is drawn on its way to the middle of its cell, as far as it has

@@ -43,7 +43,7 @@ void split(uint place, uint entry, uint blade, virga_glass_drop_gpu drop)
     }
     drop.water_nl = each + (extra > 0u ? 1u : 0u);
     drop.merged_nl = 0u;
-    drop.merged_nl_mm_s = drop.merged_nl_10um = int[2](0, 0);
+    drop.merged_momentum = drop.merged_nl_10um = int[2](0, 0);
     drop.velocity = float[2](0.0, 0.0);
     drop.kind = VIRGA_GLASS_PARTICLE;
     drop.captor = drop.target = NOWHERE;

@@ -22,6 +22,8 @@ typedef struct virga_glass_drop_gpu virga_glass_drop_gpu;
 #define VIRGA_GLASS_CHANGED  64 /* (drop) it landed, took water in or stopped in the newest tick */
 #define VIRGA_GLASS_LOOKS    128 /* (drop) it had in the tick before, and looked whom it touches */
 
+#define VIRGA_GLASS_MOMENTUM 8 /* nl mm/s: the unit that momenta are added up in */
+
 /* One drop, 88 bytes. Places on the pane are in metres, u to the right and v up, seen from outside; (0, 0) is its lower
  * left corner. */
 struct virga_glass_drop_gpu {
@@ -39,7 +41,7 @@ struct virga_glass_drop_gpu {
                           * heavier's */
     uint random;         /* a hash of its own */
     uint merged_nl;      /* water that came in this tick, counted in at the tick's end */
-    int merged_nl_mm_s[2]; /* its momentum: nl x mm/s */
+    int merged_momentum[2]; /* its momentum: VIRGA_GLASS_MOMENTUM nl mm/s */
     int merged_nl_10um[2]; /* and how far from this drop it was: nl x 10 um */
     uint target;         /* (drop) cell that it enters in this round; VIRGA_GLASS_NOWHERE: it stays */
     uint captor;         /* (drop) place of the drop that takes it in, or VIRGA_GLASS_NOWHERE */

@@ -349,6 +349,29 @@ static void the_largest_drops_keep_their_direction_as_they_merge(void **unused)
     glass_fixture_close(&f);
 }
 
+/* Five as a wiper gathers them, of which the heaviest in the middle takes in the others: the momenta of two of those
+ * together are more than a whole number of nl mm/s holds. */
+static void momenta_of_many_large_drops_add_up(void **unused)
+{
+    (void)unused;
+    static const double around[5][2] = {{0, 0}, {4e-3, 0}, {-4e-3, 0}, {0, 4e-3}, {0, -4e-3}};
+    open_even(NULL);
+    for (int i = 0; i < 5; i++)
+        glass_fixture_land(&f, 0.0805 + around[i][0], 0.0611 + around[i][1], i ? 2200000 : 2600000);
+    glass_fixture_step(&f, 1, true);
+    virga_glass_drop_gpu *given = f.upload.mapped;
+    memcpy(given, f.drops, f.glass->drops->size);
+    for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
+        if (glass_fixture_kind(&given[i]) == VIRGA_GLASS_DROP)
+            given[i].velocity[0] = 0.8f;
+    put_drops();
+    glass_fixture_step(&f, 1, true);
+    const virga_glass_drop_gpu *drop = only_drop();
+    REQUIRE(drop && drop->water_nl == 4 * 2200000 + 2600000);
+    assert_true(drop->velocity[0] > 0.7f && drop->velocity[0] < 0.9f);
+    glass_fixture_close(&f);
+}
+
 /* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that
  * and the fourth were to be taken in by drops that were taken in themselves, and look again. */
 static void a_drop_whose_captor_is_gone_looks_again(void **unused)
@@ -434,6 +457,7 @@ int main(void)
         cmocka_unit_test(drops_that_become_one_lie_in_the_middle_of_their_water),
         cmocka_unit_test(a_stopped_drop_with_way_left_stays),
         cmocka_unit_test(the_largest_drops_keep_their_direction_as_they_merge),
+        cmocka_unit_test(momenta_of_many_large_drops_add_up),
         cmocka_unit_test(a_drop_whose_captor_is_gone_looks_again),
         cmocka_unit_test(drops_at_rest_do_not_touch),
         cmocka_unit_test(the_surface_is_told_cell_by_cell),
