@@ -343,6 +343,7 @@ static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words,
                                         words);
 }
 
+#define CENSUS    offsetof(virga_glass_state_gpu, census_groups)
 #define ALIVE     offsetof(virga_glass_state_gpu, alive_groups)
 #define SEEDS     offsetof(virga_glass_state_gpu, seed_groups)
 #define AWAKE     offsetof(virga_glass_state_gpu, awake_groups)
@@ -357,10 +358,9 @@ static uint32_t groups_of(uint64_t invocations)
 static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.motion");
-    const uint32_t groups = glass->def.max_drops / VIRGA_GLASS_GROUP;
-    virga_dispatch_and_barrier(glass->context, cmd, glass->census_find, groups);
+    over(glass, cmd, glass->census_find, CENSUS);
     virga_dispatch_and_barrier(glass->context, cmd, glass->census_scan, 1);
-    virga_dispatch_and_barrier(glass->context, cmd, glass->census_list, groups);
+    over(glass, cmd, glass->census_list, CENSUS);
     over(glass, cmd, glass->move, ALIVE);
     virga_dispatch_and_barrier(glass->context, cmd, glass->awake_scan, 1);
     over(glass, cmd, glass->awake_list, ALIVE);

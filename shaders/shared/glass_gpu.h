@@ -158,6 +158,8 @@ struct virga_glass_state_gpu {
     uint shown_groups[3];  /* of a dispatch over them */
     uint film_blocks;      /* blocks listed as they may have film */
     uint measure_groups[3]; /* of the pass that measures: over these, and over all that holds drops */
+    uint census_groups[3]; /* of the passes that list places: up to the last one in use as a tick begins */
+    uint free_listed;      /* places in the list after those in use; the free ones beyond follow in order */
 };
 
 /* Water that wants a place at the tick's end: first the tick's arrivals, then one for each awake
