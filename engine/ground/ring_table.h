@@ -59,8 +59,8 @@ void ring_table_fill(float *slope, double blur_m);
  * (65504): infinite. */
 uint16_t ring_half(float number);
 
-/* The table read as shaders/ground/ring.frag does, before it softens the ends: layer ring_layer(h), linear in
- * r / ring_reach(t) and in t. 0 outside. h, r in m, t in s, none negative. */
+/* The table read as shaders/ground/ring.frag does, before both ends of a ring's life are softened: layer ring_layer(h),
+ * linear in r / ring_reach(t) and in t. 0 outside. h, r in m, t in s, none negative. */
 double ring_table_slope(const float *slope, double h, double r, double t);
 
 /* Seconds by which the variance of slope at t = 0 is to be multiplied for what a steady rain of one such crater a

@@ -8,7 +8,7 @@
 #include "gpu/vectors.glsl"
 
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
-// Radii of the table to a metre; how far between two of its times; crater (cm), less where waves end
+// Radii of the table to a metre; how far between two of its times; crater (cm), less as it opens and where waves end
 layout(location = 1) flat out vec3 moment;
 layout(location = 2) flat out vec2 row; // of the table: its time, as a share of all, and layer
 
@@ -35,8 +35,11 @@ void main()
     const vec2 at =
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     const float time = clamp(age / VIRGA_RING_TIME_S, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
+    // The table begins with the crater, which its drop opens as the crown around it rises: one that were there at once
+    // would pop up in pictures that are a few milliseconds apart.
     const float ends = 1.0 - smoothstep(0.7, 1.0, age / VIRGA_RING_TIME_S);
-    moment = vec3(float(VIRGA_RING_RADII - 1) / radius, fract(time), 100.0 * ring.crater_m * ends);
+    const float there = smoothstep(0.0, VIRGA_RING_OPENS_S, age) * ends;
+    moment = vec3(float(VIRGA_RING_RADII - 1) / radius, fract(time), 100.0 * ring.crater_m * there);
     row = vec2((floor(time) + 0.5) / float(VIRGA_RING_TIMES), float(layer_of(ring.depth_m)));
     const bool lives = ring.crater_m > 0.0 && age > 0.0 && age < VIRGA_RING_TIME_S;
     gl_Position = lives ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : DRAWN_NOWHERE;

@@ -20,6 +20,7 @@
 #define VIRGA_RING_DEPTH_LIST 0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05 /* m */
 #define VIRGA_RING_TIMES    200
 #define VIRGA_RING_TIME_S   0.5   /* a ring is forgotten then: others have run over it */
+#define VIRGA_RING_OPENS_S  0.005 /* in which its crater opens */
 #define VIRGA_RING_RADII    256   /* from 0 to how far the waves have come: 6 a wave where one is 2 % of the highest */
 #define VIRGA_RING_START_M  0.02  /* that is START_M + FRONT_M_S t: five crater radii, and the group of the shortest */
 #define VIRGA_RING_FRONT_M_S 0.45
