@@ -15,6 +15,7 @@ layout(location = 0) out vec4 radiance;
 
 #define THROWN 0.3 // share of the light beside it that a ray shows which is thrown back at all
 #define FILM_TURN 0.15 // rad: how much a film on what is not glass turns from place to place
+#define LENS vec2(30.0, 100.0) // 1/m: water less curved than the one is no lens, more than the other is: a drop is
 #define UNDER  0.5   // of the light under a drop, at the middle: what its focus takes away
 #define BESIDE 0.7   // of that beside it, at the rim
 #define BEHIND 0.25 // share of the environment that rays meet which are thrown back into the room that the pane closes
@@ -81,21 +82,21 @@ float focus_beside(vec2 slope, float density, vec3 way)
                      (1.697653 * far_side * far_side * far_side * far_side + min(x, 0.0));
 }
 
-vec3 shown(Path path, vec3 d, float height)
+vec3 shown(Path path, vec3 d, Water water)
 {
     const vec3 flat_normal = cross(along_u, along_v);
     const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
     // On what is not glass a film follows the bumps beneath, which the map does not have: it mirrors a lamp as widely,
     // or its trails would be white wires. Drops and beads are round, whatever they lie on.
-    const float film = opaque ? 1.0 - smoothstep(1.5e-5, 6e-5, height) : 0.0;
+    const float film = opaque ? 1.0 - smoothstep(1.5e-5, 6e-5, water.height) : 0.0;
     const float width = max(0.5 * path.pixels * gain_angle.y, max(FILM_TURN * film, 0.02));
     const bool outside = opaque || SIDE == VIRGA_GLASS_DRAW_BEFORE ||
                          (SIDE != VIRGA_GLASS_DRAW_BEHIND && dot(d, flat_normal) < 0.0);
     vec3 through = seen(path.ahead, path.pixel, path.out_of, path.pixels) * mix(1.0, THROWN, path.lost);
     if (opaque)
         through *= mix(focus_under(path.normal, flat_normal, light_way(flat_normal)), 1.0, film);
-    else if (HAS_LAMPS)
-        through += lamps_along(path.out_of, width) * (1.0 - path.lost);
+    else if (HAS_LAMPS) // a sheet shows the lamp where and as the picture has it, and would glow all around it
+        through += lamps_along(path.out_of, width) * ((1.0 - path.lost) * smoothstep(LENS.x, LENS.y, water.bend));
     // The room is dim and its reflection faint: without the finer part of its light.
     vec3 mirrored = environment(path.mirrored, outside ? vec2(1.0) : vec2(1.0, 0.0)) * (outside ? 1.0 : BEHIND);
     if (HAS_LAMPS && outside)
@@ -125,7 +126,7 @@ void main()
 #else
     const Path path = path_through(d, water, pixel_m, SIDE == VIRGA_GLASS_DRAW_OPAQUE);
 #endif
-    const vec3 light = shown(path, d, water.height);
+    const vec3 light = shown(path, d, water);
     radiance = vec4(water.cover * light + water.mist * mist_light, water.cover + water.mist);
     if (opaque) {
         const float focus = focus_beside(water.slope, water.density, light_way(cross(along_u, along_v)));

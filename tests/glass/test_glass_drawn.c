@@ -152,6 +152,34 @@ static void a_film_on_metal_mirrors_a_lamp_widely(void **state)
     shot_close(&s);
 }
 
+/* A lamp before the pane is in the host's picture, where it is. A drop is a lens and shows it a second time; a sheet of
+ * film lets it through, and has nothing to add: spread over a disc of 0.02 rad it would glow far around the lamp. */
+static void only_lenses_show_a_lamp_again(void **state)
+{
+    (void)state;
+    shot s;
+    open_before_black(&s);
+    shot_face(&s, -1, 30);
+    const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m, away = 5;
+    s.settings.lighting.light_count = 1;
+    s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
+    double most[2] = {0};
+    for (int drop = 0; drop < 2; drop++) {
+        if (drop) {
+            shot_forget(&s);
+            shot_drop(&s, u, v, shot_water(&s, 3e-3));
+        } else
+            put_film(&s, 80); /* 20 um */
+        const float *pixels = shot_draw(&s, false);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            most[drop] = fmax(most[drop], (double)pixels[4 * i]);
+    }
+    print_message("%g seen through a film, %g through a drop\n", most[0], most[1]);
+    assert_float_equal(most[0], 0, 1e-3);
+    REQUIRE(most[1] > 1);
+    shot_close(&s);
+}
+
 static double mirrored(double x)
 {
     return 1 - fabs(1 - (x - 2 * floor(x / 2)));
@@ -377,6 +405,7 @@ int main(void)
         cmocka_unit_test(a_flat_film_does_not_bend),
         cmocka_unit_test(water_reflects_by_fresnel),
         cmocka_unit_test(a_film_on_metal_mirrors_a_lamp_widely),
+        cmocka_unit_test(only_lenses_show_a_lamp_again),
         cmocka_unit_test(a_drop_on_metal_has_a_shadow_and_a_focus_as_bright),
         cmocka_unit_test(the_picture_is_looked_up_where_the_vectors_say),
         cmocka_unit_test(the_scene_hides_what_is_behind_it),
