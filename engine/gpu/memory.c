@@ -8,7 +8,7 @@
 
 #define PAGE_BYTES  ((VkDeviceSize)32 << 20) /* requests above half of it get a page of their own size */
 #define PAGE_ROUND  ((VkDeviceSize)65536)
-#define PAGE_BUDGET 64 /* pages that a budget should hold at least, so that little of it lies in pages unused */
+#define PAGE_BUDGET 256 /* pages that a budget should hold at least, so that little of it lies in pages unused */
 #define MAX_RANGES \
     256 /* free ranges a page remembers; beyond, a released range is lost to it
                                              * until the page is empty */

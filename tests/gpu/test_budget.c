@@ -90,37 +90,62 @@ static void rain_over_the_budget_is_smaller_and_falls(void **state)
     virga_context_destroy(&context);
 }
 
+static virga_scene_def scene_def_of_all(const virga_glass_def *pane)
+{
+    virga_scene_def def = virga_default_scene_def();
+    def.rain.max_drops = 32768;
+    def.ground.cells = 512;
+    def.with_ground = def.with_splash = true;
+    def.panes = pane;
+    def.pane_count = 1;
+    return def;
+}
+
+/* A scene in a context with that budget, of which nothing is left over. */
+static virga_result make_scene(gpu_fixture *f, const virga_scene_def *scene_def, VkDeviceSize budget)
+{
+    virga_context_def def = gpu_context_def(f);
+    virga_context *context = NULL;
+    virga_scene *scene = NULL;
+    def.memory_budget = budget;
+    def.pipelines = VIRGA_PIPELINES_IN_STEPS; /* none of which are built */
+    watch.most_bytes = 0;
+    REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
+    const virga_result result = virga_scene_create(context, scene_def, &scene);
+    virga_scene_destroy(&scene);
+    virga_context_destroy(&context);
+    assert_true(watch.most_bytes <= budget);
+    assert_int_equal(watch_sum(watch.live), 0);
+    return result;
+}
+
+/* A budget of what a scene says that it takes is enough for all of it, though pages are larger than what is in them. */
+static void estimate_of_a_scene_is_enough(void **state)
+{
+    const virga_glass_def pane = virga_default_glass_def();
+    for (int parts = 0; parts < 8; parts++) {
+        virga_scene_def def = scene_def_of_all(&pane);
+        def.with_ground = parts & 1;
+        def.with_splash = (parts & 3) == 3;
+        def.pane_count = parts >> 2;
+        assert_int_equal(make_scene(*state, &def, virga_scene_estimate(&def)), VIRGA_OK);
+    }
+}
+
 /* Each effect of a scene gives way for those that follow only as far as it must; a scene in any budget that holds the
  * smallest of all works, and none is passed. */
 static void scene_fits_into_any_budget(void **state)
 {
-    gpu_fixture *f = *state;
-    virga_glass_def pane = virga_default_glass_def();
-    virga_scene_def scene_def = virga_default_scene_def();
-    scene_def.rain.max_drops = 32768;
-    scene_def.ground.cells = 512;
-    scene_def.with_ground = scene_def.with_splash = true;
-    scene_def.panes = &pane;
-    scene_def.pane_count = 1;
-    const VkDeviceSize whole = virga_scene_estimate(&scene_def);
+    const virga_glass_def pane = virga_default_glass_def();
+    const virga_scene_def def = scene_def_of_all(&pane);
+    const VkDeviceSize whole = virga_scene_estimate(&def);
     bool refused = false, smaller = false, made = false;
-    for (VkDeviceSize budget = whole / 64; budget < 2 * whole; budget *= 2) {
-        virga_context_def def = gpu_context_def(f);
-        virga_context *context = NULL;
-        virga_scene *scene = NULL;
-        def.memory_budget = budget;
-        def.pipelines = VIRGA_PIPELINES_IN_STEPS; /* none of which are built */
-        watch.most_bytes = 0;
-        REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
-        const virga_result result = virga_scene_create(context, &scene_def, &scene);
+    for (VkDeviceSize budget = whole / 64; budget <= 2 * whole; budget *= 2) {
+        const virga_result result = make_scene(*state, &def, budget);
         assert_true(result == VIRGA_OK || result == VIRGA_DEGRADED || result == VIRGA_ERROR_DEVICE_MEMORY);
-        assert_true(watch.most_bytes <= budget);
         refused = refused || result < 0;
         smaller = smaller || result == VIRGA_DEGRADED;
         made = made || result == VIRGA_OK;
-        virga_scene_destroy(&scene);
-        virga_context_destroy(&context);
-        assert_int_equal(watch_sum(watch.live), 0);
     }
     assert_true(refused && smaller && made);
 }
@@ -131,6 +156,7 @@ int main(void)
         gpu_test(budget_is_never_passed),
         gpu_test(budget_is_for_what_is_used),
         gpu_test(rain_over_the_budget_is_smaller_and_falls),
+        gpu_test(estimate_of_a_scene_is_enough),
         gpu_test(scene_fits_into_any_budget),
     };
     return cmocka_run_group_tests_name("budget", tests, NULL, NULL);

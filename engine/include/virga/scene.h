@@ -37,8 +37,9 @@ typedef struct virga_scene_def {
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
 
-/* Device memory in bytes that virga_scene_create will take at most: the sum of its effects' estimates. 0 for a
- * definition that it would refuse. Thread-safety: any thread. */
+/* Device memory in bytes that virga_scene_create will use at most, with eight frames in flight: the sum of its effects'
+ * estimates. As a memory_budget it is enough for all of them with the default of three. 0 for a definition that it
+ * would refuse. Thread-safety: any thread. */
 VIRGA_API VkDeviceSize virga_scene_estimate(const virga_scene_def *def);
 
 /* Creates all effects of the definition: rain, ground, splash, panes. VIRGA_DEGRADED where the context's memory_budget
