@@ -8,6 +8,7 @@
 
 #define CM_DAY (10.0f / 24) /* mm/h */
 
+/* clang-format off */
 static const virga_ground_material table[] = {
     /*                            capacity retention infiltration   drying manning bumps  width drain */
     [VIRGA_MATERIAL_DEFAULT] =  {0.25f,   0.20f,    0.05f,          1.0f,  0.013f, 1.5f,  2.0f, false},
@@ -28,6 +29,7 @@ static const virga_ground_material table[] = {
     [VIRGA_MATERIAL_TILE] =     {0.02f,   0.03f,    0.00f,          1.2f,  0.011f, 0.4f,  1.0f, false},
     [VIRGA_MATERIAL_DRAIN] =    {0.00f,   0.00f,    0.00f,          1.0f,  0.011f, 0.0f,  1.0f, true},
 };
+/* clang-format on */
 
 void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATERIALS])
 {
@@ -45,8 +47,8 @@ virga_result ground_check_settings(const virga_log *log, virga_ground_settings *
     bool changed = false;
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
         virga_ground_material *m = &settings->materials[i];
-        float *const values[7] = {&m->capacity_mm, &m->retention_mm, &m->infiltration_mm_h, &m->drying,
-                                  &m->manning_n,   &m->bumps_mm,     &m->bump_m};
+        float *const values[7] = {&m->capacity_mm, &m->retention_mm, &m->infiltration_mm_h, &m->drying, &m->manning_n,
+                                  &m->bumps_mm,    &m->bump_m};
         for (int j = 0; j < 7; j++)
             if (virga_settings_finite(log, "ground_settings.materials", values[j], 1))
                 return VIRGA_ERROR_INVALID;

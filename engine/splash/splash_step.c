@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ANCHOR_M   64.0 /* anchors lie on multiples of it: floats around them are exact to some micrometres */
+#define ANCHOR_M 64.0 /* anchors lie on multiples of it: floats around them are exact to some micrometres */
 
 static uint32_t ring_bytes(size_t size)
 {
@@ -221,8 +221,9 @@ static void first_contents(virga_splash *splash, VkCommandBuffer cmd)
     virga_image_barrier(context, cmd, splash->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
     virga_image_barrier(context, cmd, splash->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
     write_indices(splash, cmd);
-    virga_buffer *const zero[] = {splash->state, splash->splashes, splash->droplet_buffers[0],
-                                  splash->droplet_buffers[1], splash->marks, splash->returns};
+    virga_buffer *const zero[] = {
+        splash->state, splash->splashes, splash->droplet_buffers[0], splash->droplet_buffers[1],
+        splash->marks, splash->returns};
     for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
         context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,

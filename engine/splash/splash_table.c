@@ -13,7 +13,8 @@
 
 /* ---- rows by state */
 
-#define LEAST_MM 0.8f /* smaller drops hardly splash: between 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
+#define LEAST_MM \
+    0.8f /* smaller drops hardly splash: between 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
                        * where Bai, Rusche and Gosman's droplets begin on a wet wall */
 
 static const virga_splash_row none = {.model = VIRGA_SPLASH_NONE};
@@ -60,8 +61,8 @@ static const virga_splash_row puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
 /* ---- materials: how much of asphalt's splash each makes */
 
 typedef struct splash_nature {
-    float count, speed, angle;   /* times those of asphalt */
-    float wet_depth_mm;          /* of film that a wet surface needs */
+    float count, speed, angle; /* times those of asphalt */
+    float wet_depth_mm;        /* of film that a wet surface needs */
     bool dry_disk;
 } splash_nature;
 
@@ -72,14 +73,22 @@ static const splash_nature soft = {0.5f, 0.8f, 1, 0, false};
 static const splash_nature yielding = {0.4f, 0.5f, 1, 0.5f, false};
 
 static const splash_nature *const natures[] = {
-    [VIRGA_MATERIAL_DEFAULT] = &hard_smooth, [VIRGA_MATERIAL_ASPHALT] = &hard_rough,
-    [VIRGA_MATERIAL_CONCRETE] = &hard_smooth, [VIRGA_MATERIAL_STONE] = &hard_rough,
-    [VIRGA_MATERIAL_BRICK] = &hard_smooth,   [VIRGA_MATERIAL_GRASS] = &yielding,
-    [VIRGA_MATERIAL_SAND] = &soft,           [VIRGA_MATERIAL_SOIL] = &soft,
-    [VIRGA_MATERIAL_WOOD] = &hard_smooth,    [VIRGA_MATERIAL_STEEL] = &sealed,
-    [VIRGA_MATERIAL_GLASS] = &sealed,        [VIRGA_MATERIAL_WATER] = &sealed,
-    [VIRGA_MATERIAL_LEAVES] = &yielding,     [VIRGA_MATERIAL_CLOTH] = &yielding,
-    [VIRGA_MATERIAL_PLASTIC] = &sealed,      [VIRGA_MATERIAL_TILE] = &sealed,
+    [VIRGA_MATERIAL_DEFAULT] = &hard_smooth,
+    [VIRGA_MATERIAL_ASPHALT] = &hard_rough,
+    [VIRGA_MATERIAL_CONCRETE] = &hard_smooth,
+    [VIRGA_MATERIAL_STONE] = &hard_rough,
+    [VIRGA_MATERIAL_BRICK] = &hard_smooth,
+    [VIRGA_MATERIAL_GRASS] = &yielding,
+    [VIRGA_MATERIAL_SAND] = &soft,
+    [VIRGA_MATERIAL_SOIL] = &soft,
+    [VIRGA_MATERIAL_WOOD] = &hard_smooth,
+    [VIRGA_MATERIAL_STEEL] = &sealed,
+    [VIRGA_MATERIAL_GLASS] = &sealed,
+    [VIRGA_MATERIAL_WATER] = &sealed,
+    [VIRGA_MATERIAL_LEAVES] = &yielding,
+    [VIRGA_MATERIAL_CLOTH] = &yielding,
+    [VIRGA_MATERIAL_PLASTIC] = &sealed,
+    [VIRGA_MATERIAL_TILE] = &sealed,
     [VIRGA_MATERIAL_DRAIN] = &hard_rough,
 };
 

@@ -181,10 +181,15 @@ static void rotation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(goes_through_keys), cmocka_unit_test(speed_is_continuous),
-        cmocka_unit_test(two_keys_are_a_line), cmocka_unit_test(cut_holds_and_jumps),
-        cmocka_unit_test(bad_paths), cmocka_unit_test(projection), cmocka_unit_test(jitter_is_balanced),
-        cmocka_unit_test(irradiance), cmocka_unit_test(rotation),
+        cmocka_unit_test(goes_through_keys),
+        cmocka_unit_test(speed_is_continuous),
+        cmocka_unit_test(two_keys_are_a_line),
+        cmocka_unit_test(cut_holds_and_jumps),
+        cmocka_unit_test(bad_paths),
+        cmocka_unit_test(projection),
+        cmocka_unit_test(jitter_is_balanced),
+        cmocka_unit_test(irradiance),
+        cmocka_unit_test(rotation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,12 +22,10 @@ bool host_camera_path_check(const host_camera_path *path, char *error, size_t er
     if (!(path->fov_deg > 0.0 && path->fov_deg < 180.0))
         return host_fail(error, error_size, "camera: fov_deg %g is not between 0 and 180", path->fov_deg);
     if (!(path->near_m > 0.0 && path->near_m < path->far_m && isfinite(path->far_m)))
-        return host_fail(error, error_size, "camera: expected 0 < near_m (%g) < far_m (%g)", path->near_m,
-                         path->far_m);
+        return host_fail(error, error_size, "camera: expected 0 < near_m (%g) < far_m (%g)", path->near_m, path->far_m);
     for (uint32_t i = 0; i < path->count; i++) {
         const host_camera_key *key = &path->keys[i];
-        if (!isfinite(key->time_s) || !isfinite(key->roll_deg) || !finite3(key->position_m) ||
-            !finite3(key->look_at_m))
+        if (!isfinite(key->time_s) || !isfinite(key->roll_deg) || !finite3(key->position_m) || !finite3(key->look_at_m))
             return host_fail(error, error_size, "camera: key %u has a value that is not finite", i);
         if (i > 0 && !(key->time_s > path->keys[i - 1].time_s))
             return host_fail(error, error_size, "camera: time of key %u (%g s) does not rise", i, key->time_s);

@@ -82,8 +82,7 @@ static const char *missing_format(VkPhysicalDevice physical)
         {VK_FORMAT_R32G32B32A32_SFLOAT,
          VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
          "blending into R32G32B32A32_SFLOAT is not supported"},
-        {VK_FORMAT_D32_SFLOAT,
-         VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
+        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
          "D32_SFLOAT cannot be drawn to and sampled"},
     };
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
@@ -124,8 +123,7 @@ static void describe(VkPhysicalDevice physical, host_device_info *info)
     snprintf(info->driver, sizeof info->driver, "unknown");
     if (properties.apiVersion >= VK_API_VERSION_1_2) {
         VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-        VkPhysicalDeviceProperties2 both = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                            .pNext = &driver};
+        VkPhysicalDeviceProperties2 both = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
         vkGetPhysicalDeviceProperties2(physical, &both);
         snprintf(info->driver, sizeof info->driver, "%s, %s", driver.driverName, driver.driverInfo);
     }
@@ -189,8 +187,8 @@ static bool no_such_number(const host_device_info *infos, uint32_t count, const 
     return host_fail(error, error_size, "no device %s: there %s %s", wanted, count == 1 ? "is only" : "are", list);
 }
 
-static bool pick_number(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index,
-                        char *error, size_t error_size)
+static bool pick_number(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index, char *error,
+                        size_t error_size)
 {
     unsigned long number = strtoul(wanted, NULL, 10);
     if (number >= count)

@@ -111,8 +111,8 @@ static uint32_t add_indices(host_mesh_build *build, const struct aiMesh *mesh, b
 }
 
 /* Normals that a file leaves out or ruins become the area-weighted mean of the triangles around; else up. */
-static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_t vertex_count,
-                           const uint32_t *indices, uint32_t index_count)
+static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_t vertex_count, const uint32_t *indices,
+                           uint32_t index_count)
 {
     uint32_t broken = 0;
     for (uint32_t i = first_vertex; i < first_vertex + vertex_count; i++) {

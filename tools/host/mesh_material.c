@@ -207,7 +207,10 @@ bool host_mesh_build_materials(host_mesh_build *build)
         read_material(build, build->scene->mMaterials[i], &mesh->materials[i]);
     if (count == 0) {
         mesh->materials[0] = (host_material){
-            .name = "default", .base_color = {0.8f, 0.8f, 0.8f, 1.0f}, .roughness = 0.9f, .base_texture = -1,
+            .name = "default",
+            .base_color = {0.8f, 0.8f, 0.8f, 1.0f},
+            .roughness = 0.9f,
+            .base_texture = -1,
             .emissive_texture = -1,
         };
         count = 1;

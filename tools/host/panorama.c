@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979f
-#define HALF_MAX 65504.0f
+#define PI           3.14159265358979f
+#define HALF_MAX     65504.0f
 #define BLUR_SAMPLES 192 /* fewer show as speckle on smooth metal */
 
 bool panorama_alloc(panorama *out, uint32_t width, uint32_t height)
@@ -95,8 +95,8 @@ static void sample_box(const panorama *p, float x0, float y0, float x1, float y1
     float sum[4] = {0}, weight = 0.0f;
     for (int64_t y = (int64_t)y0; (float)y < y1; y++)
         for (int64_t x = (int64_t)x0; (float)x < x1; x++) {
-            float w = (fminf((float)x + 1.0f, x1) - fmaxf((float)x, x0)) *
-                      (fminf((float)y + 1.0f, y1) - fmaxf((float)y, y0));
+            float w =
+                (fminf((float)x + 1.0f, x1) - fmaxf((float)x, x0)) * (fminf((float)y + 1.0f, y1) - fmaxf((float)y, y0));
             const float *t = texel(p, x, y);
             for (int c = 0; c < 4; c++)
                 sum[c] += w * t[c];
@@ -178,9 +178,15 @@ void panorama_basis(const float d[3], float basis[9])
 {
     float x = d[0], y = d[1], z = d[2];
     const float all[9] = {
-        0.28209479f,           0.48860251f * y,     0.48860251f * z,
-        0.48860251f * x,       1.09254843f * x * y, 1.09254843f * y * z,
-        0.31539157f * (3.0f * z * z - 1.0f), 1.09254843f * x * z, 0.54627422f * (x * x - y * y),
+        0.28209479f,
+        0.48860251f * y,
+        0.48860251f * z,
+        0.48860251f * x,
+        1.09254843f * x * y,
+        1.09254843f * y * z,
+        0.31539157f * (3.0f * z * z - 1.0f),
+        1.09254843f * x * z,
+        0.54627422f * (x * x - y * y),
     };
     memcpy(basis, all, sizeof all);
 }

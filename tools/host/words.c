@@ -17,16 +17,15 @@ static const struct {
     const char *word;
     uint32_t material;
 } words[] = {
-    {"asphalt", 1},  {"tarmac", 1},   {"grass", 5},    {"lawn", 5},      {"sand", 6},     {"gravel", 6},
-    {"soil", 7},     {"dirt", 7},     {"earth", 7},    {"mud", 7},       {"cobble", 3},   {"stone", 3},
-    {"rock", 3},     {"granite", 3},  {"brick", 4},    {"window", 10},   {"glass", 10},   {"water", 11},
-    {"puddle", 11},  {"leaf", 12},    {"leaves", 12},  {"foliage", 12},  {"tree", 12},    {"arbor", 12},
-    {"bush", 12},    {"cloth", 13},   {"fabric", 13},  {"awning", 13},   {"canvas", 13},  {"plastic", 14},
-    {"rubber", 14},  {"tire", 14},    {"wood", 8},     {"bark", 8},      {"plank", 8},    {"metal", 9},
-    {"steel", 9},    {"iron", 9},     {"lamp", 9},     {"truck", 9},     {"pylon", 9},    {"concrete", 2},
-    {"pavement", 2}, {"sidewalk", 2}, {"curb", 2},     {"kerb", 2},      {"plaster", 2},  {"wall", 2},
-    {"barr", 2},     {"building", 2}, {"house", 2},    {"roof", 2},      {"bridge", 2},   {"road", 1},
-    {"street", 1},   {"tile", 15},    {"gully", 16},    {"drain", 16},
+    {"asphalt", 1},  {"tarmac", 1},   {"grass", 5},   {"lawn", 5},   {"sand", 6},    {"gravel", 6},  {"soil", 7},
+    {"dirt", 7},     {"earth", 7},    {"mud", 7},     {"cobble", 3}, {"stone", 3},   {"rock", 3},    {"granite", 3},
+    {"brick", 4},    {"window", 10},  {"glass", 10},  {"water", 11}, {"puddle", 11}, {"leaf", 12},   {"leaves", 12},
+    {"foliage", 12}, {"tree", 12},    {"arbor", 12},  {"bush", 12},  {"cloth", 13},  {"fabric", 13}, {"awning", 13},
+    {"canvas", 13},  {"plastic", 14}, {"rubber", 14}, {"tire", 14},  {"wood", 8},    {"bark", 8},    {"plank", 8},
+    {"metal", 9},    {"steel", 9},    {"iron", 9},    {"lamp", 9},   {"truck", 9},   {"pylon", 9},   {"concrete", 2},
+    {"pavement", 2}, {"sidewalk", 2}, {"curb", 2},    {"kerb", 2},   {"plaster", 2}, {"wall", 2},    {"barr", 2},
+    {"building", 2}, {"house", 2},    {"roof", 2},    {"bridge", 2}, {"road", 1},    {"street", 1},  {"tile", 15},
+    {"gully", 16},   {"drain", 16},
 };
 
 static bool contains(const char *text, const char *word)
