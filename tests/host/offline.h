@@ -1,4 +1,4 @@
-/* offline.h - the picture that `virga render` draws of world.h, to compare hosts with: as tools/virga/shot_draw.c does,
+/* offline.h - the picture that `virga render` draws of world.h, to compare hosts with: as tools/virga/shot/draw.c does,
  * layers of floats over a plate, each sampled against the plate's depth, panes over a picture of all that is behind
  * them. A picture is an average over the jitters that a host's own samples have. */
 #ifndef VIRGA_TESTS_OFFLINE_H

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "spread.h"
+#include "bench/spread.h"
 
 #define FRAMES 2000
 #define RUNS   5

@@ -1,5 +1,5 @@
 /* main.c - the program: finds the command and hands over. */
-#include "commands.h"
+#include "commands/commands.h"
 #include "options.h"
 #include "progress.h"
 #include "suggest.h"

@@ -1,16 +1,16 @@
-/* view.h - a scene in a window, played with: what the files of `virga view` share.
+/* view.h - a scene in a window, played with: what the files of `virga view` share. commands/view.c opens it and runs
+ * the loop; here are:
  *
- *   cmd_view.c       the command: options, opening, the loop
- *   view_frame.c     one frame: time, picture, panel, screenshots
- *   view_actions.c   what keys, buttons and scripts do
- *   view_start.c     starting the rain anew
- *   view_camera.c    the camera that flies
- *   view_script.c    lines that drive it
- *   view_panel.cpp   the panel; C++ as Dear ImGui is, with its parts in view_panel_*.cpp
- *   view_picture.c   what is shown beside it
- *   view_modes.c     the list of what can be shown
- *   view_presets.c   the list of presets
- *   view_window.c    window and swapchain
+ *   frame.c     one frame: time, picture, panel, screenshots
+ *   actions.c   what keys, buttons and scripts do
+ *   start.c     starting the rain anew
+ *   camera.c    the camera that flies
+ *   script.c    lines that drive it
+ *   panel.cpp   the panel; C++ as Dear ImGui is, with its parts in panel_*.cpp
+ *   picture.c   what is shown beside it
+ *   modes.c     the list of what can be shown
+ *   presets.c   the list of presets
+ *   window.c    window and swapchain
  */
 #ifndef VIRGA_VIEW_H
 #define VIRGA_VIEW_H
@@ -19,12 +19,12 @@
 extern "C" {
 #endif
 
-#include "../shot.h"
 #include "scene_lists.h"
 #include "scene_settings.h"
-#include "view_picture.h"
-#include "view_presets.h"
-#include "view_window.h"
+#include "shot/shot.h"
+#include "view/picture.h"
+#include "view/presets.h"
+#include "view/window.h"
 
 #define VIEW_HISTORY    180 /* frames that graphs go back */
 #define VIEW_MOST_TIMES 64
@@ -114,7 +114,7 @@ typedef struct viewer {
     bool failed;
 } viewer;
 
-/* ---- view_actions.c: each says what it did, or why not, in v->message; false where it could not */
+/* ---- actions.c: each says what it did, or why not, in v->message; false where it could not */
 
 void view_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool view_assign(viewer *v, const char *assignment);
@@ -146,7 +146,7 @@ const char *view_key_help(uint32_t line);
 /* The list of settings anew, after lists of the scene have changed. */
 bool view_list_settings(viewer *v);
 
-/* ---- view_start.c */
+/* ---- start.c */
 
 /* Keeps what the rain has started with. False: v->error says why not. */
 bool view_remember_start(viewer *v);
@@ -155,12 +155,12 @@ bool view_remember_start(viewer *v);
  * why. False: not so either, see v->error. */
 bool view_start_again(viewer *v);
 
-/* ---- view_frame.c */
+/* ---- frame.c */
 
 /* One turn of the loop. False: v->error says why there is no going on. */
 bool view_frame(viewer *v);
 
-/* ---- view_camera.c */
+/* ---- camera.c */
 
 void view_camera_to_path(viewer *v);
 void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, double pitch_deg);
@@ -169,7 +169,7 @@ void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, do
  * goes on by `dt_s`. */
 void view_camera_move(viewer *v, double wall_s, double dt_s);
 
-/* ---- view_script.c */
+/* ---- script.c */
 
 /* Reads a script; false with one line in `error`. */
 bool view_script_load(const char *path, view_script **script, char *error, size_t error_size);
@@ -179,7 +179,7 @@ void view_script_free(view_script *script);
 bool view_script_run(viewer *v);
 void view_script_help(void);
 
-/* ---- view_panel.cpp */
+/* ---- panel.cpp */
 
 bool view_panel_open(viewer *v, char *error, size_t error_size);
 void view_panel_close(viewer *v);

@@ -1,0 +1,228 @@
+/* glass.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits
+ * and the 30 to 40 frames a second of Goto, Tanaka and Sagawa 2009 (3,000 metaballs, 1024 x 1024). */
+#include "bench/bench.h"
+#include "camera.h"
+#include "options.h"
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MOST_WARMUP 600 /* ticks in which a pane gets wet enough */
+#define AIM_WARMUP  60  /* ticks after which it has to rain harder for that */
+#define LEAST_MM_H  1.0f
+#define PAPER_LOW   30
+#define PAPER_HIGH  40
+
+enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, PASSES };
+
+static const char *const names[PASSES] = {"motion", "film",          "balls", "splat, compression, normals",
+                                          "plate",  "draw (compose)"};
+static const char *const passes[PASSES] = {NULL,          "glass.film",  "glass.balls",
+                                           "glass.splat", "glass.plate", "glass.draw"};
+
+/* Drops that show a shape at a texel of a millimetre, in the numbers of a shower of 10 mm/h (Marshall and Palmer): the
+ * paper's metaballs, without the thousands of fine ones that film and mist would take up. */
+static const double shaped_m[] = {0.0012, 0.002, 0.003, 0.004}, shaped_number[] = {1, 0.132, 0.0105, 0.0008};
+static const virga_sizes shaped = {VIRGA_SIZES_TABLE, shaped_m, shaped_number, 4};
+
+/* Panes of about a texel a pixel. `bare`: metaballs alone, as the paper has them, all with a shape, without film
+ * and mist. */
+static const struct row {
+    uint32_t balls, side;
+    float width_m;
+    bool bare;
+} rows[] = {{3000, 1024, 1, true}, {3000, 1024, 1, false}, {10000, 1024, 1, false}, {100000, 2048, 2, false}};
+
+typedef struct pane {
+    virga_glass *glass;
+    virga_glass_settings settings;
+    virga_target *layer;
+    host_target picture;
+    host_camera camera;
+    virga_glass_pose pose;
+    uint32_t tick;
+    float rate_mm_h;
+    const virga_sizes *sizes;
+    VkDeviceSize bytes;
+} pane;
+
+static bool open_pane(bench *b, const struct row *row, pane *p)
+{
+    virga_glass_def def = virga_default_glass_def();
+    virga_target_def layer = virga_default_target_def();
+    def.width_m = def.height_m = row->width_m;
+    def.max_texels = row->side;
+    def.max_drops = row->balls > 50000 ? 262144 : 32768;
+    p->tick = 1;
+    p->sizes = row->bare ? &shaped : NULL;
+    p->bytes = virga_glass_estimate(&def);
+    if (!host_target_create(&b->device, row->side, row->side, &p->picture, b->error, sizeof b->error))
+        return bench_fail(b, "picture");
+    host_target_describe_layer(&p->picture, &layer);
+    if (virga_glass_create(b->context, &def, &p->glass) < 0 || virga_target_create(b->context, &layer, &p->layer) < 0 ||
+        virga_glass_attach(p->glass, p->layer) < 0)
+        return options_complain("bench", "no pane of %u x %u texels could be made", row->side, row->side);
+    const double middle = 0.5 * (double)row->width_m, away = middle / tan(M_PI / 9);
+    const host_camera_key key = {0, {middle, middle, -away}, {middle, middle, 0}, 0, false};
+    const host_camera_path path = {&key, 1, 40, 0.01, 100};
+    host_camera_at(&path, 0, row->side, row->side, NULL, &p->camera);
+    return true;
+}
+
+/* Two in tandem, as on a car. */
+static bool set_pane(pane *p, const struct row *row, virga_glass_style style)
+{
+    p->settings = virga_default_glass_settings();
+    p->settings.style = style;
+    if (row->bare)
+        p->settings.film_um = p->settings.mist_mm = 0;
+    p->settings.wiper_count = 2;
+    for (int i = 0; i < 2; i++) {
+        virga_glass_wiper *w = &p->settings.wipers[i];
+        *w = virga_default_glass_wiper();
+        w->pivot_m[0] = (i ? 0.55f : 0.05f) * row->width_m;
+        w->pivot_m[1] = -0.05f * row->width_m;
+        w->reach_m = 0.62f * row->width_m;
+        w->blade_m = 0.55f * row->width_m;
+        w->low_deg = 5;
+        w->high_deg = 100;
+    }
+    return virga_glass_set(p->glass, &p->settings) >= 0;
+}
+
+static bool record_picture(pane *p, VkCommandBuffer cmd)
+{
+    virga_view view = virga_default_view();
+    host_camera_view(&p->camera, &p->camera, 0, &view);
+    view.color = host_target_color(&p->picture);
+    host_target_begin_plate(&p->picture, cmd);
+    host_target_end_plate(&p->picture, cmd);
+    const bool prepared = virga_glass_prepare(p->glass, cmd, &view, &p->pose, virga_glass_time(p->glass)) == VIRGA_OK;
+    host_target_begin_layer(&p->picture, cmd);
+    const bool drawn = virga_glass_draw(p->glass, cmd, p->layer) == VIRGA_OK;
+    host_target_end_layer(&p->picture, cmd);
+    return prepared && drawn;
+}
+
+static bool frame(bench *b, pane *p)
+{
+    VkCommandBuffer cmd;
+    double whole;
+    const virga_glass_step_info info = {.first_tick = p->tick++,
+                                        .ticks = 1,
+                                        .rate_mm_h = p->rate_mm_h,
+                                        .sizes = p->sizes,
+                                        .velocity_m_s = {0, 0, 20},
+                                        .air_density = 1.2f};
+    return (bench_begin(b, &cmd) && virga_glass_step(p->glass, cmd, &info) >= 0 && record_picture(p, cmd) &&
+            bench_submit(b, &whole)) ||
+           options_complain("bench", "a frame failed");
+}
+
+/* Of the newest frame. Motion is all that has another name than the picture's passes. */
+static void take_times(const bench *b, double ms[PASSES])
+{
+    virga_pass_time times[64];
+    const uint32_t count = virga_timings_get(b->context, times, 64);
+    ms[MOTION] = 0;
+    for (int j = 1; j < PASSES; j++)
+        ms[j] = bench_pass_ms(b, passes[j]);
+    for (uint32_t i = 0; i < count && i < 64; i++)
+        if (!strncmp(times[i].name, "glass.", 6))
+            ms[MOTION] += times[i].milliseconds;
+    for (int j = 1; j < PASSES; j++)
+        ms[MOTION] -= ms[j];
+}
+
+/* Rains as little as will do, so that there are not many more metaballs by the end of the timing than asked for, and
+ * that drops of all ages lie on the pane: those that have just landed have four metaballs each. */
+static bool get_wet(bench *b, pane *p, uint32_t balls, virga_glass_stats *stats)
+{
+    bool good = true;
+    p->rate_mm_h = balls > 50000 ? 100 : LEAST_MM_H;
+    for (int i = 1; good && i <= MOST_WARMUP && stats->balls < balls && !interrupt_asked(); i++) {
+        good = frame(b, p);
+        virga_glass_stats_get(p->glass, stats);
+        if (i % AIM_WARMUP == 0)
+            p->rate_mm_h = fminf(1.5f * p->rate_mm_h, 200);
+    }
+    return good;
+}
+
+static bool measure_limits(bench *b, const struct row *row, const pane *p, double *fill)
+{
+    limits *machine = NULL;
+    const bool good =
+        limits_create(&b->device, &p->picture, row->side * row->side, &machine, b->error, sizeof b->error) ||
+        bench_fail(b, "limits");
+    if (good) {
+        *fill = limits_fill_ms(&b->device, machine, &p->picture);
+        printf("  machine: copy of 16 bytes a texel %.2f ms, bare kernel over them %.2f ms, dispatch %.3f ms, fill "
+               "%.2f ms\n",
+               limits_copy_ms(&b->device, machine), limits_bare_ms(&b->device, machine),
+               limits_dispatch_ms(&b->device, machine), *fill);
+    }
+    limits_destroy(&b->device, &machine);
+    return good;
+}
+
+static bool measure_style(bench *b, const struct row *row, pane *p, virga_glass_style style, double fill)
+{
+    double times[PASSES][BENCH_RUNS], one[PASSES], sum = 0;
+    bool good = set_pane(p, row, style);
+    for (int i = -2; good && i < BENCH_RUNS; i++) {
+        good = frame(b, p);
+        take_times(b, one);
+        for (int j = 0; j < PASSES && i >= 0; j++)
+            times[j][i] = one[j];
+    }
+    if (!good)
+        return false;
+    virga_glass_stats stats;
+    virga_glass_stats_get(p->glass, &stats);
+    printf("  %s, %u metaballs at the end\n",
+           style == VIRGA_GLASS_STYLE_PAPER ? "in the paper's style" : "by Snell and Fresnel", stats.balls);
+    for (int j = 0; j < PASSES; j++) {
+        const double ms = bench_median(times[j], BENCH_RUNS);
+        sum += ms;
+        printf("    %-28s %8.2f ms  %6.1f x fill\n", names[j], ms, ms / fill);
+    }
+    printf("    all in %24s %8.2f ms  %6.1f frames a second (the paper: %d to %d)\n", "", sum, 1000 / sum, PAPER_LOW,
+           PAPER_HIGH);
+    fflush(stdout);
+    return true;
+}
+
+static bool measure(bench *b, const struct row *row)
+{
+    pane p = {0};
+    virga_glass_stats stats = {0};
+    double fill = 1;
+    bool good =
+        open_pane(b, row, &p) && set_pane(&p, row, VIRGA_GLASS_STYLE_PAPER) && get_wet(b, &p, row->balls, &stats);
+    if (good && interrupt_asked())
+        good = false;
+    if (good)
+        printf("%u metaballs%s asked for: %u, of %u drops and %u particles after %u ticks, in rain of %.1f mm/h at 20 "
+               "m/s; %u x %u picture, %.1f m pane, %.0f MiB at most\n",
+               row->balls, row->bare ? " without film and mist" : "", stats.balls, stats.drops, stats.particles,
+               p.tick - 1, (double)p.rate_mm_h, row->side, row->side, (double)row->width_m, (double)p.bytes / 1048576);
+    good = good && measure_limits(b, row, &p, &fill) && measure_style(b, row, &p, VIRGA_GLASS_STYLE_PAPER, fill) &&
+           (row->bare || measure_style(b, row, &p, VIRGA_GLASS_STYLE_PHYSICAL, fill));
+    virga_target_destroy(&p.layer);
+    virga_glass_destroy(&p.glass);
+    if (p.picture.width)
+        host_target_destroy(&b->device, &p.picture);
+    return good;
+}
+
+bool bench_glass(bench *b, uint32_t only)
+{
+    bool good = true;
+    for (size_t i = 0; good && !interrupt_asked() && i < sizeof rows / sizeof rows[0]; i++)
+        if (!only || rows[i].balls == only)
+            good = measure(b, &rows[i]);
+    return good;
+}

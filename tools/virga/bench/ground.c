@@ -1,0 +1,115 @@
+/* ground.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window. */
+#include "bench/bench.h"
+#include "options.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What every step has, and what those have besides in which the window and the map beyond it move. */
+static const char *const passes[] = {"ground.land",    "ground.flow",   "ground.ripples", "ground.map",
+                                     "ground.measure", "ground.window", "ground.far"};
+
+enum { PASSES = sizeof passes / sizeof passes[0], STEADY_PASSES = PASSES - 2 };
+
+#define SETTLE_STEPS 30 /* half a second, for rings to fill their buffer */
+#define MOVE_M       64 /* there and back, on a floor of 200 m: farther than either may be off the camera */
+
+static bool open_scene(bench *b, uint32_t cells, virga_scene **scene)
+{
+    virga_scene_def def = virga_default_scene_def();
+    def.with_ground = true;
+    def.ground.cells = cells;
+    if (virga_scene_create(b->context, &def, scene) < 0)
+        return options_complain("bench", "no ground of %u x %u cells could be made", cells, cells);
+    virga_rain_settings rain = virga_default_rain_settings();
+    virga_ground_settings ground = virga_default_ground_settings();
+    rain.rate_mm_h = 50;
+    ground.start_water_mm = 4;
+    return virga_rain_set(virga_scene_rain(*scene), &rain) == VIRGA_OK &&
+           virga_ground_set(virga_scene_ground(*scene), &ground) == VIRGA_OK;
+}
+
+static bool step(bench *b, virga_scene *scene, double camera_x_m)
+{
+    VkCommandBuffer cmd;
+    double whole;
+    const virga_scene_frame frame = {.dt_s = 1.0 / 60,
+                                     .camera_m = {camera_x_m, 1.7, 0},
+                                     .focus_m = {camera_x_m, 0, 0},
+                                     .occluders = &b->floor,
+                                     .occluder_count = 1};
+    return (bench_begin(b, &cmd) && virga_scene_record(scene, cmd, &frame) >= 0 && bench_submit(b, &whole)) ||
+           options_complain("bench", "a step failed");
+}
+
+static bool measure_limits(bench *b, uint32_t cells, double *copy, double *bare)
+{
+    limits *machine = NULL;
+    const bool good = limits_create(&b->device, &b->targets[0], cells * cells, &machine, b->error, sizeof b->error) ||
+                      bench_fail(b, "limits");
+    if (good) {
+        *copy = limits_copy_ms(&b->device, machine);
+        *bare = limits_bare_ms(&b->device, machine);
+    }
+    limits_destroy(&b->device, &machine);
+    return good;
+}
+
+static bool time_passes(bench *b, virga_scene *scene, double times[PASSES][BENCH_RUNS])
+{
+    bool good = true;
+    for (int i = -SETTLE_STEPS; good && i < BENCH_RUNS; i++) {
+        good = step(b, scene, 0);
+        for (int j = 0; j < STEADY_PASSES && good && i >= 0; j++)
+            times[j][i] = bench_pass_ms(b, passes[j]);
+    }
+    for (int i = 0; good && i < BENCH_RUNS; i++) {
+        good = step(b, scene, i % 2 ? 0 : MOVE_M);
+        for (int j = STEADY_PASSES; j < PASSES && good; j++)
+            times[j][i] = bench_pass_ms(b, passes[j]);
+    }
+    return good;
+}
+
+static void print_passes(uint32_t cells, double times[PASSES][BENCH_RUNS], double bare_ms)
+{
+    for (int j = 0; j < PASSES; j++) {
+        const double ms = bench_median(times[j], BENCH_RUNS);
+        if (j < STEADY_PASSES)
+            printf("  %-16s %8.3f ms  %6.2f x bare kernel  %7.2f ns a cell\n", passes[j], ms, ms / bare_ms,
+                   ms * 1e6 / ((double)cells * cells));
+        else
+            printf("  %-16s %8.3f ms  where the camera has gone %d m\n", passes[j], ms, MOVE_M);
+    }
+}
+
+static bool measure(bench *b, uint32_t cells)
+{
+    double times[PASSES][BENCH_RUNS], copy = 0, bare = 0;
+    virga_scene *scene = NULL;
+    bool good = open_scene(b, cells, &scene) && time_passes(b, scene, times);
+    virga_rain_stats rain = {0};
+    if (good)
+        virga_rain_stats_get(virga_scene_rain(scene), &rain);
+    virga_scene_destroy(&scene);
+    good = good && measure_limits(b, cells, &copy, &bare);
+    if (!good)
+        return false;
+    printf("%u x %u cells, %u impacts a tick\n", cells, cells, rain.impacts);
+    printf("  machine          copy of 16 bytes a cell %.3f ms, bare kernel over them %.3f ms\n", copy, bare);
+    print_passes(cells, times, bare);
+    fflush(stdout);
+    return true;
+}
+
+bool bench_ground(bench *b)
+{
+    static const uint32_t sides[] = {256, 1024, 2048};
+    bool good = true;
+    b->floor.ground = true;
+    b->floor.material = VIRGA_MATERIAL_ASPHALT;
+    for (size_t i = 0; good && !interrupt_asked() && i < sizeof sides / sizeof sides[0]; i++)
+        good = measure(b, sides[i]);
+    return good;
+}

@@ -1,0 +1,197 @@
+/* rain.c - `virga bench rain`. */
+#include "bench/bench.h"
+#include "options.h"
+#include "progress.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define OCCLUSION_TURNS 4
+
+/* How long the shutter is open: streaks are as long as drops fall in that time. */
+enum { SHUTTER_DEFAULT, SHUTTER_FILM, SHUTTERS };
+static const double film_shutter_s = 1.0 / 48; /* 24 frames a second, half of each open */
+
+typedef struct draw_result {
+    double prepare_ms, draw_ms[SHUTTERS], fill_ms;
+    uint32_t streaks[SHUTTERS];
+} draw_result;
+
+/* What one count of drops costs, in milliseconds. */
+typedef struct bench_result {
+    uint32_t slots;
+    double copy, bare, dispatch, step, impacts, occlusion, occlusion_by_turns, shutter_s[SHUTTERS];
+    draw_result draws[BENCH_SIZES];
+} bench_result;
+
+static bool set_rain(bench *b, uint32_t occlusion_turns)
+{
+    virga_rain_settings settings = virga_default_rain_settings();
+    settings.rate_mm_h = 25;
+    settings.occlusion_turns = occlusion_turns;
+    return virga_rain_set(b->rain, &settings) == VIRGA_OK;
+}
+
+static bool open_rain(bench *b, uint32_t drops)
+{
+    virga_rain_def def = virga_default_rain_def();
+    def.max_drops = drops;
+    def.max_impacts = drops > 65536 ? drops : 65536;
+    virga_target_def target = virga_default_target_def();
+    host_target_describe_layer(&b->targets[0], &target);
+    if (virga_rain_create(b->context, &def, &b->rain) || virga_target_create(b->context, &target, &b->layer) ||
+        virga_rain_attach(b->rain, b->layer))
+        return options_complain("bench", "no rain of %u drops could be made", drops);
+    return set_rain(b, 1);
+}
+
+/* One tick with occlusion, and its passes' times. */
+static bool run_step(bench *b, double *step, double *impacts, double *occlusion)
+{
+    VkCommandBuffer cmd;
+    double whole;
+    const double camera[3] = {0, 1.7, 0};
+    const virga_rain_step_info info = {.dt_s = 1.0 / 60, .camera_m = {0, 1.7, 0}};
+    if (!bench_begin(b, &cmd) || virga_rain_occlusion(b->rain, cmd, camera, &b->floor, 1) ||
+        virga_rain_step(b->rain, cmd, &info) || !bench_submit(b, &whole))
+        return options_complain("bench", "a step failed");
+    *step = bench_pass_ms(b, "rain.step");
+    *impacts = bench_pass_ms(b, "rain.impacts");
+    *occlusion = bench_pass_ms(b, "rain.occlusion");
+    return true;
+}
+
+static bool measure_step(bench *b, bench_result *result)
+{
+    double step[BENCH_RUNS], impacts[BENCH_RUNS], occlusion[BENCH_RUNS], by_turns[BENCH_RUNS], other[2];
+    for (int i = -2; i < BENCH_RUNS; i++) {
+        const int at = i < 0 ? 0 : i;
+        if (!run_step(b, &step[at], &impacts[at], &occlusion[at]))
+            return false;
+    }
+    if (!set_rain(b, OCCLUSION_TURNS))
+        return false;
+    for (int i = 0; i < BENCH_RUNS; i++)
+        if (!run_step(b, &other[0], &other[1], &by_turns[i]))
+            return false;
+    result->step = bench_median(step, BENCH_RUNS);
+    result->impacts = bench_median(impacts, BENCH_RUNS);
+    result->occlusion = bench_median(occlusion, BENCH_RUNS);
+    result->occlusion_by_turns = bench_median(by_turns, BENCH_RUNS);
+    return set_rain(b, 1);
+}
+
+/* A frame of a prepare, the clear of the picture and, where `drawn`, the draw. */
+static bool run_picture(bench *b, uint32_t size, const virga_view *view, bool drawn, double *ms)
+{
+    VkCommandBuffer cmd;
+    if (!bench_begin(b, &cmd) || virga_rain_prepare(b->rain, cmd, view, virga_rain_time(b->rain)))
+        return options_complain("bench", "a prepare failed");
+    host_target_begin_layer(&b->targets[size], cmd);
+    if (drawn && virga_rain_draw(b->rain, cmd, b->layer))
+        return options_complain("bench", "a draw failed");
+    host_target_end_layer(&b->targets[size], cmd);
+    return bench_submit(b, ms);
+}
+
+/* Drawing is timed by whole submissions, with and without the draw: timestamps inside rendering mean little on
+ * software Vulkan. */
+static bool measure_draw(bench *b, uint32_t size, const virga_view *view, double *prepare_ms, double *draw_ms,
+                         uint32_t *streaks)
+{
+    double draw[BENCH_RUNS], prepare[BENCH_RUNS], with, without;
+    for (int i = -1; i < BENCH_RUNS; i++) {
+        const int at = i < 0 ? 0 : i;
+        if (!run_picture(b, size, view, false, &without) || !run_picture(b, size, view, true, &with))
+            return false;
+        draw[at] = with - without;
+        prepare[at] = bench_pass_ms(b, "rain.prepare");
+    }
+    virga_rain_stats stats;
+    virga_rain_stats_get(b->rain, &stats);
+    *draw_ms = bench_median(draw, BENCH_RUNS);
+    *prepare_ms = bench_median(prepare, BENCH_RUNS);
+    *streaks = stats.streaks;
+    return true;
+}
+
+static bool measure_draws(bench *b, bench_result *result)
+{
+    bool good = true;
+    for (uint32_t size = 0; size < BENCH_SIZES && good; size++)
+        for (uint32_t shutter = 0; shutter < SHUTTERS && good; shutter++) {
+            draw_result *to = &result->draws[size];
+            virga_view view;
+            bench_view(&view, size);
+            view.shutter_s = shutter == SHUTTER_FILM ? film_shutter_s : virga_default_view().shutter_s;
+            result->shutter_s[shutter] = view.shutter_s;
+            good = measure_draw(b, size, &view, &to->prepare_ms, &to->draw_ms[shutter], &to->streaks[shutter]);
+        }
+    virga_rain_stats stats;
+    virga_rain_stats_get(b->rain, &stats);
+    result->slots = stats.slots;
+    return good;
+}
+
+static bool measure(bench *b, uint32_t drops, bench_result *result)
+{
+    limits *machine = NULL;
+    bool good = open_rain(b, drops) && measure_step(b, result) && measure_draws(b, result);
+    if (good && !limits_create(&b->device, &b->targets[0], result->slots, &machine, b->error, sizeof b->error))
+        good = bench_fail(b, "limits");
+    if (good) {
+        result->copy = limits_copy_ms(&b->device, machine);
+        result->bare = limits_bare_ms(&b->device, machine);
+        result->dispatch = limits_dispatch_ms(&b->device, machine);
+    }
+    limits_destroy(&b->device, &machine);
+    for (uint32_t size = 0; size < BENCH_SIZES && good; size++) {
+        good = limits_create(&b->device, &b->targets[size], 256, &machine, b->error, sizeof b->error);
+        if (good)
+            result->draws[size].fill_ms = limits_fill_ms(&b->device, machine, &b->targets[size]);
+        limits_destroy(&b->device, &machine);
+    }
+    virga_target_destroy(&b->layer);
+    virga_rain_destroy(&b->rain);
+    return good;
+}
+
+static void print_result(const bench_result *r)
+{
+    const double bytes = r->slots * 32.0;
+    printf("%u drops\n", r->slots);
+    if (r->copy > 0.002)
+        printf("  machine    copy %.3f ms (%.2f GB/s)", r->copy, bytes / (r->copy * 1e6));
+    else
+        printf("  machine    copy within noise");
+    printf("  bare kernel %.3f ms  dispatch %.4f ms\n", r->bare, r->dispatch);
+    printf("  step       %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->step, r->step / r->bare,
+           r->step * 1e6 / r->slots);
+    printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
+           r->impacts * 1e6 / r->slots);
+    printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)  %8.3f in %d turns\n", r->occlusion,
+           r->occlusion_by_turns, OCCLUSION_TURNS);
+    for (int i = 0; i < BENCH_SIZES; i++) {
+        const draw_result *d = &r->draws[i];
+        printf("  %4u x %-4u prepare %8.3f ms %6.2f ns a drop;  fill of the picture %.3f ms\n", bench_sizes[i][0],
+               bench_sizes[i][1], d->prepare_ms, d->prepare_ms * 1e6 / r->slots, d->fill_ms);
+        for (int k = 0; k < SHUTTERS; k++)
+            printf("      draw, shutter 1/%.0f s %8.3f ms, %u streaks, %.0f ns a streak\n", 1 / r->shutter_s[k],
+                   d->draw_ms[k], d->streaks[k], d->streaks[k] ? d->draw_ms[k] * 1e6 / d->streaks[k] : 0);
+    }
+    fflush(stdout);
+}
+
+bool bench_rain(bench *b, uint32_t only)
+{
+    static const uint32_t usual[] = {1000, 10000, 100000, 576000, 1000000}; /* 576,000: 25,000 of 1280 x 720 */
+    bool good = true;
+    for (size_t i = 0; good && !interrupt_asked() && i < (only ? 1 : sizeof usual / sizeof usual[0]); i++) {
+        bench_result result;
+        memset(&result, 0, sizeof result);
+        good = measure(b, only ? only : usual[i], &result);
+        if (good)
+            print_result(&result);
+    }
+    return good;
+}

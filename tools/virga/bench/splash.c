@@ -1,0 +1,207 @@
+/* splash.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by
+ * what they fall on), on from there to a million, and how far each pass is from what the machine can do.
+ *
+ * A splash is live from its impact until its last droplet is down. Live ones are rate x mean life (Little 1961): a
+ * warm-up measures the life of a row's splashes, and the rate follows from it. How many were live is counted, not taken
+ * for granted. */
+#include "bench/splash.h"
+#include "options.h"
+#include "progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_TICKS  60 /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
+#define USUAL_TICKS 30
+#define LEAST_TICKS 3
+#define ENOUGH_S    2.0
+#define PATIENCE_S  10.0
+
+const uint32_t splash_bench_counts[COUNTS] = {100, 500, 1000, 3000, 10000, 100000, 1000000};
+
+const splash_bench_row splash_bench_rows[ROWS] = {
+    {"wet", VIRGA_GROUND_WET, 0.5e-3f, {492.61, 165.84, 85.11, 30.36}},
+    {"3 mm", VIRGA_GROUND_PUDDLE_3, 4e-3f, {303.03, 81.90, 43.71, 14.96}},
+    {"5 mm", VIRGA_GROUND_PUDDLE_5, 7e-3f, {204.08, 52.00, 23.30, 9.05}},
+    {"crown-cone", VIRGA_GROUND_PUDDLE_10, 15e-3f, {534.73, 222.22, 124.38, 45.35}},
+};
+
+bool splash_bench_say(const bench *b, const char *what)
+{
+    return options_complain("bench", "splash: %s%s%s", what, b->error[0] ? ": " : "", b->error);
+}
+
+/* ---- timing */
+
+typedef struct tick_times {
+    double empty[MOST_TICKS], clear[MOST_TICKS], step[MOST_TICKS], prepare[MOST_TICKS], draw[MOST_TICKS];
+} tick_times;
+
+/* A frame with the picture cleared, with or without splashes on it. */
+static bool show(run *r, bool draw, bool count, double *ms)
+{
+    VkCommandBuffer cmd;
+    const picture *p = &r->picture;
+    if (!bench_begin(r->b, &cmd))
+        return false;
+    if (count)
+        vkCmdResetQueryPool(cmd, p->query, 0, 1);
+    if (virga_splash_prepare(r->splash, cmd, &r->view, virga_splash_time(r->splash)) != VIRGA_OK)
+        return splash_bench_say(r->b, "a prepare failed");
+    splash_bench_begin_picture(p, cmd);
+    if (count)
+        vkCmdBeginQuery(cmd, p->query, 0, 0);
+    if (draw && virga_splash_draw(r->splash, cmd, p->target) != VIRGA_OK)
+        return splash_bench_say(r->b, "a draw failed");
+    if (count)
+        vkCmdEndQuery(cmd, p->query, 0);
+    vkCmdEndRenderPass(cmd);
+    return bench_submit(r->b, ms);
+}
+
+/* Timestamps lie on software Vulkan, so passes are whole submissions, less what they share with emptier ones. */
+static bool time_tick(run *r, tick_times *t, uint32_t i)
+{
+    if (!splash_bench_time_frame(r->b, &r->picture, NOTHING, &t->empty[i]) ||
+        !splash_bench_step(r, splash_bench_next_spawns(r), &t->step[i]))
+        return false;
+    return splash_bench_time_frame(r->b, &r->picture, CLEAR, &t->clear[i]) && show(r, false, false, &t->prepare[i]) &&
+           show(r, true, false, &t->draw[i]);
+}
+
+static bool time_ticks(run *r, cell *c)
+{
+    tick_times t;
+    uint32_t n = 0;
+    const double start = progress_now();
+    while (n < MOST_TICKS && !interrupt_asked()) {
+        if (!time_tick(r, &t, n))
+            return false;
+        n++;
+        const double passed = progress_now() - start;
+        if ((n >= USUAL_TICKS && passed > ENOUGH_S) || (n >= LEAST_TICKS && passed > PATIENCE_S))
+            break;
+    }
+    const double empty = bench_median(t.empty, n), clear = bench_median(t.clear, n),
+                 prepare = bench_median(t.prepare, n);
+    c->ticks = n;
+    c->clear_ms = clear - empty;
+    c->ms[STEP] = bench_median(t.step, n) - empty;
+    c->ms[PREPARE] = prepare - clear;
+    c->ms[DRAW] = bench_median(t.draw, n) - prepare;
+    return true;
+}
+
+/* What was there at the end of the timing. */
+static bool look_around(run *r, cell *c)
+{
+    double ms;
+    if (!splash_bench_count_air(r, &c->air) || !show(r, true, true, &ms))
+        return false;
+    if (vkGetQueryPoolResults(r->b->device.device, r->picture.query, 0, 1, sizeof c->pixels, &c->pixels, 8,
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT) != VK_SUCCESS)
+        return splash_bench_say(r->b, "pixels could not be counted");
+    virga_splash_stats_get(r->splash, &c->stats);
+    c->splashes = r->next_id;
+    c->max_droplets = r->max_droplets;
+    if (!c->stats.sprites || !c->pixels)
+        return splash_bench_say(r->b, "nothing was drawn");
+    return true;
+}
+
+static bool measure_cell(run *r, const splash_life *life, cell *c)
+{
+    double ms;
+    const double rate = c->wanted / life->mean;
+    r->far_m = c->wanted > 3000 ? 60 : 10;
+    /* A view has room for as many sprites as there is for droplets, each of which may have a pile too, and for as many
+     * pyramids of crowns; a fifth of that is to spare. */
+    const double droplets = 1.2 * fmax(2 * life->droplets, PYRAMIDS * life->crown) * rate;
+    bool good = splash_bench_open_splash(r, 1.5 * c->wanted, droplets, rate);
+    /* Pipelines are compiled while little is there. */
+    good = good && splash_bench_step(r, splash_bench_next_spawns(r), &ms) && show(r, true, true, &ms);
+    for (uint32_t i = 0; good && i < life->settled && !interrupt_asked(); i++)
+        good = splash_bench_step(r, splash_bench_next_spawns(r), &ms);
+    good = good && time_ticks(r, c) && look_around(r, c);
+    splash_bench_close_splash(r);
+    return good;
+}
+
+/* ---- all of it */
+
+static bool measure_table(run *r, const uint32_t *counts, uint32_t count)
+{
+    splash_life lives[ROWS];
+    cell cells[ROWS];
+    cell_limits limits[ROWS]; /* of the last count */
+    r->settings = virga_default_splash_settings();
+    r->settings.mode = r->choice->mode;
+    r->settings.style = r->choice->style;
+    splash_bench_print_head(r->choice);
+    for (r->row = 0; r->row < ROWS; r->row++) {
+        r->far_m = 10;
+        if (!splash_bench_measure_life(r, &lives[r->row]))
+            return false;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        for (r->row = 0; r->row < ROWS; r->row++) {
+            cell *c = &cells[r->row];
+            *c = (cell){.row = r->row, .wanted = counts[i]};
+            if (!measure_cell(r, &lives[r->row], c))
+                return false;
+            if (interrupt_asked())
+                return true;
+            splash_bench_print_cell(r->choice, c);
+            if (i + 1 == count && !splash_bench_measure_limits(r, c, &limits[r->row]))
+                return false;
+        }
+    splash_bench_compare(&r->picture, cells, limits);
+    return true;
+}
+
+static bool measure_tables(bench *b, const bench_splash_choice *choice)
+{
+    static const uint32_t film_counts[] = {1000, 3000};
+    bench_splash_choice film = *choice;
+    run r = {.b = b, .choice = choice};
+    splash_bench_fill_view(&r.view);
+    bool good = splash_bench_open_picture(b, &r.picture);
+    good =
+        good && (choice->only ? measure_table(&r, &choice->only, 1) : measure_table(&r, splash_bench_counts, COUNTS));
+    if (good && choice->film_too && !interrupt_asked()) {
+        film.style = VIRGA_SPLASH_STYLE_FILM;
+        r.choice = &film;
+        good = measure_table(&r, film_counts, 2);
+    }
+    splash_bench_close_picture(b, &r.picture);
+    return good;
+}
+
+/* Fences time whole submissions here. Timestamps would be in them: on software Vulkan a pair costs as much as a pass of
+ * a hundred splashes. */
+static bool open_untimed(bench *b, virga_context **context)
+{
+    virga_context_def def = virga_default_context_def();
+    def.instance = b->instance.instance;
+    def.physical_device = b->device.physical;
+    def.device = b->device.device;
+    def.queue_family = b->device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = b->device.wide_lines;
+    def.timings = false;
+    return virga_context_create(&def, context) == VIRGA_OK || splash_bench_say(b, "the device was refused");
+}
+
+bool bench_splash(bench *b, const bench_splash_choice *choice)
+{
+    virga_context *timed = b->context, *untimed = NULL;
+    if (!open_untimed(b, &untimed))
+        return false;
+    b->context = untimed;
+    const bool good = measure_tables(b, choice);
+    b->context = timed;
+    virga_context_destroy(&untimed);
+    return good;
+}

@@ -1,0 +1,413 @@
+/* render.c - `virga render`: a scene's frames to disk, each whole or absent. */
+#include "commands/commands.h"
+#include "file.h"
+#include "frame/files.h"
+#include "frame/resume.h"
+#include "options.h"
+#include "progress.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const option_row rows[] = {
+    {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
+    {"--frames", 0, "A-B",
+     "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
+     "with camera and weather as at their last keys; frames.preroll_s of the scene rain before the first. "
+     "Default: the scene's",
+     false},
+    {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
+    {"--samples", 0, "N",
+     "jittered sub-frames over the shutter time, averaged: anti-aliasing and true motion blur. "
+     "Default 1; 16 for film",
+     false},
+    {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
+    {"--water-velocity", 0, "PERCENT",
+     "velocity.X/Y are water's own where rain, splashes and panes cover this share of a pixel, 1 to 100. Default: "
+     "they are the plate's alone",
+     false},
+    {"--points", 0, NULL,
+     "also write point caches: rain.%04d.ply of the drops and, where the scene has splashes, "
+     "splash.%04d.ply of their droplets, where it has panes glass.%04d.ply",
+     false},
+    {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, splashes, water, milliseconds", false},
+    {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
+    {"--plate", 0, "PATTERN",
+     "footage in place of the scene that is drawn: EXR pictures by frame, as plate.%04d.exr, a folder of them for "
+     "the scene's frames in the order of their names, or one picture; of any size",
+     false},
+    {"--resume", 0, NULL,
+     "render only what is not there yet; refuses a folder in which these frames are of another "
+     "scene, seed, size, samples, layers, velocities or plate",
+     false},
+    {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
+    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
+};
+
+#define ROW_COUNT (sizeof rows / sizeof rows[0])
+
+void render_help(void)
+{
+    printf("virga render SCENE.yaml -o DIR [options]\n\n"
+           "Renders a scene to DIR/frame.%%04d.exr: the beauty, and in layers beside it all that it is made of.\n"
+           "The same scene, seed and frame give the same file, however many frames are rendered before it.\n\n");
+    options_print(rows, ROW_COUNT);
+    printf("\nLayers, and their channels:\n");
+    frame_layers_help();
+    printf("\nExamples:\n"
+           "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
+           "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
+           "  virga render assets/scenes/street.yaml -o out --set rain.rate_mm_h=80 \\\n"
+           "      --set 'rain.wind_m_s=[6, 0, 0]'\n"
+           "  virga render assets/scenes/window.yaml -o out --set frames.preroll_s=60\n"
+           "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr \\\n"
+           "      --layers glass,refraction\n\n"
+           "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk\n"
+           "full, device lost; finished frames are kept), 2 wrong command line or scene, or a file that it\n"
+           "names, 130 interrupted.\n");
+}
+
+typedef struct render_job {
+    options parsed;
+    scene_file *scene;
+    shot shot;
+    shot_options how;
+    const char *directory;
+    uint32_t frames[2], layers;
+    bool points, stats, preview, resume;
+    jsonl stats_file;
+    bool stats_open;
+    bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
+    uint32_t written;
+    char error[1024];
+} render_job;
+
+static bool read_options(render_job *job, int argc, char **argv)
+{
+    if (!options_parse(&job->parsed, "render", rows, ROW_COUNT, argc, argv))
+        return false;
+    if (job->parsed.argument_count != 1)
+        return options_complain("render", "expected one scene file, got %zu; see virga help render",
+                                job->parsed.argument_count);
+    job->directory = options_value(&job->parsed, "--output");
+    if (!job->directory)
+        return options_complain("render", "expected -o DIR, the folder for the files");
+    job->points = options_value(&job->parsed, "--points");
+    job->stats = options_value(&job->parsed, "--stats");
+    job->preview = options_value(&job->parsed, "--preview");
+    job->resume = options_value(&job->parsed, "--resume");
+    return frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
+}
+
+/* Loads the scene with what the command line overrides. --seed is one more override, so it is in the hash. */
+static bool load_scene(render_job *job)
+{
+    const char *overrides[258];
+    char seed[64];
+    uint32_t seed_value = 0;
+    size_t count = job->parsed.repeated_count;
+    memcpy(overrides, job->parsed.repeated, count * sizeof overrides[0]);
+    if (options_value(&job->parsed, "--seed")) {
+        if (!options_uint(&job->parsed, "--seed", 0, UINT32_MAX, &seed_value))
+            return false;
+        snprintf(seed, sizeof seed, "rain.seed=%u", seed_value);
+        overrides[count++] = seed;
+    }
+    if (!scene_file_load(job->parsed.arguments[0], overrides, count, &job->scene, job->error, sizeof job->error)) {
+        fprintf(stderr, "%s\n", job->error);
+        return false;
+    }
+    return frame_layers_narrow(job->scene, &job->layers);
+}
+
+static bool read_ranges(render_job *job)
+{
+    const scene_frames *frames = &job->scene->frames;
+    uint32_t size[2] = {frames->size[0], frames->size[1]};
+    job->frames[0] = frames->first;
+    job->frames[1] = frames->last;
+    job->how.samples = 1;
+    if (!options_pair(&job->parsed, "--frames", '-', true, frames->first, 999999, job->frames) ||
+        !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size) ||
+        !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples) ||
+        !options_uint(&job->parsed, "--water-velocity", 1, 100, &job->how.water_velocity))
+        return false;
+    if (job->frames[1] < job->frames[0])
+        return options_complain("render", "--frames: expected A-B with A before B, got %u-%u", job->frames[0],
+                                job->frames[1]);
+    job->how.width = size[0];
+    job->how.height = size[1];
+    job->how.draw = true;
+    job->how.points = job->points;
+    job->how.stats = job->stats;
+    job->how.plate = options_value(&job->parsed, "--plate");
+    memcpy(job->how.frames, job->frames, sizeof job->frames);
+    job->how.device = options_value(&job->parsed, "--device");
+    return true;
+}
+
+static bool fail(render_job *job)
+{
+    return options_complain("render", "%s", job->error);
+}
+
+/* Makes a folder and those above it. */
+static bool make_parents(const char *path)
+{
+    char part[4096];
+    if (strlen(path) >= sizeof part) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    strcpy(part, path);
+    for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        if (mkdir(part, 0777) && errno != EEXIST)
+            return false;
+        *slash = '/';
+    }
+    return !mkdir(part, 0777) || errno == EEXIST;
+}
+
+/* A folder that can not be is a wrong command line, but a disk that has no room for it is not. */
+static int make_directory(render_job *job)
+{
+    struct stat about = {0};
+    if (!make_parents(job->directory)) {
+        const int code = errno == ENOSPC || errno == EDQUOT || errno == EIO ? EXIT_FAILED : EXIT_USAGE;
+        options_complain("render", "cannot make the folder %s: %s", job->directory, strerror(errno));
+        return code;
+    }
+    if (!stat(job->directory, &about) && S_ISDIR(about.st_mode) && !access(job->directory, W_OK))
+        return EXIT_OK;
+    if (S_ISDIR(about.st_mode))
+        options_complain("render", "cannot write into %s: %s", job->directory, strerror(errno));
+    else
+        options_complain("render", "%s is not a folder", job->directory);
+    return EXIT_USAGE;
+}
+
+static resume_wish wish_of(const render_job *job)
+{
+    return (resume_wish){.scene = job->scene,
+                         .directory = job->directory,
+                         .first = job->frames[0],
+                         .last = job->frames[1],
+                         .width = job->how.width,
+                         .height = job->how.height,
+                         .samples = job->how.samples,
+                         .layers = job->layers,
+                         .plate = job->how.plate,
+                         .water_velocity = job->how.water_velocity,
+                         .points = job->points,
+                         .preview = job->preview,
+                         .stats = job->stats};
+}
+
+static bool open_stats(render_job *job)
+{
+    char path[4096];
+    const resume_wish wish = wish_of(job);
+    if (!job->stats)
+        return true;
+    if (job->resume && !resume_trim_stats(&wish, job->there, job->error, sizeof job->error))
+        return fail(job);
+    snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
+    job->stats_open =
+        jsonl_open(&job->stats_file, path, job->resume ? JSONL_APPEND : JSONL_TRUNCATE, job->error, sizeof job->error);
+    return job->stats_open || fail(job);
+}
+
+/* ---- frames */
+
+/* Steps to the frame before, frame by frame, as the way may be long and Ctrl-C is to be heard on it. */
+static bool step_before(render_job *job, uint32_t frame)
+{
+    shot *s = &job->shot;
+    while (s->frame_index + 1 < frame && !interrupt_asked())
+        if (!shot_step(s, s->frame_index + 1, job->error, sizeof job->error))
+            return false;
+    return true;
+}
+
+/* The EXR is written last: it being there means that the frame is whole. */
+static bool write_frame(render_job *job, uint32_t frame)
+{
+    host_camera camera;
+    shot *s = &job->shot;
+    char *error = job->error;
+    const size_t size = sizeof job->error;
+    if (!shot_draw(s, frame, &camera, error, size))
+        return false;
+    virga_frame_completed(s->context, s->device.completed);
+    if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
+        (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
+        (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
+        !frame_write_exr(s, &camera, job->directory, frame, job->layers, error, size))
+        return false;
+    job->written++;
+    return true;
+}
+
+/* Both leave what is finished; `frame` is the one to go on with. */
+static int stop_failed(const render_job *job)
+{
+    options_complain("render", "%s; %u finished frames are kept in %s", job->error, job->written, job->directory);
+    return EXIT_FAILED;
+}
+
+static int stop_interrupted(const render_job *job, uint32_t frame)
+{
+    options_complain("render", "interrupted: %u frames are in %s; --resume goes on with frame %u", job->written,
+                     job->directory, frame);
+    return EXIT_INTERRUPTED;
+}
+
+static bool all_there(const render_job *job)
+{
+    for (uint32_t i = 0; i <= job->frames[1] - job->frames[0]; i++)
+        if (!job->there || !job->there[i])
+            return false;
+    return true;
+}
+
+/* Through the pre-roll, with a bar of its own, as it may be long and Ctrl-C is to be heard on it. */
+static bool step_preroll(render_job *job)
+{
+    shot *s = &job->shot;
+    progress bar;
+    progress_begin(&bar, "pre-roll", s->preroll);
+    while (s->preroll && !interrupt_asked()) {
+        if (!shot_step_preroll(s, job->error, sizeof job->error))
+            break;
+        progress_step(&bar, NULL);
+    }
+    progress_end(&bar);
+    return !s->preroll;
+}
+
+static int render_frames(render_job *job)
+{
+    progress bar;
+    if (!all_there(job) && !step_preroll(job))
+        return interrupt_asked() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
+    progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
+    for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
+        if (job->there && job->there[frame - job->frames[0]]) {
+            progress_step(&bar, "(there already)");
+            continue;
+        }
+        const bool stepped = step_before(job, frame);
+        const bool stop = stepped && interrupt_asked();
+        if (stop || !stepped || !write_frame(job, frame)) {
+            progress_end(&bar);
+            return stop ? stop_interrupted(job, frame) : stop_failed(job);
+        }
+        progress_step(&bar, NULL);
+    }
+    progress_end(&bar);
+    return EXIT_OK;
+}
+
+/* ---- the film */
+
+/* In the folder, as ffmpeg would take a '%' in the folder's name for a number. */
+static void run_ffmpeg(const render_job *job, const char *output)
+{
+    char fps[32], first[32], count[32];
+    snprintf(fps, sizeof fps, "%g", job->scene->frames.fps);
+    snprintf(first, sizeof first, "%u", job->frames[0]);
+    snprintf(count, sizeof count, "%u", job->frames[1] - job->frames[0] + 1);
+    if (chdir(job->directory))
+        _exit(126);
+    execlp("ffmpeg", "ffmpeg", "-loglevel", "error", "-y", "-nostdin", "-framerate", fps, "-start_number", first, "-i",
+           "preview.%04d.png", "-frames:v", count, "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
+           "-crf", "16", "-f", "mp4", output, (char *)NULL);
+    _exit(127);
+}
+
+static int wait_for(pid_t child)
+{
+    int status = -1;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    return status;
+}
+
+/* The previews as a film, where ffmpeg is installed. A film that can not be made is said, but is no failure. */
+static void make_film(render_job *job)
+{
+    char path[4096];
+    file_writer film;
+    snprintf(path, sizeof path, "%s/preview.mp4", job->directory);
+    if (!file_start(&film, path, job->error, sizeof job->error)) {
+        fail(job);
+        return;
+    }
+    const char *written_to = film.temporary ? film.temporary : film.path, *slash = strrchr(written_to, '/');
+    const pid_t child = fork();
+    if (child == 0)
+        run_ffmpeg(job, slash ? slash + 1 : written_to);
+    const int status = wait_for(child);
+    if (status == 0 && !file_finish(&film, job->error, sizeof job->error))
+        fail(job);
+    if (status == 0)
+        return;
+    file_abandon(&film);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        fprintf(stderr, "no ffmpeg: previews stay single pictures\n");
+    else
+        fprintf(stderr, "ffmpeg could not make %s\n", path);
+}
+
+/* ---- the command */
+
+/* What can be known to be wrong is said before a device is opened, and nothing is overwritten before all is loaded. */
+static int render_scene(render_job *job)
+{
+    const resume_wish wish = wish_of(job);
+    int code = make_directory(job);
+    if (code != EXIT_OK)
+        return code;
+    if (job->resume && !resume_find(&wish, &job->there, job->error, sizeof job->error)) {
+        fail(job);
+        return EXIT_USAGE;
+    }
+    if (!shot_open(&job->shot, job->scene, &job->how, job->error, sizeof job->error)) {
+        fail(job);
+        return job->shot.input_wrong ? EXIT_USAGE : EXIT_FAILED;
+    }
+    file_clean(job->directory);
+    code = EXIT_FAILED;
+    if (open_stats(job)) {
+        fprintf(stderr, "%s, frames %u to %u, %u x %u, %u sample%s\n", job->shot.info.name, job->frames[0],
+                job->frames[1], job->how.width, job->how.height, job->how.samples, job->how.samples == 1 ? "" : "s");
+        code = render_frames(job);
+    }
+    shot_close(&job->shot);
+    if (code == EXIT_OK && job->preview && job->frames[1] > job->frames[0])
+        make_film(job);
+    return code;
+}
+
+int render_run(int argc, char **argv)
+{
+    render_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return EXIT_FAILED;
+    int code = EXIT_USAGE;
+    if (read_options(job, argc, argv) && load_scene(job) && read_ranges(job))
+        code = render_scene(job);
+    if (job->stats_open)
+        jsonl_close(&job->stats_file);
+    free(job->there);
+    scene_file_free(job->scene);
+    free(job);
+    return code;
+}

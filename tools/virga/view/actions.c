@@ -1,0 +1,257 @@
+/* actions.c - what can be done to a scene in the window, whoever asks for it. */
+#include "view/view.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#define MESSAGE_S 6.0
+
+void view_say(viewer *v, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->message, sizeof v->message, format, arguments);
+    va_end(arguments);
+    v->message_s = glfwGetTime() + MESSAGE_S;
+}
+
+bool view_list_settings(viewer *v)
+{
+    free(v->settings);
+    v->settings = scene_settings_list(v->scene, &v->setting_count);
+    return v->settings;
+}
+
+bool view_assign(viewer *v, const char *assignment)
+{
+    char error[400];
+    if (scene_settings_assign(v->scene, assignment, &v->needs_restart, error, sizeof error))
+        return true;
+    view_say(v, "%s", error);
+    return false;
+}
+
+/* The command line's overrides, and what was tuned since: to free(), the pointers alone. NULL where it can not be. */
+static const char **all_changes(viewer *v, char ***changes, size_t *count)
+{
+    size_t tuned = 0;
+    *changes = scene_settings_changes(v->scene, v->loaded, &tuned);
+    const char **all = *changes ? malloc((v->override_count + tuned + 1) * sizeof *all) : NULL;
+    if (!all) {
+        free(*changes);
+        *changes = NULL;
+        return NULL;
+    }
+    memcpy(all, v->overrides, v->override_count * sizeof all[0]);
+    memcpy(all + v->override_count, *changes, tuned * sizeof all[0]);
+    *count = v->override_count + tuned;
+    return all;
+}
+
+scene_file *view_load_tuned(viewer *v, char *error, size_t error_size)
+{
+    size_t count;
+    char **changes;
+    scene_file *tuned = NULL;
+    const char **all = all_changes(v, &changes, &count);
+    if (!all)
+        snprintf(error, error_size, "no more memory");
+    else
+        scene_file_load(v->path, all, count, &tuned, error, error_size);
+    free(all);
+    free(changes);
+    return tuned;
+}
+
+bool view_check(viewer *v)
+{
+    char error[400];
+    scene_file *tuned = view_load_tuned(v, error, sizeof error);
+    const bool good = tuned && shot_check_panes(tuned, error, sizeof error);
+    scene_file_free(tuned);
+    if (!good)
+        view_say(v, "%s", error);
+    return good;
+}
+
+/* Tried on a copy first. Panes start anew with other wipers, whose arms are made then. */
+static bool change_list(viewer *v, const char *path,
+                        bool (*change)(scene_file *scene, const char *path, char *error, size_t error_size))
+{
+    char error[400];
+    scene_file *scene = v->scene, *tried = view_load_tuned(v, error, sizeof error);
+    bool good = tried && change(tried, path, error, sizeof error);
+    if (!good) {
+        view_say(v, "%s", error);
+    } else {
+        v->scene = tried;
+        good = view_check(v);
+        v->scene = scene;
+    }
+    scene_file_free(tried);
+    if (!good)
+        return false;
+    good = change(scene, path, error, sizeof error) && view_list_settings(v);
+    if (!good)
+        view_say(v, "%s", error);
+    v->restart = v->restart || !strncmp(path, "glass.", strlen("glass."));
+    return good;
+}
+
+bool view_list_add(viewer *v, const char *path)
+{
+    return change_list(v, path, scene_list_add);
+}
+
+bool view_list_drop(viewer *v, const char *path)
+{
+    return change_list(v, path, scene_list_drop);
+}
+
+/* Rate and wind are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
+bool view_preset_take(viewer *v, const char *name)
+{
+    size_t count;
+    const view_preset *presets = view_presets(&count), *preset = presets;
+    const bool waited = v->needs_restart;
+    while (preset < presets + count && strcmp(preset->name, name))
+        preset++;
+    if (preset == presets + count) {
+        view_say(v, "no preset '%.40s'; there are drizzle, shower, storm, carwash, window", name);
+        return false;
+    }
+    v->scene->rain.key_count = 0;
+    v->needs_restart = false;
+    for (uint32_t i = 0; i < VIEW_PRESET_SETTINGS && preset->settings[i]; i++)
+        if (!view_assign(v, preset->settings[i]))
+            return false;
+    const double before = v->loaded->environment.intensity;
+    v->restart = v->restart || (v->needs_restart && v->scene->environment.intensity != before);
+    v->needs_restart = waited;
+    view_list_settings(v);
+    view_say(v, "%s: %s", preset->title, preset->help);
+    return true;
+}
+
+bool view_show(viewer *v, const char *mode, uint32_t layer)
+{
+    const uint32_t found = view_mode_find(mode);
+    if (found == VIEW_MODES) {
+        view_say(v, "no view '%.40s'; the list of views has their names", mode);
+        return false;
+    }
+    const uint32_t layers = view_mode_layers(&v->shot, found);
+    if (layer >= layers) {
+        view_say(v, layers ? "%s: expected a number below %u" : "%s: this scene has none", view_mode(found)->title,
+                 layers);
+        return false;
+    }
+    v->mode = found;
+    v->layer = layer;
+    if (found == VIEW_PANE_HEIGHT && !v->shot.options.height_maps) {
+        v->shot.options.height_maps = true; /* panes are made with them or without */
+        v->restart = true;
+    }
+    view_say(v, "%s: %s", view_mode(found)->title, view_mode(found)->help);
+    return true;
+}
+
+void view_show_next(viewer *v, int step)
+{
+    uint32_t mode = v->mode;
+    do
+        mode = (mode + (uint32_t)(VIEW_MODES + step)) % VIEW_MODES;
+    while (!view_mode_layers(&v->shot, mode) || (mode == VIEW_PANE_HEIGHT && !v->shot.options.height_maps));
+    view_show(v, view_mode(mode)->name, 0);
+}
+
+bool view_save(viewer *v, const char *path)
+{
+    char error[400] = "no more memory";
+    size_t count = 0;
+    char **changes;
+    const char **all = all_changes(v, &changes, &count);
+    const bool saved = all && scene_settings_save(v->path, all, count, path, error, sizeof error);
+    free(all);
+    free(changes);
+    if (saved)
+        view_say(v, "saved %s with %zu settings that are not the file's", path, count);
+    else
+        view_say(v, "%s", error);
+    return saved;
+}
+
+bool view_shoot(viewer *v, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    if (!dot || (strcmp(dot, ".png") && strcmp(dot, ".exr")) || strlen(path) >= sizeof v->shot_file) {
+        view_say(v, "%.80s: expected a name that ends in .png or .exr", path);
+        return false;
+    }
+    snprintf(v->shot_file, sizeof v->shot_file, "%s", path);
+    return true;
+}
+
+/* ---- keys */
+
+static const char *const key_lines[] = {
+    "right mouse button: look around   W A S D, Q E: fly (Shift: faster)   C: back to the camera's path",
+    "Space: pause     N: one frame on     [ ]: slower, faster     R: start anew     1 to 5: presets",
+    "V, Shift V: next, previous view   B: picture   P: screenshot   F2: save   Tab: panel   Esc: quit",
+};
+
+const char *view_key_help(uint32_t line)
+{
+    return line < sizeof key_lines / sizeof key_lines[0] ? key_lines[line] : NULL;
+}
+
+static void change_speed(viewer *v, double factor)
+{
+    v->speed *= factor;
+    v->speed = v->speed < 0.05 ? 0.05 : v->speed > 1 ? 1 : v->speed;
+    view_say(v, "time goes at %.2f of its speed", v->speed);
+}
+
+static void shoot_by_key(viewer *v)
+{
+    char path[64];
+    snprintf(path, sizeof path, "virga-%03u.exr", ++v->shots);
+    view_shoot(v, path);
+}
+
+static void take_numbered(viewer *v, int number)
+{
+    size_t count;
+    const view_preset *presets = view_presets(&count);
+    if ((size_t)number < count)
+        view_preset_take(v, presets[number].name);
+}
+
+void view_key(viewer *v, int key, bool shift)
+{
+    switch (key) {
+    case GLFW_KEY_SPACE: v->paused = !v->paused; break;
+    case GLFW_KEY_N:
+        v->paused = true;
+        v->steps++;
+        break;
+    case GLFW_KEY_LEFT_BRACKET: change_speed(v, 1 / 1.25); break;
+    case GLFW_KEY_RIGHT_BRACKET: change_speed(v, 1.25); break;
+    case GLFW_KEY_R: v->restart = true; break;
+    case GLFW_KEY_C: view_camera_to_path(v); break;
+    case GLFW_KEY_V: view_show_next(v, shift ? -1 : 1); break;
+    case GLFW_KEY_B: view_show(v, "picture", 0); break;
+    case GLFW_KEY_P: shoot_by_key(v); break;
+    case GLFW_KEY_F2: view_save(v, "virga-tuned.yaml"); break;
+    case GLFW_KEY_TAB: v->panel = !v->panel; break;
+    case GLFW_KEY_ESCAPE: v->quit = true; break;
+    default:
+        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+            take_numbered(v, key - GLFW_KEY_1);
+    }
+}

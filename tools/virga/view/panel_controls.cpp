@@ -1,0 +1,195 @@
+// panel_controls.cpp - time, presets, weather, views, camera and files: the parts that are more than a list.
+#include "view/panel_parts.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace view_panel
+{
+
+void part_time(viewer *v)
+{
+    if (ImGui::Button(v->paused ? "Play" : "Pause", ImVec2(64, 0)))
+        v->paused = !v->paused;
+    tooltip("Space");
+    ImGui::SameLine();
+    if (ImGui::Button("Step", ImVec2(54, 0))) {
+        v->paused = true;
+        v->steps++;
+    }
+    tooltip("one frame of the scene on (N)");
+    ImGui::SameLine();
+    if (ImGui::Button("Restart", ImVec2(70, 0)))
+        v->restart = true;
+    tooltip("the rain from the start, with all settings (R)");
+    ImGui::SameLine();
+    ImGui::TextColored(COLOR_HINT, "%.2f s, frame %u", v->shot.camera_time_s, v->shot.frame_index);
+    float speed = (float)v->speed;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##speed", &speed, 0.05f, 1, "speed of time x %.2f", ImGuiSliderFlags_AlwaysClamp))
+        v->speed = speed;
+    tooltip("slow motion ( [ and ] )");
+}
+
+void part_presets(viewer *v)
+{
+    size_t count;
+    const view_preset *presets = view_presets(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (i && ImGui::GetItemRectMax().x + 8 + ImGui::CalcTextSize(presets[i].title).x + 10 <
+                     ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x)
+            ImGui::SameLine();
+        if (ImGui::Button(presets[i].title))
+            view_preset_take(v, presets[i].name);
+        tooltip(presets[i].help);
+    }
+}
+
+static void scrub(viewer *v, const char *path)
+{
+    scene_setting *s = scene_settings_find(v->settings, v->setting_count, path);
+    if (s)
+        edit_setting(v, *s);
+}
+
+/* Rate and wind, and how the wipers go: what one reaches for first. */
+void part_weather(viewer *v)
+{
+    if (v->scene->rain.key_count) {
+        ImGui::PushTextWrapPos();
+        ImGui::TextColored(COLOR_WARN, "The scene's keys say rate and wind at every time.");
+        ImGui::PopTextWrapPos();
+        if (ImGui::Button("Take over from the keys")) {
+            double wind[3], rate;
+            scene_file_weather(v->scene, v->shot.camera_time_s, &rate, wind);
+            v->scene->rain.rate_mm_h = rate;
+            std::memcpy(v->scene->rain.wind_m_s, wind, sizeof wind);
+            v->scene->rain.key_count = 0;
+            view_list_settings(v);
+        }
+        return;
+    }
+    scrub(v, "rain.rate_mm_h");
+    scrub(v, "rain.wind_m_s");
+    scrub(v, "rain.gust_m_s");
+    for (uint32_t p = 0; p < v->scene->pane_count; p++)
+        for (uint32_t w = 0; w < v->scene->panes[p].wiper_count; w++) {
+            char path[96];
+            ImGui::TextColored(COLOR_HINT, "%s, wiper %u", v->scene->panes[p].name, w + 1);
+            for (const char *key : {"drive", "sweep_s", "pause_s"}) {
+                std::snprintf(path, sizeof path, "glass.%u.wipers.%u.%s", p, w, key);
+                scrub(v, path);
+            }
+        }
+    scrub(v, "preview.exposure_ev");
+}
+
+static void legend(const viewer *v)
+{
+    float color[3];
+    for (uint32_t i = 0; const char *name = view_mode_legend(v->mode, i, color); i++) {
+        ImGui::PushID((int)i);
+        ImGui::ColorButton("##color", ImVec4(color[0], color[1], color[2], 1),
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker, ImVec2(14, 14));
+        ImGui::SameLine();
+        ImGui::TextUnformatted(name);
+        if (v->mode == VIEW_MATERIAL && i % 2 == 0 && view_mode_legend(v->mode, i + 1, color))
+            ImGui::SameLine(200);
+        ImGui::PopID();
+    }
+}
+
+static void choose_layer(viewer *v)
+{
+    const uint32_t layers = view_mode_layers(&v->shot, v->mode);
+    int layer = (int)v->layer;
+    char format[80];
+    if (layers < 2)
+        return;
+    if (v->mode == VIEW_OCCLUSION) {
+        virga_rain_occlusion_map map;
+        virga_rain_occlusion_map_get(v->shot.rain, &map);
+        std::snprintf(format, sizeof format, "map %%d: %.0f m wide, slant %u of %u",
+                      2 * (double)map.half_m[std::min(v->layer / map.slants, 3u)], v->layer % map.slants + 1,
+                      map.slants);
+    } else {
+        std::snprintf(format, sizeof format, "pane %%d: %.40s", v->scene->panes[std::min(v->layer, layers - 1)].name);
+    }
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderInt("##layer", &layer, 0, (int)layers - 1, format, ImGuiSliderFlags_AlwaysClamp))
+        v->layer = (uint32_t)layer;
+}
+
+void part_views(viewer *v)
+{
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##view", view_mode(v->mode)->title, ImGuiComboFlags_HeightLarge)) {
+        for (uint32_t mode = 0; mode < VIEW_MODES; mode++) {
+            if (!view_mode_layers(&v->shot, mode))
+                continue;
+            if (ImGui::Selectable(view_mode(mode)->title, mode == v->mode))
+                view_show(v, view_mode(mode)->name, 0);
+            tooltip(view_mode(mode)->help);
+        }
+        ImGui::EndCombo();
+    }
+    tooltip("V, Shift V; B: the picture");
+    choose_layer(v);
+    if (v->mode != VIEW_PICTURE) {
+        ImGui::PushTextWrapPos();
+        ImGui::TextColored(COLOR_HINT, "%s", view_mode(v->mode)->help);
+        ImGui::PopTextWrapPos();
+    }
+    legend(v);
+    int finer = v->divide == 4 ? 0 : v->divide == 2 ? 1 : 2;
+    ImGui::TextUnformatted("pixels");
+    for (int i = 2; i >= 0; i--) {
+        static const char *const names[] = {"quarter", "half", "all"};
+        ImGui::SameLine();
+        if (ImGui::RadioButton(names[i], &finer, i))
+            v->divide = 4u >> i;
+        tooltip("along each side of the picture");
+    }
+}
+
+void part_camera(viewer *v)
+{
+    const double *at = v->seen.position_m;
+    ImGui::TextColored(COLOR_HINT, "%s   %.2f, %.2f, %.2f m", v->camera.free ? "flying" : "on its path", at[0], at[1],
+                       at[2]);
+    if (!v->camera.free)
+        return;
+    float speed = (float)v->camera.speed_m_s;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##fly", &speed, 0.1f, 50, "flies at %.1f m/s", ImGuiSliderFlags_Logarithmic))
+        v->camera.speed_m_s = speed;
+    if (ImGui::Button("Back to the camera's path"))
+        view_camera_to_path(v);
+    tooltip("C");
+}
+
+void part_files(viewer *v)
+{
+    static char picture[256] = "virga.exr", scene[256] = "tuned.yaml";
+    int samples = (int)v->samples;
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::SetNextItemWidth(width * 0.6f);
+    ImGui::InputText("##picture", picture, sizeof picture);
+    ImGui::SameLine();
+    if (ImGui::Button("Screenshot", ImVec2(-1, 0)))
+        view_shoot(v, picture);
+    tooltip("the scene as it stands, .exr with all layers or .png, as virga render writes them (P)");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderInt("##samples", &samples, 1, 64, "%d sub-frames", ImGuiSliderFlags_AlwaysClamp))
+        v->samples = (uint32_t)samples;
+    tooltip("of screenshots: anti-aliasing and motion blur");
+    ImGui::SetNextItemWidth(width * 0.6f);
+    ImGui::InputText("##scene", scene, sizeof scene);
+    ImGui::SameLine();
+    if (ImGui::Button("Save scene", ImVec2(-1, 0)))
+        view_save(v, scene);
+    tooltip("the scene file with what was changed; its comments are lost (F2)");
+}
+
+} // namespace view_panel

@@ -1,0 +1,61 @@
+/* picture.h - what the window shows beside the panel: the picture of a shot, or what it is made of. */
+#ifndef VIRGA_VIEW_PICTURE_H
+#define VIRGA_VIEW_PICTURE_H
+
+#include "shot/shot.h"
+#include "view/window.h"
+
+#include "view/shaders/view_gpu.h"
+
+typedef struct view_mode_row {
+    const char *name; /* one word, for scripts */
+    const char *title;
+    const char *help;
+} view_mode_row;
+
+/* The modes there are, VIEW_MODES of them, and the one of a name; VIEW_MODES where there is none. */
+const view_mode_row *view_mode(uint32_t mode);
+uint32_t view_mode_find(const char *name);
+
+/* How many layers a mode has to choose from in this shot (maps, panes); 0: it shows nothing here. */
+uint32_t view_mode_layers(const shot *s, uint32_t mode);
+
+/* Colours that a mode shows by number, and what they stand for; NULL behind the last. */
+const char *view_mode_legend(uint32_t mode, uint32_t index, float color[3]);
+
+typedef struct view_picture {
+    host_device *device;
+    VkSampler nearest, linear;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkPipeline picture, drops;
+    VkDescriptorPool pool;
+    VkDescriptorSet sets[HOST_FRAMES];
+    host_buffer uniforms[HOST_FRAMES];
+    host_image blank, blank_array;
+    host_buffer blank_buffer;
+} view_picture;
+
+/* Pipelines for a window. */
+bool view_picture_create(host_device *device, const view_window *window, view_picture *picture, char *error,
+                         size_t error_size);
+void view_picture_destroy(view_picture *picture); /* the device must be idle */
+
+typedef struct view_shown {
+    uint32_t mode, layer;
+    float area[4]; /* where in the window, pixels: low corner, size */
+    float exposure_ev;
+} view_shown;
+
+/* Lets a frame overwrite what the one before has shown: first of all in its command buffer. */
+void view_picture_begin(VkCommandBuffer cmd);
+
+/* Makes what the shot has drawn ready to be sampled. Outside rendering, after shot_live_record. */
+void view_picture_prepare(view_picture *picture, VkCommandBuffer cmd, const shot *s, const host_camera *camera,
+                          const view_shown *shown);
+
+/* Draws it, all over the window. Inside rendering. */
+void view_picture_draw(const view_picture *picture, VkCommandBuffer cmd, const shot *s, const view_window *window,
+                       const view_shown *shown);
+
+#endif

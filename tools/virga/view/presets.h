@@ -1,0 +1,18 @@
+/* presets.h - kinds of weather to begin from. */
+#ifndef VIRGA_VIEW_PRESETS_H
+#define VIRGA_VIEW_PRESETS_H
+
+#include <stddef.h>
+
+#define VIEW_PRESET_SETTINGS 24
+
+typedef struct view_preset {
+    const char *name; /* for scripts: one word */
+    const char *title, *help;
+    const char *settings[VIEW_PRESET_SETTINGS]; /* as scene_settings_assign takes them; NULL behind the last */
+} view_preset;
+
+/* All of them, `*count`; static data. */
+const view_preset *view_presets(size_t *count);
+
+#endif

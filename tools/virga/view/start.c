@@ -1,0 +1,61 @@
+/* start.c - starting the rain anew with what was changed, and as it was where it can not start so: pools may be
+ * larger than a device has room for, and nobody's window should close for that. */
+#include "view/view.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A setting that counts from a start on, as it was at the last one that came off. */
+struct view_started {
+    char path[96];
+    char value[200];
+};
+
+bool view_remember_start(viewer *v)
+{
+    free(v->started);
+    v->started_count = 0;
+    v->started = calloc(v->setting_count + 1, sizeof *v->started);
+    if (!v->started) {
+        snprintf(v->error, sizeof v->error, "no more memory");
+        return false;
+    }
+    for (size_t i = 0; i < v->setting_count; i++) {
+        const scene_setting *setting = &v->settings[i];
+        view_started *kept = &v->started[v->started_count];
+        if (!setting->restarts || setting->kind == SCENE_SETTING_TEXT)
+            continue;
+        memcpy(kept->path, setting->path, sizeof kept->path);
+        scene_setting_print(setting, kept->value, sizeof kept->value);
+        v->started_count++;
+    }
+    return true;
+}
+
+/* Settings of lists that are not there any more are left out. */
+static void take_back(viewer *v)
+{
+    char error[400];
+    for (size_t i = 0; i < v->started_count; i++) {
+        const view_started *kept = &v->started[i];
+        scene_setting *setting = scene_settings_find(v->settings, v->setting_count, kept->path);
+        if (setting)
+            scene_setting_parse(setting, kept->value, error, sizeof error);
+    }
+}
+
+bool view_start_again(viewer *v)
+{
+    char why[sizeof v->error];
+    memset(&v->numbers, 0, sizeof v->numbers);
+    if (shot_live_restart(&v->shot, v->error, sizeof v->error))
+        return view_remember_start(v);
+    snprintf(why, sizeof why, "%s", v->error);
+    take_back(v);
+    if (!shot_live_restart(&v->shot, v->error, sizeof v->error))
+        return false;
+    fprintf(stderr, "virga view: %s; started as before\n", why);
+    view_say(v, "%s; started as before", why);
+    return true;
+}
