@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "effect.h"
 #include "scene_file.h"
 
 /* Four lines. */
@@ -22,7 +23,7 @@ static inline void put_text(const char *name, const char *text)
 static inline bool load(const char *text, const char *const *overrides, size_t count, scene_file **scene)
 {
     put_text("s.yaml", text);
-    return scene_file_load(in_folder("s.yaml"), overrides, count, scene, error, sizeof error);
+    return scene_file_load(in_folder("s.yaml"), tool_effect_sections, overrides, count, scene, error, sizeof error);
 }
 
 static inline scene_file *loaded(const char *text, const char *const *overrides, size_t count)

@@ -1,5 +1,8 @@
 /* test_scene_file.c - scene files: what is read, what is filled in, and what the hash is of. */
+#include "ground.h"
+#include "rain.h"
 #include "scene_text.h"
+#include "splash.h"
 
 static const char full[] =
     "virga: 1\n"
@@ -49,25 +52,25 @@ static void smallest_scene_has_the_defaults(void **state)
     assert_int_equal(scene->frames.last, 48);
     assert_int_equal(scene->frames.size[0], 1280);
     near(scene->frames.shutter_deg, 180);
-    near(scene->rain.rate_mm_h, 10);
-    near(scene->rain.air_density, 1.204);
-    near(scene->rain.gust_time_s, 4);
-    near(scene->rain.transition_s, 0.5);
-    near(scene->rain.range_m, 32);
-    near(scene->rain.soft_m, 0.05);
-    near(scene->rain.near_m, 0.15);
-    near(scene->rain.bodies_min_mm, 0.4);
-    assert_int_equal(scene->rain.sizes, SCENE_SIZES_MARSHALL_PALMER);
-    assert_int_equal(scene->rain.max_drops, 131072);
-    assert_int_equal(scene->rain.seed, 1);
-    assert_int_equal(scene->rain.occlusion_size, 1024);
-    assert_int_equal(scene->rain.occlusion_slants, 2);
-    assert_false(scene->ground.on);
-    assert_false(scene->splash.on);
-    assert_int_equal(scene->splash.mode, SCENE_SPLASH_MODE_PHYSICAL);
-    assert_int_equal(scene->splash.style, SCENE_SPLASH_STYLE_FILM);
-    assert_int_equal(scene->splash.max_splashes, 65536);
-    near(scene->splash.gain, 1);
+    near(scene_rain_of(scene)->rate_mm_h, 10);
+    near(scene_rain_of(scene)->air_density, 1.204);
+    near(scene_rain_of(scene)->gust_time_s, 4);
+    near(scene_rain_of(scene)->transition_s, 0.5);
+    near(scene_rain_of(scene)->range_m, 32);
+    near(scene_rain_of(scene)->soft_m, 0.05);
+    near(scene_rain_of(scene)->near_m, 0.15);
+    near(scene_rain_of(scene)->bodies_min_mm, 0.4);
+    assert_int_equal(scene_rain_of(scene)->sizes, SCENE_SIZES_MARSHALL_PALMER);
+    assert_int_equal(scene_rain_of(scene)->max_drops, 131072);
+    assert_int_equal(scene_rain_of(scene)->seed, 1);
+    assert_int_equal(scene_rain_of(scene)->occlusion_size, 1024);
+    assert_int_equal(scene_rain_of(scene)->occlusion_slants, 2);
+    assert_false(scene_ground_of(scene)->on);
+    assert_false(scene_splash_of(scene)->on);
+    assert_int_equal(scene_splash_of(scene)->mode, SCENE_SPLASH_MODE_PHYSICAL);
+    assert_int_equal(scene_splash_of(scene)->style, SCENE_SPLASH_STYLE_FILM);
+    assert_int_equal(scene_splash_of(scene)->max_splashes, 65536);
+    near(scene_splash_of(scene)->gain, 1);
     scene_file_free(scene);
     scene_file_free(NULL);
 }
@@ -120,15 +123,15 @@ static void every_value_arrives(void **state)
     near(scene->frames.fps, 23.976);
     assert_int_equal(scene->frames.first, 10);
     assert_int_equal(scene->frames.size[1], 360);
-    assert_int_equal(scene->rain.sizes, SCENE_SIZES_TABLE);
-    assert_int_equal(scene->rain.table_count, 2);
-    near(scene->rain.table[1].diameter_mm, 3);
-    assert_true(scene->rain.seed == 4294967295u);
-    assert_int_equal(scene->rain.occlusion_size, 0);
-    assert_int_equal(scene->rain.key_count, 3);
-    near(scene->rain.keys[0].rate_mm_h, 40);
-    near(scene->rain.keys[1].wind_m_s[2], -1);
-    every_value_of_splash_arrives(&scene->splash);
+    assert_int_equal(scene_rain_of(scene)->sizes, SCENE_SIZES_TABLE);
+    assert_int_equal(scene_rain_of(scene)->table_count, 2);
+    near(scene_rain_of(scene)->table[1].diameter_mm, 3);
+    assert_true(scene_rain_of(scene)->seed == 4294967295u);
+    assert_int_equal(scene_rain_of(scene)->occlusion_size, 0);
+    assert_int_equal(scene_rain_of(scene)->key_count, 3);
+    near(scene_rain_of(scene)->keys[0].rate_mm_h, 40);
+    near(scene_rain_of(scene)->keys[1].wind_m_s[2], -1);
+    every_value_of_splash_arrives(scene_splash_of(scene));
     scene_file_free(scene);
     unlink(in_folder("sub/with \"quotes\" and ~.obj"));
     rmdir(in_folder("sub"));
@@ -141,19 +144,19 @@ static void weather_is_linear_between_keys(void **state)
                                "rain.keys=[{time_s: 0}, {time_s: 2, rate_mm_h: 80}, {time_s: 4, wind_m_s: [5, 0, 1]}]"};
     scene_file *scene = loaded(smallest, overrides, 2);
     double rate, wind[3];
-    scene_file_weather(scene, 3, &rate, wind);
+    scene_rain_weather(scene_rain_of(scene), 3, &rate, wind);
     near(rate, 40);
     scene_file_free(scene);
     scene = loaded(smallest, overrides, 3);
-    scene_file_weather(scene, -1, &rate, wind);
+    scene_rain_weather(scene_rain_of(scene), -1, &rate, wind);
     near(rate, 40);
-    scene_file_weather(scene, 1, &rate, wind);
+    scene_rain_weather(scene_rain_of(scene), 1, &rate, wind);
     near(rate, 60);
     near(wind[0], 3);
-    scene_file_weather(scene, 3, &rate, wind);
+    scene_rain_weather(scene_rain_of(scene), 3, &rate, wind);
     near(rate, 60);
     near(wind[0], 4);
-    scene_file_weather(scene, 99, &rate, wind);
+    scene_rain_weather(scene_rain_of(scene), 99, &rate, wind);
     near(rate, 40);
     near(wind[2], 1);
     scene_file_free(scene);
@@ -165,7 +168,7 @@ static void empty_groups_and_lists_are_as_if_left_out(void **state)
     char text[512];
     snprintf(text, sizeof text, "%srain:\nlights:\nenvironment: ~\nframes: {}\nmeshes: []\n", smallest);
     scene_file *scene = loaded(text, NULL, 0);
-    near(scene->rain.rate_mm_h, 10);
+    near(scene_rain_of(scene)->rate_mm_h, 10);
     scene_file_free(scene);
 }
 
@@ -181,8 +184,8 @@ static void overrides_change_values(void **state)
                                "rain.sizes=best",
                                "rain.rate_mm_h=60"};
     scene_file *scene = loaded(smallest, overrides, COUNT(overrides));
-    near(scene->rain.rate_mm_h, 60);
-    assert_int_equal(scene->rain.sizes, SCENE_SIZES_BEST);
+    near(scene_rain_of(scene)->rate_mm_h, 60);
+    assert_int_equal(scene_rain_of(scene)->sizes, SCENE_SIZES_BEST);
     assert_int_equal(scene->frames.size[0], 640);
     assert_int_equal(scene->light_count, 2);
     near(scene->lights[0].position_m[2], 3);
@@ -217,8 +220,8 @@ static void splashes_are_on_where_the_ground_is(void **state)
         snprintf(text, sizeof text, "%s%s", smallest, cases[i].text);
         const char *const *overrides = cases[i].overrides;
         scene_file *scene = loaded(text, overrides, overrides[1] ? 2 : overrides[0] ? 1 : 0);
-        if (scene->splash.on != cases[i].on)
-            fail_msg("splash.on is %d in case %zu", scene->splash.on, i);
+        if (scene_splash_of(scene)->on != cases[i].on)
+            fail_msg("splash.on is %d in case %zu", scene_splash_of(scene)->on, i);
         scene_file_free(scene);
     }
 }
@@ -232,7 +235,7 @@ static void a_material_map_arrives(void **state)
     put_text("m.png", "");
     snprintf(text, sizeof text, "%sground: {" MAP "}\n", smallest);
     scene_file *scene = loaded(text, NULL, 0);
-    const scene_material_map *map = &scene->ground.material_map;
+    const scene_material_map *map = &scene_ground_of(scene)->material_map;
     assert_string_equal(map->file, in_folder("m.png"));
     near(map->low_m[0], -4);
     near(map->low_m[1], -2.5);
@@ -259,9 +262,9 @@ static void a_material_map_is_optional(void **state)
         char text[512];
         snprintf(text, sizeof text, "%s%s", smallest, cases[i].text);
         scene_file *scene = loaded(text, &cases[i].override, cases[i].override != NULL);
-        assert_null(scene->ground.material_map.file);
-        assert_int_equal(scene->ground.material_map.material_count, 0);
-        assert_int_equal(scene->ground.cells, i < 2 ? 1024 : 256);
+        assert_null(scene_ground_of(scene)->material_map.file);
+        assert_int_equal(scene_ground_of(scene)->material_map.material_count, 0);
+        assert_int_equal(scene_ground_of(scene)->cells, i < 2 ? 1024 : 256);
         scene_file_free(scene);
     }
 }
@@ -276,7 +279,7 @@ static void what_only_others_can_judge_is_refused_by_line(void **state)
     snprintf(text, sizeof text, "%sground:\n  materials:\n    - match: a\n      material: x\n", smallest);
     put_text("s.yaml", text);
     strcpy(path, in_folder("s.yaml"));
-    assert_true(scene_file_load(path, overrides, 1, &scene, error, sizeof error));
+    assert_true(scene_file_load(path, tool_effect_sections, overrides, 1, &scene, error, sizeof error));
     memset(path, '?', strlen(path));
     memset(override, '?', strlen(override));
     overrides[0] = NULL;

@@ -1,5 +1,6 @@
 /* test_scene_glass.c - panes in scene files: what is read, what is filled in, and one clear line for everything
  * wrong. */
+#include "glass.h"
 #include "scene_text.h"
 
 static const char full[] =
@@ -63,10 +64,10 @@ static void scenes_have_no_panes_unless_told(void **state)
 {
     (void)state;
     scene_file *scene = loaded_after("", NULL, 0);
-    assert_int_equal(scene->pane_count, 0);
+    assert_int_equal(scene_glass_of(scene)->pane_count, 0);
     scene_file_free(scene);
     scene = loaded_after("glass:\n", NULL, 0);
-    assert_int_equal(scene->pane_count, 0);
+    assert_int_equal(scene_glass_of(scene)->pane_count, 0);
     scene_file_free(scene);
 }
 
@@ -75,8 +76,8 @@ static void a_pane_has_defaults(void **state)
 {
     (void)state;
     scene_file *scene = loaded_after("glass: [{position_m: [0, 0, 0]}]\n", NULL, 0);
-    assert_int_equal(scene->pane_count, 1);
-    const scene_pane *pane = &scene->panes[0];
+    assert_int_equal(scene_glass_of(scene)->pane_count, 1);
+    const scene_pane *pane = &scene_glass_of(scene)->panes[0];
     assert_string_equal(pane->name, "pane");
     assert_int_equal(pane->shape, SCENE_PANE_FLAT);
     assert_int_equal(pane->follow, SCENE_PANE_WORLD);
@@ -108,10 +109,10 @@ static void wipers_arrive(const scene_pane *pane)
     assert_int_equal(pane->wipers[1].drive, SCENE_WIPER_KEYS);
     near(pane->wipers[1].blade_turn, 1);
     assert_int_equal(pane->wipers[1].key_count, 2);
-    near(scene_file_wiper_deg(&pane->wipers[1], 0), 10);
-    near(scene_file_wiper_deg(&pane->wipers[1], 1.5), 20);
-    near(scene_file_wiper_deg(&pane->wipers[1], 9), 30);
-    near(scene_file_wiper_deg(&pane->wipers[0], 9), 170);
+    near(scene_wiper_angle_deg(&pane->wipers[1], 0), 10);
+    near(scene_wiper_angle_deg(&pane->wipers[1], 1.5), 20);
+    near(scene_wiper_angle_deg(&pane->wipers[1], 9), 30);
+    near(scene_wiper_angle_deg(&pane->wipers[0], 9), 170);
 }
 
 static void every_value_of_a_pane_arrives(void **state)
@@ -120,8 +121,8 @@ static void every_value_of_a_pane_arrives(void **state)
     put_text("mask.png", "");
     put_text("bumps.png", "");
     scene_file *scene = loaded_after(full, NULL, 0);
-    assert_int_equal(scene->pane_count, 2);
-    const scene_pane *pane = &scene->panes[1];
+    assert_int_equal(scene_glass_of(scene)->pane_count, 2);
+    const scene_pane *pane = &scene_glass_of(scene)->panes[1];
     assert_string_equal(pane->name, "shield");
     assert_int_equal(pane->shape, SCENE_PANE_WINDSHIELD);
     assert_string_equal(scene_pane_shape_name(pane->shape), "windshield");
@@ -168,10 +169,10 @@ static void overrides_reach_into_panes(void **state)
         loaded_after("glass: [{position_m: [0, 0, 0], wipers: [{pivot_m: [0, 0], reach_m: 1, blade_m: 1, "
                      "low_deg: 0, high_deg: 90}]}]\n",
                      overrides, COUNT(overrides));
-    assert_int_equal(scene->pane_count, 2);
-    assert_string_equal(scene_pane_kind_name(scene->panes[0].kind), "dirty");
-    near(scene->panes[0].wipers[0].sweep_s, 1);
-    assert_false(*scene->panes[0].opaque);
+    assert_int_equal(scene_glass_of(scene)->pane_count, 2);
+    assert_string_equal(scene_pane_kind_name(scene_glass_of(scene)->panes[0].kind), "dirty");
+    near(scene_glass_of(scene)->panes[0].wipers[0].sweep_s, 1);
+    assert_false(*scene_glass_of(scene)->panes[0].opaque);
     scene_file_free(scene);
 }
 

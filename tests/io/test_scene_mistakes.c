@@ -203,11 +203,11 @@ static void missing_files_and_folders_are_refused(void **state)
 {
     (void)state;
     scene_file *scene;
-    assert_false(scene_file_load(in_folder("none.yaml"), NULL, 0, &scene, error, sizeof error));
+    assert_false(scene_file_load(in_folder("none.yaml"), tool_effect_sections, NULL, 0, &scene, error, sizeof error));
     assert_error("none.yaml", "No such file");
-    assert_false(scene_file_load(folder, NULL, 0, &scene, error, sizeof error));
+    assert_false(scene_file_load(folder, tool_effect_sections, NULL, 0, &scene, error, sizeof error));
     assert_error(folder, "s a directory");
-    assert_false(scene_file_load(in_folder("none.yaml"), NULL, 0, &scene, NULL, 0));
+    assert_false(scene_file_load(in_folder("none.yaml"), tool_effect_sections, NULL, 0, &scene, NULL, 0));
 }
 
 /* Deep nesting must end in an error, not in the end of the stack. */

@@ -11,6 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "effect.h"
+#include "glass.h"
+#include "rain.h"
 #include "scene_lists.h"
 #include "scene_schema.h"
 #include "scene_settings.h"
@@ -22,7 +25,7 @@ static scene_file *load(const char *path)
 {
     char error[256];
     scene_file *scene;
-    if (!scene_file_load(path, NULL, 0, &scene, error, sizeof error))
+    if (!scene_file_load(path, tool_effect_sections, NULL, 0, &scene, error, sizeof error))
         fail_msg("%s", error);
     return scene;
 }
@@ -68,11 +71,12 @@ static void assigns(scene_file *scene, const char *assignment)
 static void every_rule_is_described(void **state)
 {
     (void)state;
-    size_t count;
-    const scene_rule *rules = scene_rules(&count);
-    for (size_t i = 0; i < count; i++)
-        if (!rules[i].help || strlen(rules[i].help) < 4)
-            fail_msg("%s has no description", rules[i].path);
+    scene_file *scene = load(STREET);
+    const scene_rule *rule;
+    for (size_t i = 0; (rule = scene_rule_at(scene->format, i)); i++)
+        if (!rule->help || strlen(rule->help) < 4)
+            fail_msg("%s has no description", rule->path);
+    scene_file_free(scene);
 }
 
 static void settings_have_names_units_and_ranges(void **state)
@@ -99,7 +103,7 @@ static void values_print_as_yaml(void **state)
     assert_prints(scene, "glass.0.advancing_deg", "null");
     assert_prints(scene, "ground.on", "true");
     assert_prints(scene, "rain.max_drops", "65536");
-    scene->rain.rate_mm_h = 0.1 + 0.2;
+    scene_rain_of(scene)->rate_mm_h = 0.1 + 0.2;
     assert_prints(scene, "rain.rate_mm_h", "0.30000000000000004");
     scene_file_free(scene);
 }
@@ -157,7 +161,7 @@ static void a_reset_gives_the_default(void **state)
     scene_file *scene = load(STREET);
     scene_setting *all = scene_settings_list(scene, &count);
     assert_true(scene_setting_reset(scene_settings_find(all, count, "rain.streak_gain"), all, count));
-    assert_float_equal(scene->rain.streak_gain, 1, 0);
+    assert_float_equal(scene_rain_of(scene)->streak_gain, 1, 0);
     assert_false(scene_setting_reset(scene_settings_find(all, count, "camera.keys.0.position_m"), all, count));
     free(all);
     scene_file_free(scene);
@@ -172,7 +176,8 @@ static void save(scene_file *now, const char *source, const char *path)
     scene_file *before = load(source);
     char **changes = scene_settings_changes(now, before, &count);
     assert_non_null(changes);
-    if (!scene_settings_save(source, (const char *const *)changes, count, path, error, sizeof error))
+    if (!scene_settings_save(source, tool_effect_sections, (const char *const *)changes, count, path, error,
+                             sizeof error))
         fail_msg("%s", error);
     free(changes);
     scene_file_free(before);
@@ -256,7 +261,7 @@ static void keys_of_the_rain_come_and_go(void **state)
 {
     (void)state;
     scene_file *scene = load(STREET);
-    assert_int_equal(scene->rain.key_count, 0);
+    assert_int_equal(scene_rain_of(scene)->key_count, 0);
     assigns(scene, "rain.rate_mm_h=12");
     grow(scene, "rain.keys");
     assert_prints(scene, "rain.keys.0.rate_mm_h", "12");
@@ -300,12 +305,12 @@ static void a_wiper_more_has_keys_of_its_own(void **state)
 {
     (void)state;
     scene_file *scene = load(WINDSHIELD);
-    const uint32_t before = scene->panes[0].wiper_count;
+    const uint32_t before = scene_glass_of(scene)->panes[0].wiper_count;
     assigns(scene, "glass.0.wipers.1.drive=keys");
     grow(scene, "glass.0.wipers.1.keys");
     assigns(scene, "glass.0.wipers.1.keys.0.angle_deg=90");
     grow(scene, "glass.0.wipers");
-    assert_int_equal(scene->panes[0].wiper_count, before + 1);
+    assert_int_equal(scene_glass_of(scene)->panes[0].wiper_count, before + 1);
     assigns(scene, "glass.0.wipers.2.keys.0.angle_deg=45");
     assert_prints(scene, "glass.0.wipers.1.keys.0.angle_deg", "90");
     assert_comes_back(scene, WINDSHIELD);
@@ -325,9 +330,9 @@ static void keys_that_no_drive_uses_are_not_saved(void **state)
     grow(scene, "glass.0.wipers.1.keys");
     grow(scene, "glass.0.wipers");
     scene_file *saved = save_and_load(scene, WINDSHIELD);
-    assert_int_equal(saved->panes[0].wiper_count, scene->panes[0].wiper_count);
-    assert_int_equal(saved->panes[0].wipers[1].key_count, 0);
-    assert_int_equal(saved->panes[0].wipers[2].key_count, 0);
+    assert_int_equal(scene_glass_of(saved)->panes[0].wiper_count, scene_glass_of(scene)->panes[0].wiper_count);
+    assert_int_equal(scene_glass_of(saved)->panes[0].wipers[1].key_count, 0);
+    assert_int_equal(scene_glass_of(saved)->panes[0].wipers[2].key_count, 0);
     scene_file_free(saved);
     scene_file_free(scene);
 }
@@ -355,7 +360,8 @@ static void a_scene_that_would_be_wrong_is_not_saved(void **state)
     (void)state;
     char error[512];
     const char *const changes[] = {"splash.on=true", "ground.on=false"};
-    assert_false(scene_settings_save(STREET, changes, 2, "/tmp/virga-never.yaml", error, sizeof error));
+    assert_false(
+        scene_settings_save(STREET, tool_effect_sections, changes, 2, "/tmp/virga-never.yaml", error, sizeof error));
     assert_non_null(strstr(error, "splash.on"));
     assert_int_not_equal(access("/tmp/virga-never.yaml", F_OK), 0);
 }

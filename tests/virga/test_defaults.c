@@ -9,7 +9,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "effect.h"
+#include "glass.h"
+#include "ground.h"
 #include "scene_file.h"
+#include "splash.h"
 
 #include <virga/virga.h>
 
@@ -26,7 +30,7 @@ static scene_file *load_with(const char *const *overrides, size_t count)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, sizeof text - 1), sizeof text - 1);
     close(file);
-    if (!scene_file_load(path, overrides, count, &scene, error, sizeof error))
+    if (!scene_file_load(path, tool_effect_sections, overrides, count, &scene, error, sizeof error))
         fail_msg("%s", error);
     unlink(path);
     return scene;
@@ -41,7 +45,7 @@ static void splashes(void **state)
 {
     (void)state;
     scene_file *scene = load();
-    const scene_splash *from = &scene->splash;
+    const scene_splash *from = scene_splash_of(scene);
     {
         const virga_splash_def def = virga_default_splash_def();
         SAME(max_splashes);
@@ -77,7 +81,7 @@ static void ground(void **state)
 {
     (void)state;
     scene_file *scene = load();
-    const scene_ground *from = &scene->ground;
+    const scene_ground *from = scene_ground_of(scene);
     {
         const virga_ground_def def = virga_default_ground_def();
         SAME(cells);
@@ -104,7 +108,7 @@ static void panes(void **state)
 {
     (void)state;
     scene_file *scene = load_pane();
-    const scene_pane *from = &scene->panes[0];
+    const scene_pane *from = &scene_glass_of(scene)->panes[0];
     {
         const virga_glass_def def = virga_default_glass_def();
         SAME(width_m);
@@ -154,7 +158,7 @@ static void wipers(void **state)
     (void)state;
     scene_file *scene = load_pane();
     {
-        const scene_wiper *from = &scene->panes[0].wipers[0];
+        const scene_wiper *from = &scene_glass_of(scene)->panes[0].wipers[0];
         const virga_glass_wiper def = virga_default_glass_wiper();
         SAME(width_m);
         SAME(blade_deg);
@@ -166,7 +170,7 @@ static void wipers(void **state)
         SAME(film_mm);
         SAME(wear);
     }
-    assert_true((float)scene->panes[0].bumps.pull == virga_default_glass_shape().bump_pull);
+    assert_true((float)scene_glass_of(scene)->panes[0].bumps.pull == virga_default_glass_shape().bump_pull);
     scene_file_free(scene);
 }
 
@@ -190,7 +194,7 @@ static void words_of_panes(void **state)
     scene_file *scene = load_pane();
     const virga_glass_settings before = virga_default_glass_settings();
     virga_glass_settings after = before;
-    virga_glass_settings_of((virga_glass_kind)scene->panes[0].kind, &after);
+    virga_glass_settings_of((virga_glass_kind)scene_glass_of(scene)->panes[0].kind, &after);
     assert_memory_equal(&before, &after, sizeof before);
     scene_file_free(scene);
 }

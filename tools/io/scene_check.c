@@ -19,6 +19,7 @@
 /* Where the walk is. */
 typedef struct walk {
     scene_document *document;
+    const scene_format *format;
     char path[MAX_PATH]; /* "lights.0.range_m", for people */
     char rule[MAX_PATH]; /* "lights[].range_m", for scene_rule_find */
 } walk;
@@ -154,14 +155,13 @@ static const char *same_but_unit(const char *key, const char *const *keys, size_
 }
 
 /* The path of a key of that name elsewhere in the schema, as "rain.rate_mm_h", or NULL. */
-static const char *elsewhere(const char *key)
+static const char *elsewhere(const scene_format *format, const char *key)
 {
-    size_t count;
-    const scene_rule *rules = scene_rules(&count);
-    for (size_t i = 0; i < count; i++) {
-        const char *dot = strrchr(rules[i].path, '.');
+    const scene_rule *rule;
+    for (size_t i = 0; (rule = scene_rule_at(format, i)); i++) {
+        const char *dot = strrchr(rule->path, '.');
         if (dot && !strcmp(dot + 1, key))
-            return rules[i].path;
+            return rule->path;
     }
     return NULL;
 }
@@ -184,7 +184,7 @@ static bool unknown_key(walk *at, int key_node, const cyaml_schema_field_t *fiel
                                    nearest, unit);
     nearest = suggest_nearest(name, keys, count);
     if (!nearest)
-        nearest = elsewhere(name);
+        nearest = elsewhere(at->format, name);
     if (nearest)
         return scene_document_fail(at->document, key_node, "%s: unknown key, did you mean '%s'?", at->path, nearest);
     return scene_document_fail(at->document, key_node, "%s: unknown key, expected one of: %s", at->path, known);
@@ -237,15 +237,13 @@ static bool check_choice(walk *at, int node, const cyaml_schema_value_t *schema)
     return expected(at, node, what);
 }
 
-static bool check_text(walk *at, int node, const cyaml_schema_value_t *schema)
+static bool check_text(walk *at, int node, const cyaml_schema_value_t *schema, const scene_rule *rule)
 {
     const yaml_node_t *found = node_of(at, node);
     bool ok = found->type == YAML_SCALAR_NODE && !scene_document_is_null(at->document, node) &&
               found->data.scalar.length >= schema->string.min && found->data.scalar.length <= schema->string.max &&
               strlen((const char *)found->data.scalar.value) == found->data.scalar.length;
-    const char *dot = strrchr(at->rule, '.');
-    return ok || expected(at, node,
-                          dot && (!strcmp(dot, ".file") || !strcmp(dot, ".mask")) ? "the name of a file" : "a name");
+    return ok || expected(at, node, rule && (rule->flags & SCENE_RULE_NAMES_FILE) ? "the name of a file" : "a name");
 }
 
 static bool check_switch(walk *at, int node)
@@ -338,7 +336,7 @@ static bool fill_in(walk *at, int node, const cyaml_schema_field_t *field)
     if (value && !(is_group_or_list(&field->value) && scene_document_is_null(at->document, value)))
         return true;
     step back = enter_key(at, field->key);
-    const scene_rule *rule = scene_rule_find(at->rule);
+    const scene_rule *rule = scene_rule_find(at->format, at->rule);
     bool ok = true;
     if (!rule || (!rule->value && !(field->value.flags & CYAML_FLAG_OPTIONAL))) {
         ok = scene_document_fail(at->document, node, "%s: is missing", at->path);
@@ -365,7 +363,7 @@ static bool check_group(walk *at, int node, const cyaml_schema_field_t *fields)
     for (const cyaml_schema_field_t *field = fields; field->key; field++) {
         int value = scene_document_member(at->document, node, field->key, NULL);
         step back = enter_key(at, field->key);
-        if (value && !check_value(at, value, &field->value, scene_rule_find(at->rule)))
+        if (value && !check_value(at, value, &field->value, scene_rule_find(at->format, at->rule)))
             return false;
         leave(at, back);
     }
@@ -382,12 +380,12 @@ static bool check_value(walk *at, int node, const cyaml_schema_value_t *schema, 
     case CYAML_UINT: return check_number(at, node, rule, true);
     case CYAML_ENUM: return check_choice(at, node, schema);
     case CYAML_BOOL: return check_switch(at, node);
-    default: return check_text(at, node, schema);
+    default: return check_text(at, node, schema, rule);
     }
 }
 
-bool scene_check(scene_document *document)
+bool scene_check(scene_document *document, const scene_format *format)
 {
-    walk at = {.document = document};
-    return check_value(&at, 1, &scene_schema, NULL);
+    walk at = {.document = document, .format = format};
+    return check_value(&at, 1, &format->schema, NULL);
 }

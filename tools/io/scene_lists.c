@@ -16,11 +16,6 @@ typedef struct found {
     bool failed; /* no memory */
 } found;
 
-static char **entries_of(const cyaml_schema_field_t *field, void *owner)
-{
-    return (char **)(void *)((char *)owner + field->data_offset);
-}
-
 static bool has_names(const cyaml_schema_value_t *entry)
 {
     if (entry->type != CYAML_MAPPING)
@@ -31,7 +26,23 @@ static bool has_names(const cyaml_schema_value_t *entry)
     return false;
 }
 
-static void add(found *out, const char *path, const cyaml_schema_field_t *field, char *owner)
+/* One group of the scene: its keys, its data, and where it is ("glass.0" in the scene, "glass[]" in the rules). */
+typedef struct group {
+    const cyaml_schema_field_t *fields;
+    char *data;
+    char path[96], rule[96];
+} group;
+
+static bool is_used(const scene_format *format, const char *rule, const void *owner)
+{
+    for (const scene_section *const *section = format->sections; *section; section++)
+        if ((*section)->uses_list && !(*section)->uses_list(rule, owner))
+            return false;
+    return true;
+}
+
+static void add(found *out, const scene_format *format, const group *in, const group *at,
+                const cyaml_schema_field_t *field)
 {
     if (out->count == out->room) {
         const size_t room = out->room ? 2 * out->room : 16;
@@ -44,30 +55,38 @@ static void add(found *out, const char *path, const cyaml_schema_field_t *field,
         out->room = room;
     }
     scene_list *list = &out->lists[out->count++];
-    *list = (scene_list){.count = scene_list_length(field, owner),
+    *list = (scene_list){.count = scene_list_length(field, in->data),
                          .least = field->value.sequence.min,
                          .most = field->value.sequence.max,
+                         .used = is_used(format, at->rule, in->data),
                          .field = field,
-                         .owner = owner};
-    snprintf(list->path, sizeof list->path, "%s", path);
+                         .owner = in->data};
+    memcpy(list->path, at->path, sizeof list->path);
 }
 
-static void walk(found *out, const char *above, const cyaml_schema_field_t *fields, char *data)
+static void walk(found *out, const scene_format *format, const group *in)
 {
-    for (const cyaml_schema_field_t *field = fields; field->key; field++) {
-        char path[96], inside[96];
+    for (const cyaml_schema_field_t *field = in->fields; field->key; field++) {
+        const char *dot = *in->path ? "." : "";
         const cyaml_schema_value_t *value = &field->value;
-        snprintf(path, sizeof path, "%.50s%s%.40s", above, *above ? "." : "", field->key);
-        if (value->type == CYAML_MAPPING)
-            walk(out, path, value->mapping.fields, data + field->data_offset);
+        group at = {.data = in->data + field->data_offset}, inside;
+        snprintf(at.path, sizeof at.path, "%.50s%s%.40s", in->path, dot, field->key);
+        snprintf(at.rule, sizeof at.rule, "%.50s%s%.40s", in->rule, dot, field->key);
+        if (value->type == CYAML_MAPPING) {
+            at.fields = value->mapping.fields;
+            walk(out, format, &at);
+        }
         if (value->type != CYAML_SEQUENCE)
             continue;
         const cyaml_schema_value_t *entry = value->sequence.entry;
         if (!has_names(entry))
-            add(out, path, field, data);
-        for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < scene_list_length(field, data); i++) {
-            snprintf(inside, sizeof inside, "%.80s.%u", path, i);
-            walk(out, inside, entry->mapping.fields, *entries_of(field, data) + (size_t)i * entry->data_size);
+            add(out, format, in, &at, field);
+        for (uint32_t i = 0; entry->type == CYAML_MAPPING && i < scene_list_length(field, in->data); i++) {
+            inside.fields = entry->mapping.fields;
+            inside.data = *scene_list_entries(field, in->data) + (size_t)i * entry->data_size;
+            snprintf(inside.path, sizeof inside.path, "%.80s.%u", at.path, i);
+            snprintf(inside.rule, sizeof inside.rule, "%.80s[]", at.rule);
+            walk(out, format, &inside);
         }
     }
 }
@@ -75,7 +94,8 @@ static void walk(found *out, const char *above, const cyaml_schema_field_t *fiel
 scene_list *scene_lists(scene_file *scene, size_t *count)
 {
     found out = {0};
-    walk(&out, "", scene_schema.mapping.fields, (char *)scene);
+    const group root = {scene->format->schema.mapping.fields, (char *)scene, "", ""};
+    walk(&out, scene->format, &root);
     *count = out.count;
     if (!out.failed)
         return out.lists;
@@ -122,7 +142,7 @@ static bool copy_inside(const cyaml_schema_value_t *entry, char *data)
     for (const cyaml_schema_field_t *field = entry->mapping.fields; field->key; field++) {
         if (field->value.type != CYAML_SEQUENCE)
             continue;
-        char **inside = entries_of(field, data), *from = *inside;
+        char **inside = scene_list_entries(field, data), *from = *inside;
         const size_t size = (size_t)scene_list_length(field, data) * field->value.sequence.entry->data_size;
         *inside = size ? malloc(size) : NULL;
         if (*inside)
@@ -136,8 +156,8 @@ static void free_inside(const cyaml_schema_value_t *entry, char *data)
 {
     for (const cyaml_schema_field_t *field = entry->mapping.fields; field->key; field++)
         if (field->value.type == CYAML_SEQUENCE) {
-            free(*entries_of(field, data));
-            *entries_of(field, data) = NULL;
+            free(*scene_list_entries(field, data));
+            *scene_list_entries(field, data) = NULL;
         }
 }
 
@@ -197,7 +217,7 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
         return scene_settings_fail(error, error_size, "%s: a scene has %u at most", path, list.most);
     const cyaml_schema_field_t *field = list.field;
     const cyaml_schema_value_t *entry = field->value.sequence.entry;
-    char **entries = entries_of(field, list.owner);
+    char **entries = scene_list_entries(field, list.owner);
     char *grown = realloc(*entries, (list.count + (size_t)1) * entry->data_size);
     if (!grown)
         return scene_settings_fail(error, error_size, "%s: no more memory", path);
@@ -227,20 +247,17 @@ bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t er
         return scene_settings_fail(error, error_size, "%s: a scene has %u at least", path, list.least);
     const cyaml_schema_field_t *field = list.field;
     const cyaml_schema_value_t *entry = field->value.sequence.entry;
-    free_inside(entry, *entries_of(field, list.owner) + (list.count - (size_t)1) * entry->data_size);
+    free_inside(entry, *scene_list_entries(field, list.owner) + (list.count - (size_t)1) * entry->data_size);
     set_length(&list, list.count - 1);
     return true;
 }
 
 /* ---- what has changed ----------------------------------------------------------------------------------------- */
 
-/* Entries that count: a file must not have keys of a wiper that another drive moves. */
+/* Entries that count: a file must not have those of a list that is not used. */
 static uint32_t used_length(const scene_list *list)
 {
-    const cyaml_schema_field_t *field = list->field;
-    const bool wiper_keys = field->value.sequence.entry->data_size == sizeof(scene_wiper_key) &&
-                            strstr(list->path, ".wipers.") && !strcmp(field->key, "keys");
-    return wiper_keys && ((const scene_wiper *)list->owner)->drive != SCENE_WIPER_KEYS ? 0 : list->count;
+    return list->used ? list->count : 0;
 }
 
 static bool lies_in(const char *path, const char *list_path)
@@ -279,19 +296,11 @@ static bool is_in(const scene_list *list, uint32_t used, void *user)
 typedef struct writing {
     FILE *out;
     scene_setting *settings;
-    size_t setting_count, changes;
+    scene_list *lists;
+    size_t setting_count, list_count, changes;
 } writing;
 
 static size_t write_entries(const writing *w, size_t at, const char *prefix, uint32_t used);
-
-/* A wiper that something else than its keys moves. */
-static bool moves_without_keys(const writing *w, const char *prefix)
-{
-    char path[120];
-    snprintf(path, sizeof path, "%sdrive", prefix);
-    const scene_setting *drive = scene_settings_find(w->settings, w->setting_count, path);
-    return drive && *(const uint32_t *)drive->value != SCENE_WIPER_KEYS;
-}
 
 /* The settings under a prefix from `at` on, as "key: value"; where they end. */
 static size_t write_fields(const writing *w, size_t at, const char *prefix)
@@ -303,9 +312,11 @@ static size_t write_fields(const writing *w, size_t at, const char *prefix)
         const char *key = setting->path + length, *dot = strchr(key, '.');
         char value[TEXT_ROOM], inside[120];
         if (dot) {
-            snprintf(inside, sizeof inside, "%.*s.", (int)(dot - setting->path), setting->path);
+            snprintf(inside, sizeof inside, "%.*s", (int)(dot - setting->path), setting->path);
+            const scene_list *list = find(w->lists, w->list_count, inside);
+            strcat(inside, ".");
             fprintf(w->out, "%s%.*s: ", comma, (int)(dot - key), key);
-            at = write_entries(w, at, inside, moves_without_keys(w, prefix) ? 0 : UINT32_MAX);
+            at = write_entries(w, at, inside, list ? used_length(list) : UINT32_MAX);
         } else {
             scene_setting_print(setting, value, sizeof value);
             fprintf(w->out, "%s%s: %s", comma, key, value);
@@ -359,8 +370,10 @@ size_t scene_lists_write_changes(FILE *out, scene_file *now, scene_file *before)
 {
     writing w = {.out = out};
     w.settings = scene_settings_list(now, &w.setting_count);
-    if (w.settings)
+    w.lists = scene_lists(now, &w.list_count);
+    if (w.settings && w.lists)
         each_change(now, before, write_list, &w);
     free(w.settings);
+    free(w.lists);
     return w.changes;
 }

@@ -16,6 +16,7 @@ typedef struct scene_list {
     char path[96];        /* "glass.0.wipers" */
     uint32_t count;       /* entries now */
     uint32_t least, most; /* that a file may have */
+    bool used;            /* false: a key beside it makes its entries unused, and a file must not have them */
     const void *field;    /* internal */
     void *owner;
 } scene_list;

@@ -11,6 +11,7 @@
 #include "file.h"
 #include "scene_check.h"
 #include "scene_document.h"
+#include "scene_files.h"
 #include "scene_lists.h"
 #include "scene_schema.h"
 #include "suggest.h"
@@ -32,6 +33,7 @@ typedef struct list {
     scene_setting *settings;
     size_t count, room;
     bool failed; /* no memory */
+    const scene_format *format;
 } list;
 
 /* Where a walk has come to. */
@@ -63,7 +65,7 @@ static scene_setting *add(list *out, const place *at, const char *key)
         out->room = room;
     }
     scene_setting *setting = &out->settings[out->count++];
-    const scene_rule *rule = scene_rule_find(at->rule);
+    const scene_rule *rule = scene_rule_find(out->format, at->rule);
     *setting = (scene_setting){.count = 1, .help = "", .unit = ""};
     memcpy(setting->path, at->path, sizeof setting->path);
     memcpy(setting->rule, at->rule, sizeof setting->rule);
@@ -75,7 +77,7 @@ static scene_setting *add(list *out, const place *at, const char *key)
         setting->low = rule->low;
         setting->high = rule->high;
         setting->initial = rule->value;
-        setting->restarts = rule->restarts;
+        setting->restarts = rule->flags & SCENE_RULE_RESTARTS;
         setting->help = rule->help ? rule->help : "";
     }
     return setting;
@@ -143,9 +145,9 @@ static void walk_group(list *out, const place *at, const cyaml_schema_field_t *f
 
 scene_setting *scene_settings_list(scene_file *scene, size_t *count)
 {
-    list out = {0};
+    list out = {.format = scene->format};
     const place root = {"", ""};
-    walk_group(&out, &root, scene_schema.mapping.fields, (char *)scene);
+    walk_group(&out, &root, scene->format->schema.mapping.fields, (char *)scene);
     *count = out.count;
     if (!out.failed)
         return out.settings;
@@ -513,26 +515,15 @@ static void quote(const char *name, char *text, size_t size)
     text[used] = 0;
 }
 
-/* Names of files as they can be read from anywhere. */
-static bool move_files(scene_document *document, scene_file *scene)
+/* Overrides the name of a file by one that can be read from anywhere. */
+static bool make_absolute(const char *key, char **name, void *user)
 {
-    size_t count;
-    bool good = true;
-    scene_setting *settings = scene_settings_list(scene, &count);
-    for (size_t i = 0; settings && good && i < count; i++) {
-        const char *dot = strrchr(settings[i].path, '.');
-        const char *name = settings[i].kind == SCENE_SETTING_TEXT ? *(char **)settings[i].value : NULL;
-        if (!name || !dot || (strcmp(dot, ".file") && strcmp(dot, ".mask")))
-            continue;
-        char *real = realpath(name, NULL), quoted[8200], override[8400];
-        quote(real ? real : name, quoted, sizeof quoted);
-        snprintf(override, sizeof override, "%s=%s", settings[i].path, quoted);
-        free(real);
-        const char *one = override;
-        good = scene_document_override(document, &one, 1);
-    }
-    free(settings);
-    return settings && good;
+    char *real = realpath(*name, NULL), quoted[8200], override[8400];
+    quote(real ? real : *name, quoted, sizeof quoted);
+    snprintf(override, sizeof override, "%s=%s", key, quoted);
+    free(real);
+    const char *one = override;
+    return scene_document_override(user, &one, 1);
 }
 
 static int write_bytes(void *file, unsigned char *bytes, size_t size)
@@ -580,7 +571,7 @@ static bool save_checked(scene_file *scene, const char *source, const char *cons
     good = good && file_read(source, 16u << 20, &text, &size, error, error_size);
     if (good && scene_document_parse(&document, source, text, size, error, error_size)) {
         good = scene_document_override(&document, overrides, count) &&
-               (!from || !strcmp(from, to) || move_files(&document, scene)) &&
+               (!from || !strcmp(from, to) || scene_each_file(scene, make_absolute, &document)) &&
                write_document(&document, source, path, error, error_size);
         scene_document_free(&document);
     } else {
@@ -592,11 +583,11 @@ static bool save_checked(scene_file *scene, const char *source, const char *cons
     return good;
 }
 
-bool scene_settings_save(const char *source, const char *const *overrides, size_t override_count, const char *path,
-                         char *error, size_t error_size)
+bool scene_settings_save(const char *source, const scene_section *const *sections, const char *const *overrides,
+                         size_t override_count, const char *path, char *error, size_t error_size)
 {
     scene_file *scene;
-    if (!scene_file_load(source, overrides, override_count, &scene, error, error_size))
+    if (!scene_file_load(source, sections, overrides, override_count, &scene, error, error_size))
         return false;
     const bool saved = save_checked(scene, source, overrides, override_count, path, error, error_size);
     scene_file_free(scene);

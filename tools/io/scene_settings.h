@@ -1,7 +1,7 @@
 /* scene_settings.h - all settings of a loaded scene as a list, to be looked at and changed one by one: what a panel of
  * controls shows, and how what was tuned there becomes a scene file again.
  *
- * Keys, ranges, defaults and descriptions are those of scene_schema.c, so a key that is new there is here too. */
+ * Keys, ranges, defaults and descriptions are those of the schema, so a key that is new there is here too. */
 #ifndef VIRGA_IO_SCENE_SETTINGS_H
 #define VIRGA_IO_SCENE_SETTINGS_H
 
@@ -69,8 +69,8 @@ char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count
 /* Writes the scene of the file `source` with overrides (as scene_file_load takes them) as a scene file, which must come
  * out good: the source's keys, with what is overridden in them. Names of files are made absolute where the new file
  * lies in another folder. Comments are lost. */
-bool scene_settings_save(const char *source, const char *const *overrides, size_t override_count, const char *path,
-                         char *error, size_t error_size);
+bool scene_settings_save(const char *source, const scene_section *const *sections, const char *const *overrides,
+                         size_t override_count, const char *path, char *error, size_t error_size);
 
 #ifdef __cplusplus
 }

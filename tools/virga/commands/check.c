@@ -2,6 +2,7 @@
 #include "commands/commands.h"
 #include "options.h"
 
+#include "effect.h"
 #include "exr.h"
 #include "scene_file.h"
 #include "shot/shot.h"
@@ -65,15 +66,15 @@ static bool check_material_map(const scene_file *scene)
     const size_t count = (size_t)width * height;
     for (size_t i = 0; i < count; i++)
         mapped += texels[i] != SHOT_MATERIAL_OF_MESH;
-    printf("  material map %s: %u x %u, %u materials on %.3g %% of it\n", scene->ground.material_map.file, width,
-           height, scene->ground.material_map.material_count, 100 * (double)mapped / (double)count);
+    printf("  material map %s: %u x %u, %u materials on %.3g %% of it\n", scene_ground_of(scene)->material_map.file,
+           width, height, scene_ground_of(scene)->material_map.material_count, 100 * (double)mapped / (double)count);
     free(texels);
     return true;
 }
 
 static bool check_pane_files(const scene_file *scene)
 {
-    for (uint32_t i = 0; i < scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++) {
         uint32_t columns, rows;
         float *bumps = NULL;
         uint8_t *mask = NULL;
@@ -81,12 +82,12 @@ static bool check_pane_files(const scene_file *scene)
         if (!shot_read_bumps(scene, i, &columns, &rows, &bumps, error, sizeof error))
             return options_complain("check", "%s", error);
         if (bumps)
-            printf("  bumps        %s: %u x %u\n", scene->panes[i].bumps.file, columns, rows);
+            printf("  bumps        %s: %u x %u\n", scene_glass_of(scene)->panes[i].bumps.file, columns, rows);
         free(bumps);
         if (!shot_read_mask(scene, i, &columns, &rows, &mask, error, sizeof error))
             return options_complain("check", "%s", error);
         if (mask)
-            printf("  mask         %s: %u x %u\n", scene->panes[i].mask, columns, rows);
+            printf("  mask         %s: %u x %u\n", scene_glass_of(scene)->panes[i].mask, columns, rows);
         free(mask);
     }
     return true;
@@ -102,8 +103,8 @@ static bool check_files(const scene_file *scene)
 
 static void print_ground(const scene_file *scene)
 {
-    const scene_ground *ground = &scene->ground;
-    const scene_splash *splash = &scene->splash;
+    const scene_ground *ground = scene_ground_of(scene);
+    const scene_splash *splash = scene_splash_of(scene);
     if (ground->on)
         printf("  ground       %u x %u cells of %g m\n", ground->cells, ground->cells, ground->cell_m);
     else
@@ -117,8 +118,8 @@ static void print_ground(const scene_file *scene)
 
 static void print_panes(const scene_file *scene)
 {
-    for (uint32_t i = 0; i < scene->pane_count; i++) {
-        const scene_pane *pane = &scene->panes[i];
+    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++) {
+        const scene_pane *pane = &scene_glass_of(scene)->panes[i];
         printf("  glass        %s: %s, %g x %g m, %s, %s style, %u wiper%s%s\n", pane->name,
                scene_pane_shape_name(pane->shape), pane->width_m, pane->height_m, scene_pane_kind_name(pane->kind),
                scene_pane_style_name(pane->style), pane->wiper_count, pane->wiper_count == 1 ? "" : "s",
@@ -137,7 +138,8 @@ int check_run(int argc, char **argv)
         options_complain("check", "expected one scene file; see virga help check");
         return EXIT_USAGE;
     }
-    if (!scene_file_load(parsed.arguments[0], parsed.repeated, parsed.repeated_count, &scene, error, sizeof error)) {
+    if (!scene_file_load(parsed.arguments[0], tool_effect_sections, parsed.repeated, parsed.repeated_count, &scene,
+                         error, sizeof error)) {
         fprintf(stderr, "%s\n", error);
         return EXIT_USAGE;
     }
@@ -151,8 +153,8 @@ int check_run(int argc, char **argv)
            scene->frames.fps, scene->frames.size[0], scene->frames.size[1]);
     if (scene->frames.preroll_s > 0)
         printf("  pre-roll     %g s of rain before frame %u\n", scene->frames.preroll_s, scene->frames.first);
-    printf("  rain         %g mm/h, %u drops, seed %u\n", scene->rain.rate_mm_h, scene->rain.max_drops,
-           scene->rain.seed);
+    printf("  rain         %g mm/h, %u drops, seed %u\n", scene_rain_of(scene)->rate_mm_h,
+           scene_rain_of(scene)->max_drops, scene_rain_of(scene)->seed);
     print_ground(scene);
     print_panes(scene);
     printf("  lights       %u\n", scene->light_count);

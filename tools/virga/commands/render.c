@@ -1,5 +1,6 @@
 /* render.c - `virga render`: a scene's frames to disk, each whole or absent. */
 #include "commands/commands.h"
+#include "effect.h"
 #include "file.h"
 #include "frame/files.h"
 #include "frame/resume.h"
@@ -119,7 +120,8 @@ static bool load_scene(render_job *job)
         snprintf(seed, sizeof seed, "rain.seed=%u", seed_value);
         overrides[count++] = seed;
     }
-    if (!scene_file_load(job->parsed.arguments[0], overrides, count, &job->scene, job->error, sizeof job->error)) {
+    if (!scene_file_load(job->parsed.arguments[0], tool_effect_sections, overrides, count, &job->scene, job->error,
+                         sizeof job->error)) {
         fprintf(stderr, "%s\n", job->error);
         return false;
     }

@@ -2,6 +2,7 @@
 #include "view/view.h"
 
 #include "commands/commands.h"
+#include "effect.h"
 #include "options.h"
 #include "progress.h"
 
@@ -87,8 +88,10 @@ static bool load_scene(viewer *v, const options *parsed, const char *overrides[2
         snprintf(seed, 64, "rain.seed=%u", value);
         overrides[v->override_count++] = seed;
     }
-    if (!scene_file_load(v->path, overrides, v->override_count, &v->loaded, v->error, sizeof v->error) ||
-        !scene_file_load(v->path, overrides, v->override_count, &v->scene, v->error, sizeof v->error)) {
+    if (!scene_file_load(v->path, tool_effect_sections, overrides, v->override_count, &v->loaded, v->error,
+                         sizeof v->error) ||
+        !scene_file_load(v->path, tool_effect_sections, overrides, v->override_count, &v->scene, v->error,
+                         sizeof v->error)) {
         fprintf(stderr, "%s\n", v->error);
         return false;
     }

@@ -36,7 +36,8 @@ typedef enum layer_need { NEEDS_NOTHING, NEEDS_GROUND, NEEDS_SPLASH, NEEDS_PANES
 
 static bool has_what_is_needed(const scene_file *scene, layer_need need)
 {
-    const bool has[NEEDS] = {true, scene->ground.on, scene->splash.on, scene->pane_count > 0};
+    const bool has[NEEDS] = {true, scene_ground_of(scene)->on, scene_splash_of(scene)->on,
+                             scene_glass_of(scene)->pane_count > 0};
     return has[need];
 }
 
@@ -239,7 +240,7 @@ static uint32_t fill_attributes(const shot *s, const host_camera *camera, uint32
     uint32_t n = 0;
     const double fps = s->scene->frames.fps;
     snprintf(hash, 32, "%016llx", (unsigned long long)scene_file_hash(s->scene));
-    out[n++] = exr_attribute_uint("seed", s->scene->rain.seed, digits);
+    out[n++] = exr_attribute_uint("seed", scene_rain_of(s->scene)->seed, digits);
     out[n++] = (exr_attribute){.name = "samples", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)s->options.samples};
     out[n++] = (exr_attribute){.name = "frame", .kind = EXR_ATTRIBUTE_INT, .integer = (int32_t)frame};
     out[n++] = (exr_attribute){.name = "time", .kind = EXR_ATTRIBUTE_DOUBLE, .real64 = shot_time(s, frame)};
@@ -432,5 +433,5 @@ bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *er
 {
     return write_drops(s, directory, frame, error, error_size) &&
            (!s->splash || write_droplets(s, directory, frame, error, error_size)) &&
-           (!s->scene->pane_count || write_glass_drops(s, directory, frame, error, error_size));
+           (!scene_glass_of(s->scene)->pane_count || write_glass_drops(s, directory, frame, error, error_size));
 }

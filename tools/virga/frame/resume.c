@@ -37,7 +37,7 @@ static bool is_of_wish(const resume_wish *wish, const char *path, const exr_head
                        char *error, size_t error_size)
 {
     char has[256], expected[256];
-    snprintf(expected, sizeof expected, "%u", wish->scene->rain.seed);
+    snprintf(expected, sizeof expected, "%u", scene_rain_of(wish->scene)->seed);
     if (differs(path, "seed", texts[0].text, expected, error, error_size))
         return false;
     snprintf(has, sizeof has, "%ux%u", header->width, header->height);

@@ -103,10 +103,10 @@ static void write_pane(const shot_pane *pane, jsonl *stats)
 
 static void write_panes(const shot *s, jsonl *stats)
 {
-    if (!s->scene->pane_count)
+    if (!scene_glass_of(s->scene)->pane_count)
         return;
     jsonl_begin_array(stats, "glass");
-    for (uint32_t i = 0; i < s->scene->pane_count; i++)
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++)
         write_pane(&s->panes[i], stats);
     jsonl_end(stats);
 }

@@ -46,7 +46,7 @@ static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd, const virga_tar
                                    virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
 {
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++)
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count && result >= 0; i++)
         result = draw(s->panes[i].glass, cmd, target);
     host_target_end_layer(&s->target, cmd);
     return result;
@@ -79,7 +79,7 @@ static virga_result draw_panes(shot *s, VkCommandBuffer cmd, virga_view view, do
 {
     virga_result result = draw_behind(s, cmd);
     view.color = host_target_behind(&s->target);
-    for (uint32_t i = 0; i < s->scene->pane_count && result >= 0; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count && result >= 0; i++) {
         virga_glass_pose pose;
         const shot_pane *pane = &s->panes[i];
         pose_pane(s, pane->from, camera_s, &pose);
@@ -129,7 +129,7 @@ static bool record_picture(shot *s, VkCommandBuffer cmd, const sample_views *vie
         !record_plate(s, cmd, at.camera_s, now, frame_ago, error, error_size) ||
         !shot_ok(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
         return false;
-    if (s->scene->pane_count &&
+    if (scene_glass_of(s->scene)->pane_count &&
         !shot_ok(s, draw_panes(s, cmd, views->jittered, at.camera_s, at.late_s), "drawing panes", error, error_size))
         return false;
     return !s->moving || shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);

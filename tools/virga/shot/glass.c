@@ -40,7 +40,7 @@ static void fill_wiper(const scene_wiper *from, double preroll_s, double time_s,
     to->phase_s = (float)phase_of(from, preroll_s);
     to->film_mm = (float)from->film_mm;
     to->wear = (float)from->wear;
-    to->host_deg = (float)scene_file_wiper_deg(from, time_s);
+    to->host_deg = (float)scene_wiper_angle_deg(from, time_s);
 }
 
 /* What the kind of surface says, unless the scene says otherwise. */
@@ -104,7 +104,7 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
 
 bool shot_panes_set(shot *s, double time_s, char *error, size_t error_size)
 {
-    for (uint32_t i = 0; s->panes && i < s->scene->pane_count; i++) {
+    for (uint32_t i = 0; s->panes && i < scene_glass_of(s->scene)->pane_count; i++) {
         shot_pane *pane = &s->panes[i];
         virga_glass_settings *to = &pane->settings;
         *to = virga_default_glass_settings();
@@ -124,8 +124,8 @@ bool shot_panes_set(shot *s, double time_s, char *error, size_t error_size)
 /* One of the two angles may be the scene's and the other its kind's. */
 bool shot_check_panes(const scene_file *scene, char *error, size_t error_size)
 {
-    for (uint32_t i = 0; i < scene->pane_count; i++) {
-        const scene_pane *pane = &scene->panes[i];
+    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++) {
+        const scene_pane *pane = &scene_glass_of(scene)->panes[i];
         virga_glass_settings settings = virga_default_glass_settings();
         char key[64];
         fill_kind(pane, &settings);
@@ -160,7 +160,7 @@ static bool read_picture(const scene_file *scene, const char *key, const char *f
 bool shot_read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, float **bumps_m,
                      char *error, size_t error_size)
 {
-    const scene_bumps *from = &scene->panes[pane].bumps;
+    const scene_bumps *from = &scene_glass_of(scene)->panes[pane].bumps;
     char key[64];
     uint8_t *numbers;
     *bumps_m = NULL;
@@ -184,16 +184,16 @@ bool shot_read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns, u
     char key[64];
     uint8_t *numbers;
     *mask = NULL;
-    if (!scene->panes[pane].mask)
+    if (!scene_glass_of(scene)->panes[pane].mask)
         return true;
     snprintf(key, sizeof key, "glass.%u.mask", pane);
-    if (!read_picture(scene, key, scene->panes[pane].mask, columns, rows, &numbers, error, error_size))
+    if (!read_picture(scene, key, scene_glass_of(scene)->panes[pane].mask, columns, rows, &numbers, error, error_size))
         return false;
     *mask = malloc((size_t)*columns * *rows);
     for (uint32_t row = 0; *mask && row < *rows; row++)
         memcpy(*mask + (size_t)row * *columns, numbers + (size_t)(*rows - 1 - row) * *columns, *columns);
     free(numbers);
-    return *mask || host_fail(error, error_size, "no memory for %s", scene->panes[pane].mask);
+    return *mask || host_fail(error, error_size, "no memory for %s", scene_glass_of(scene)->panes[pane].mask);
 }
 
 /* ---- shapes */
@@ -321,10 +321,10 @@ static bool make_shape(shot *s, shot_pane *pane, char *error, size_t error_size)
 
 virga_glass_def *shot_panes_define(const shot *s)
 {
-    const uint32_t count = s->scene->pane_count;
+    const uint32_t count = scene_glass_of(s->scene)->pane_count;
     virga_glass_def *defs = count ? calloc(count, sizeof *defs) : NULL;
     for (uint32_t i = 0; defs && i < count; i++) {
-        const scene_pane *from = &s->scene->panes[i];
+        const scene_pane *from = &scene_glass_of(s->scene)->panes[i];
         defs[i] = virga_default_glass_def();
         defs[i].width_m = (float)from->width_m;
         defs[i].height_m = (float)from->height_m;
@@ -339,12 +339,12 @@ virga_glass_def *shot_panes_define(const shot *s)
 
 bool shot_panes_open(shot *s, char *error, size_t error_size)
 {
-    const uint32_t count = s->scene->pane_count;
+    const uint32_t count = scene_glass_of(s->scene)->pane_count;
     s->panes = calloc(count ? count : 1, sizeof *s->panes);
     if (!s->panes)
         return host_fail(error, error_size, "no memory for panes");
     for (uint32_t i = 0; i < count; i++) {
-        s->panes[i].from = &s->scene->panes[i];
+        s->panes[i].from = &scene_glass_of(s->scene)->panes[i];
         s->panes[i].glass = virga_scene_glass(s->rain_scene, i);
         if (!make_shape(s, &s->panes[i], error, error_size) || !shot_pane_make_mesh(s, &s->panes[i], error, error_size))
             return false;
@@ -354,7 +354,7 @@ bool shot_panes_open(shot *s, char *error, size_t error_size)
 
 void shot_panes_close(shot *s)
 {
-    for (uint32_t i = 0; s->panes && i < s->scene->pane_count; i++) {
+    for (uint32_t i = 0; s->panes && i < scene_glass_of(s->scene)->pane_count; i++) {
         host_buffer_destroy(&s->device, &s->panes[i].read.buffer);
         host_mesh_destroy(&s->device, &s->panes[i].mesh);
         free(s->panes[i].positions);

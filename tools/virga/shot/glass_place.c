@@ -137,7 +137,7 @@ static void move_as_given(const shot *s, const scene_pane *pane, double time_s, 
 
 virga_scene_pane *shot_panes_place(shot *s, double time_s)
 {
-    const uint32_t count = s->scene->pane_count;
+    const uint32_t count = scene_glass_of(s->scene)->pane_count;
     virga_scene_pane *placed = calloc(count ? count : 1, sizeof *placed);
     for (uint32_t i = 0; placed && i < count; i++) {
         const scene_pane *from = s->panes[i].from;

@@ -54,7 +54,7 @@ static bool check_material(const scene_file *scene, const char *key, const char 
 bool shot_check_materials(const scene_file *scene, char *error, size_t error_size)
 {
     char key[64];
-    const scene_ground *ground = &scene->ground;
+    const scene_ground *ground = scene_ground_of(scene);
     for (uint32_t i = 0; i < ground->material_count; i++) {
         snprintf(key, sizeof key, "ground.materials.%u.material", i);
         if (ground->materials[i].material &&
@@ -72,7 +72,7 @@ bool shot_check_materials(const scene_file *scene, char *error, size_t error_siz
 /* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
 static void apply_rules(const shot *s, host_mesh *mesh)
 {
-    const scene_ground *ground = &s->scene->ground;
+    const scene_ground *ground = scene_ground_of(s->scene);
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         host_primitive *primitive = &mesh->primitives[i];
         const scene_ground_rule *rule = ground->materials, *end = rule + ground->material_count;
@@ -115,7 +115,7 @@ bool shot_load_meshes(shot *s, char *error, size_t error_size)
 bool shot_read_material_map(const scene_file *scene, uint32_t *width, uint32_t *height, uint8_t **texels, char *error,
                             size_t error_size)
 {
-    const scene_material_map *map = &scene->ground.material_map;
+    const scene_material_map *map = &scene_ground_of(scene)->material_map;
     uint8_t material_of[256];
     char reason[1024];
     *texels = NULL;
@@ -152,7 +152,7 @@ static bool upload_materials(shot *s, uint32_t width, uint32_t height, const uin
 
 bool shot_load_material_map(shot *s, char *error, size_t error_size)
 {
-    const scene_material_map *map = &s->scene->ground.material_map;
+    const scene_material_map *map = &scene_ground_of(s->scene)->material_map;
     const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                                     VK_ACCESS_SHADER_READ_BIT};
     uint32_t width, height;

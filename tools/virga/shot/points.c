@@ -27,7 +27,7 @@ bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize 
 /* What is on the panes. */
 static bool record_panes(shot *s, VkCommandBuffer cmd, char *error, size_t error_size)
 {
-    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++) {
         virga_glass_buffer drops;
         shot_read *read = &s->panes[i].read;
         virga_glass_drops(s->panes[i].glass, &drops, &read->count);
@@ -191,7 +191,7 @@ static uint32_t take_drops(const shot_pane *pane, uint32_t index, shot_glass_dro
 bool shot_glass_drops(shot *s, shot_glass_drop **drops, uint32_t *count, char *error, size_t error_size)
 {
     size_t room = 1;
-    for (uint32_t i = 0; i < s->scene->pane_count; i++)
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++)
         room += s->panes[i].read.count;
     *count = 0;
     *drops = malloc(room * sizeof **drops);
@@ -199,7 +199,7 @@ bool shot_glass_drops(shot *s, shot_glass_drop **drops, uint32_t *count, char *e
         return host_fail(error, error_size, "no memory for %zu drops", room);
     if (!host_wait(&s->device, error, error_size))
         return false;
-    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++) {
         if (!s->panes[i].read.buffer.buffer)
             return host_fail(error, error_size, "no drops were read back");
         host_buffer_invalidate(&s->device, &s->panes[i].read.buffer);

@@ -32,7 +32,7 @@ void shot_fill_lights(shot *s)
 
 static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error, size_t error_size)
 {
-    const scene_rain *from = &s->scene->rain;
+    const scene_rain *from = scene_rain_of(s->scene);
     s->settings.sizes.kind = (virga_sizes_kind)from->sizes;
     if (from->sizes != SCENE_SIZES_TABLE)
         return true;
@@ -51,9 +51,9 @@ static bool fill_sizes(shot *s, double *diameters, double *numbers, char *error,
 /* What the scene file animates is rate and wind. */
 static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
 {
-    const scene_rain *from = &s->scene->rain;
+    const scene_rain *from = scene_rain_of(s->scene);
     double rate, wind[3], diameters[256], numbers[256];
-    scene_file_weather(s->scene, time_s, &rate, wind);
+    scene_rain_weather(scene_rain_of(s->scene), time_s, &rate, wind);
     s->settings.rate_mm_h = (float)rate;
     for (int axis = 0; axis < 3; axis++)
         s->settings.wind_m_s[axis] = (float)wind[axis];
@@ -83,9 +83,9 @@ static bool set_rain(shot *s, double time_s, char *error, size_t error_size)
 bool shot_set_ground(shot *s, char *error, size_t error_size)
 {
     virga_ground_settings settings = virga_default_ground_settings();
-    settings.evaporation_mm_h = (float)s->scene->ground.evaporation_mm_h;
-    settings.start_wetness = (float)s->scene->ground.start_wetness;
-    settings.start_water_mm = (float)s->scene->ground.start_water_mm;
+    settings.evaporation_mm_h = (float)scene_ground_of(s->scene)->evaporation_mm_h;
+    settings.start_wetness = (float)scene_ground_of(s->scene)->start_wetness;
+    settings.start_water_mm = (float)scene_ground_of(s->scene)->start_water_mm;
     settings.measure = s->options.stats;
     return !s->ground || shot_ok(s, virga_ground_set(s->ground, &settings), "setting the ground", error, error_size);
 }
@@ -93,7 +93,7 @@ bool shot_set_ground(shot *s, char *error, size_t error_size)
 /* Lit and carried by the same air as the rain, whose settings are made before. */
 static bool set_splash(shot *s, char *error, size_t error_size)
 {
-    const scene_splash *from = &s->scene->splash;
+    const scene_splash *from = scene_splash_of(s->scene);
     virga_splash_settings settings = virga_default_splash_settings();
     settings.mode = (virga_splash_mode)from->mode;
     settings.style = (virga_splash_style)from->style;
@@ -134,7 +134,7 @@ double shot_ripples_ahead(const shot *s, double time_s)
 
 static virga_scene_def define_scene(const shot *s)
 {
-    const scene_rain *from = &s->scene->rain;
+    const scene_rain *from = scene_rain_of(s->scene);
     virga_scene_def def = virga_default_scene_def();
     def.rain.seed = from->seed;
     def.rain.max_drops = from->max_drops;
@@ -144,17 +144,18 @@ static virga_scene_def define_scene(const shot *s)
     def.rain.occlusion_slants = from->occlusion_slants;
     def.rain.max_ticks_per_step = 64;
     def.rain.points = s->options.points;
-    def.rain.max_panes = s->scene->pane_count < MOST_CATCHING ? s->scene->pane_count : MOST_CATCHING;
-    def.with_ground = s->scene->ground.on;
-    def.ground.cells = s->scene->ground.cells;
-    def.ground.cell_m = (float)s->scene->ground.cell_m;
-    def.ground.kept_tiles = s->scene->ground.kept_tiles;
-    def.ground.far_cells = s->scene->ground.far_cells;
+    def.rain.max_panes =
+        scene_glass_of(s->scene)->pane_count < MOST_CATCHING ? scene_glass_of(s->scene)->pane_count : MOST_CATCHING;
+    def.with_ground = scene_ground_of(s->scene)->on;
+    def.ground.cells = scene_ground_of(s->scene)->cells;
+    def.ground.cell_m = (float)scene_ground_of(s->scene)->cell_m;
+    def.ground.kept_tiles = scene_ground_of(s->scene)->kept_tiles;
+    def.ground.far_cells = scene_ground_of(s->scene)->far_cells;
     /* A close-up sees finer waves of a smaller place. */
     def.ground.ripple_texel_m = (float)fmax(0.006 * shot_ripples_ahead(s, 0) / SHOT_RIPPLES_AHEAD_M, 0.002);
-    def.with_splash = s->scene->splash.on;
-    def.splash.max_splashes = s->scene->splash.max_splashes;
-    def.splash.max_droplets = s->scene->splash.max_droplets;
+    def.with_splash = scene_splash_of(s->scene)->on;
+    def.splash.max_splashes = scene_splash_of(s->scene)->max_splashes;
+    def.splash.max_droplets = scene_splash_of(s->scene)->max_droplets;
     /* Ticks divide a frame, so that each frame lies on one. */
     const double frame_s = 1 / s->scene->frames.fps;
     def.rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
@@ -186,7 +187,7 @@ static bool create_scene(shot *s, char *error, size_t error_size)
     virga_scene_def def = define_scene(s);
     virga_glass_def *panes = shot_panes_define(s);
     def.panes = panes;
-    def.pane_count = s->scene->pane_count;
+    def.pane_count = scene_glass_of(s->scene)->pane_count;
     const virga_result result = virga_scene_create(s->context, &def, &s->rain_scene);
     free(panes);
     return shot_ok(s, result, "making the rain", error, error_size);

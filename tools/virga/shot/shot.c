@@ -76,9 +76,10 @@ bool shot_make_target(shot *s, char *error, size_t error_size)
     const bool made = host_target_create(&s->device, width, height, &s->target, error, error_size);
     s->input_wrong = !made && (width > limit || height > limit);
     return made &&
-           ((!s->scene->splash.on && !s->options.live) ||
+           ((!scene_splash_of(s->scene)->on && !s->options.live) ||
             host_target_add_splash(&s->device, &s->target, error, error_size)) &&
-           (!s->scene->pane_count || host_target_add_glass(&s->device, &s->target, error, error_size)) &&
+           (!scene_glass_of(s->scene)->pane_count ||
+            host_target_add_glass(&s->device, &s->target, error, error_size)) &&
            (!s->options.water_velocity || host_target_add_moving(&s->device, &s->target, error, error_size));
 }
 

@@ -2,9 +2,13 @@
 #ifndef VIRGA_TOOL_SHOT_H
 #define VIRGA_TOOL_SHOT_H
 
+#include "glass.h"
+#include "ground.h"
 #include "host.h"
+#include "rain.h"
 #include "scene_file.h"
 #include "shot/plate.h"
+#include "splash.h"
 
 #include <virga/shared/drop.h>
 #include <virga/virga.h>

@@ -117,7 +117,7 @@ static void put_bar(maker *m, const double from[2], const double to[2], double w
 static void put_wiper(maker *m, const scene_wiper *from, const virga_glass_wiper *wiper, double preroll_s,
                       double time_s)
 {
-    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_file_wiper_deg(from, time_s)
+    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)
                                                            : virga_glass_wiper_deg(wiper, fmax(time_s + preroll_s, 0));
     const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
     const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
@@ -226,7 +226,7 @@ bool shot_pane_make_mesh(shot *s, shot_pane *pane, char *error, size_t error_siz
 
 bool shot_panes_move_meshes(shot *s, VkCommandBuffer cmd, double time_s, char *error, size_t error_size)
 {
-    for (uint32_t i = 0; i < s->scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++) {
         const shot_pane *pane = &s->panes[i];
         if (!pane->mesh.vertex_count)
             continue;

@@ -1,6 +1,8 @@
 /* actions.c - what can be done to a scene in the window, whoever asks for it. */
 #include "view/view.h"
 
+#include "effect.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,7 +64,7 @@ scene_file *view_load_tuned(viewer *v, char *error, size_t error_size)
     if (!all)
         snprintf(error, error_size, "no more memory");
     else
-        scene_file_load(v->path, all, count, &tuned, error, error_size);
+        scene_file_load(v->path, tool_effect_sections, all, count, &tuned, error, error_size);
     free(all);
     free(changes);
     return tuned;
@@ -125,7 +127,7 @@ bool view_preset_take(viewer *v, const char *name)
         view_say(v, "no preset '%.40s'; there are drizzle, shower, storm, carwash, window", name);
         return false;
     }
-    v->scene->rain.key_count = 0;
+    scene_rain_of(v->scene)->key_count = 0;
     v->needs_restart = false;
     for (uint32_t i = 0; i < VIEW_PRESET_SETTINGS && preset->settings[i]; i++)
         if (!view_assign(v, preset->settings[i]))
@@ -176,7 +178,7 @@ bool view_save(viewer *v, const char *path)
     size_t count = 0;
     char **changes;
     const char **all = all_changes(v, &changes, &count);
-    const bool saved = all && scene_settings_save(v->path, all, count, path, error, sizeof error);
+    const bool saved = all && scene_settings_save(v->path, tool_effect_sections, all, count, path, error, sizeof error);
     free(all);
     free(changes);
     if (saved)

@@ -126,7 +126,7 @@ static void take_numbers(viewer *v, double wall_s)
     virga_ground_stats_get(v->shot.ground, &n->ground);
     virga_splash_stats_get(v->shot.splash, &n->splash);
     virga_memory_get(v->shot.context, &n->memory);
-    for (uint32_t i = 0; i < v->scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++) {
         virga_glass_stats stats;
         virga_glass_stats_get(v->shot.panes[i].glass, &stats);
         on_glass += stats.drops + stats.particles;

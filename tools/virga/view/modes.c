@@ -46,9 +46,9 @@ uint32_t view_mode_layers(const shot *s, uint32_t mode)
     switch (mode) {
     case VIEW_OCCLUSION: virga_rain_occlusion_map_get(s->rain, &map); return map.cascades * map.slants;
     case VIEW_PANE:
-    case VIEW_PANE_HEIGHT: return s->scene->pane_count;
+    case VIEW_PANE_HEIGHT: return scene_glass_of(s->scene)->pane_count;
     case VIEW_GLASS:
-    case VIEW_REFRACTION: return s->scene->pane_count ? 1 : 0;
+    case VIEW_REFRACTION: return scene_glass_of(s->scene)->pane_count ? 1 : 0;
     case VIEW_SPLASH: return s->splash ? 1 : 0;
     case VIEW_WETNESS:
     case VIEW_WATER_DEPTH:

@@ -56,16 +56,16 @@ static void scrub(viewer *v, const char *path)
 /* Rate and wind, and how the wipers go: what one reaches for first. */
 void part_weather(viewer *v)
 {
-    if (v->scene->rain.key_count) {
+    if (scene_rain_of(v->scene)->key_count) {
         ImGui::PushTextWrapPos();
         ImGui::TextColored(COLOR_WARN, "The scene's keys say rate and wind at every time.");
         ImGui::PopTextWrapPos();
         if (ImGui::Button("Take over from the keys")) {
             double wind[3], rate;
-            scene_file_weather(v->scene, v->shot.camera_time_s, &rate, wind);
-            v->scene->rain.rate_mm_h = rate;
-            std::memcpy(v->scene->rain.wind_m_s, wind, sizeof wind);
-            v->scene->rain.key_count = 0;
+            scene_rain_weather(scene_rain_of(v->scene), v->shot.camera_time_s, &rate, wind);
+            scene_rain_of(v->scene)->rate_mm_h = rate;
+            std::memcpy(scene_rain_of(v->scene)->wind_m_s, wind, sizeof wind);
+            scene_rain_of(v->scene)->key_count = 0;
             view_list_settings(v);
         }
         return;
@@ -73,10 +73,10 @@ void part_weather(viewer *v)
     scrub(v, "rain.rate_mm_h");
     scrub(v, "rain.wind_m_s");
     scrub(v, "rain.gust_m_s");
-    for (uint32_t p = 0; p < v->scene->pane_count; p++)
-        for (uint32_t w = 0; w < v->scene->panes[p].wiper_count; w++) {
+    for (uint32_t p = 0; p < scene_glass_of(v->scene)->pane_count; p++)
+        for (uint32_t w = 0; w < scene_glass_of(v->scene)->panes[p].wiper_count; w++) {
             char path[96];
-            ImGui::TextColored(COLOR_HINT, "%s, wiper %u", v->scene->panes[p].name, w + 1);
+            ImGui::TextColored(COLOR_HINT, "%s, wiper %u", scene_glass_of(v->scene)->panes[p].name, w + 1);
             for (const char *key : {"drive", "sweep_s", "pause_s"}) {
                 std::snprintf(path, sizeof path, "glass.%u.wipers.%u.%s", p, w, key);
                 scrub(v, path);
@@ -114,7 +114,8 @@ static void choose_layer(viewer *v)
                       2 * (double)map.half_m[std::min(v->layer / map.slants, 3u)], v->layer % map.slants + 1,
                       map.slants);
     } else {
-        std::snprintf(format, sizeof format, "pane %%d: %.40s", v->scene->panes[std::min(v->layer, layers - 1)].name);
+        std::snprintf(format, sizeof format, "pane %%d: %.40s",
+                      scene_glass_of(v->scene)->panes[std::min(v->layer, layers - 1)].name);
     }
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderInt("##layer", &layer, 0, (int)layers - 1, format, ImGuiSliderFlags_AlwaysClamp))

@@ -58,7 +58,7 @@ void part_counts(viewer *v)
     plot_count("##impacts", n.impacts, "impacts a frame");
     if (v->shot.splash)
         plot_count("##droplets", n.droplets, "droplets in the air");
-    if (v->scene->pane_count)
+    if (scene_glass_of(v->scene)->pane_count)
         plot_count("##glass", n.on_glass, "drops and particles on panes");
     std::snprintf(text, sizeof text, "%.1f MiB of the device", (double)n.memory.device_bytes / (1 << 20));
     plot("##memory", n.memory_mib, text, 34);
@@ -135,8 +135,8 @@ void part_water(viewer *v)
     ImGui::Text("in the air as splashes: %.6f l", (double)(n.splash.flown_nl - n.splash.returned_nl) * 1e-9);
     if (v->shot.ground)
         budget_of_ground(n.ground);
-    for (uint32_t i = 0; i < v->scene->pane_count; i++)
-        budget_of_pane(v->scene->panes[i].name, v->shot.panes[i].glass);
+    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++)
+        budget_of_pane(scene_glass_of(v->scene)->panes[i].name, v->shot.panes[i].glass);
 }
 
 } // namespace view_panel

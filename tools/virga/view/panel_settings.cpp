@@ -316,9 +316,9 @@ void sections(viewer *v)
     section(v, &g, "Rain", "rain.");
     section(v, &g, "Ground", "ground.");
     section(v, &g, "Splashes", "splash.");
-    for (uint32_t i = 0; i < v->scene->pane_count; i++) {
+    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++) {
         char title[80], prefix[24];
-        std::snprintf(title, sizeof title, "Pane: %.40s", v->scene->panes[i].name);
+        std::snprintf(title, sizeof title, "Pane: %.40s", scene_glass_of(v->scene)->panes[i].name);
         std::snprintf(prefix, sizeof prefix, "glass.%u.", i);
         section(v, &g, title, prefix);
     }

@@ -138,9 +138,9 @@ void view_picture_destroy(view_picture *p)
 static const shot_pane *pane_of(const shot *s, const view_shown *shown)
 {
     const bool flat = shown->mode == VIEW_PANE || shown->mode == VIEW_PANE_HEIGHT;
-    if (!s->scene->pane_count)
+    if (!scene_glass_of(s->scene)->pane_count)
         return NULL;
-    return &s->panes[flat && shown->layer < s->scene->pane_count ? shown->layer : 0];
+    return &s->panes[flat && shown->layer < scene_glass_of(s->scene)->pane_count ? shown->layer : 0];
 }
 
 static void fill_camera(const host_camera *camera, struct view_gpu *out)
@@ -187,7 +187,7 @@ static void fill_ground(const shot *s, const host_camera *camera, uint32_t mode,
 /* Both ends of a blade at a time, as the library places it. */
 static void place_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
 {
-    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_file_wiper_deg(from, time_s)
+    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)
                                                            : virga_glass_wiper_deg(wiper, fmax(time_s, 0));
     const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
     const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;

@@ -229,7 +229,7 @@ static bool do_print(viewer *v, const script_line *line)
 {
     (void)line;
     printf("time %.4f s, %s, %.3g mm/h, view %s, camera %s, %u x %u\n", v->shot.camera_time_s,
-           v->paused ? "paused" : "playing", v->scene->rain.rate_mm_h, view_mode(v->mode)->name,
+           v->paused ? "paused" : "playing", scene_rain_of(v->scene)->rate_mm_h, view_mode(v->mode)->name,
            v->camera.free ? "free" : "on its path", v->shot.target.width, v->shot.target.height);
     fflush(stdout);
     return true;

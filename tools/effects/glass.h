@@ -1,0 +1,108 @@
+/* glass.h - the panes of a scene file, which drops run down. */
+#ifndef VIRGA_EFFECTS_GLASS_H
+#define VIRGA_EFFECTS_GLASS_H
+
+#include "scene_file.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SCENE_FILE_MAX_PANES  16 /* as many as the library's scene takes */
+#define SCENE_FILE_MAX_WIPERS 8  /* of a pane, as many as the library takes */
+
+/* Words of panes are numbers of the library: virga/glass.h says what each means. */
+typedef enum scene_pane_shape { SCENE_PANE_FLAT, SCENE_PANE_WINDSHIELD, SCENE_PANE_MESH } scene_pane_shape;
+typedef enum scene_pane_follow { SCENE_PANE_WORLD, SCENE_PANE_CAMERA } scene_pane_follow;
+typedef enum scene_pane_motion { SCENE_PANE_MOTION_PATH, SCENE_PANE_MOTION_GIVEN } scene_pane_motion;
+typedef enum scene_wiper_drive {
+    SCENE_WIPER_PARKED,
+    SCENE_WIPER_CONTINUOUS,
+    SCENE_WIPER_INTERMITTENT,
+    SCENE_WIPER_KEYS,
+} scene_wiper_drive;
+
+typedef struct scene_wiper_key {
+    double time_s, angle_deg;
+} scene_wiper_key;
+
+typedef struct scene_wiper {
+    double pivot_m[2]; /* on the pane: right and up from its lower left corner, seen from outside */
+    double reach_m, blade_m, width_m;
+    double low_deg, high_deg, blade_deg, blade_turn;
+    uint32_t drive; /* scene_wiper_drive */
+    double sweep_s, pause_s, phase_s;
+    double film_mm, wear;
+    scene_wiper_key *keys; /* (keys) by rising time; linear between them, constant outside; at least 1 */
+    uint32_t key_count;
+    bool drawn; /* arm and blade are seen */
+} scene_wiper;
+
+/* A height map of the surface. */
+typedef struct scene_bumps {
+    char *file;        /* a PNG of numbers (see png_read_numbers), as it can be opened; NULL: smooth */
+    double size_mm[2]; /* that the picture covers, along and up; repeated */
+    double depth_mm;   /* of black under white */
+    double pull;
+} scene_bumps;
+
+/* Drops on a pane. Numbers behind a pointer are NULL where `kind` has them. */
+typedef struct scene_pane {
+    char *name;
+    uint32_t shape; /* scene_pane_shape */
+    double width_m, height_m;
+    double rake_deg, bend_m; /* (windshield) */
+    char *mesh;              /* (mesh) in the name of a mesh or its material, in any case */
+    char *mask;              /* a PNG, black where there is no glass, as it can be opened; NULL: glass everywhere */
+    uint32_t follow;         /* scene_pane_follow: what place and angles are given in */
+    double position_m[3];    /* of the middle of the lower edge (mesh: of the model's origin): in the world, or to the
+                             * right of the camera, above it and ahead of it */
+    double yaw_deg;          /* to the left seen from above; at 0 outside faces +Z, or ahead */
+    double pitch_deg;        /* back */
+    double roll_deg;         /* to the left seen from outside */
+    uint32_t motion;         /* scene_pane_motion */
+    double velocity_m_s[3], acceleration_m_s2[3], turn_deg_s[3]; /* (given) in the frame of position_m */
+    double shelter;
+    double frame_m; /* width of a dark frame around it; 0: none */
+    uint32_t kind;  /* virga_glass_kind */
+    double *advancing_deg, *receding_deg, *run_hold, *affinity, *film_um, *tail_mm;
+    bool *opaque; /* NULL: metal and leaves are */
+    double drag, meander, path_ease, path_s, touch;
+    double tail_m, tail_s, film_break_s, evaporation_mm_h, mist_mm, air_share;
+    scene_wiper *wipers;
+    uint32_t wiper_count;
+    double particle_mm, penalty, band, hold_back_mm;
+    uint32_t hold_back_cells;
+    uint32_t density, blend; /* virga_glass_density, virga_glass_blend */
+    bool compress;
+    double compress_from, compress_step, compress_k;
+    uint32_t compress_steps;
+    double threshold, impact_s;
+    uint32_t style; /* virga_glass_style */
+    double paper_shift, thickness_mm, tint[3], gain;
+    double cell_m, affinity_m;
+    uint32_t max_drops, max_texels;
+    scene_bumps bumps;
+} scene_pane;
+
+/* All panes, distant ones first. */
+typedef struct scene_glass {
+    scene_pane *panes;
+    uint32_t pane_count;
+} scene_glass;
+
+/* The panes of a scene. */
+scene_glass *scene_glass_of(const scene_file *scene);
+
+/* The keywords that a file has for them. */
+const char *scene_pane_shape_name(uint32_t shape);
+const char *scene_pane_kind_name(uint32_t kind);
+const char *scene_pane_style_name(uint32_t style);
+
+/* Angle of the arm of a wiper with keys. */
+double scene_wiper_angle_deg(const scene_wiper *wiper, double time_s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,36 @@
+/* splash.h - the splashes of a scene file. */
+#ifndef VIRGA_EFFECTS_SPLASH_H
+#define VIRGA_EFFECTS_SPLASH_H
+
+#include "scene_file.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYSICAL } scene_splash_mode;
+typedef enum scene_splash_style { SCENE_SPLASH_STYLE_PAPER, SCENE_SPLASH_STYLE_FILM } scene_splash_style;
+
+typedef struct scene_splash {
+    bool on;        /* only where the ground is on too */
+    uint32_t mode;  /* scene_splash_mode */
+    uint32_t style; /* scene_splash_style */
+    uint32_t max_splashes, max_droplets;
+    double droplets_m;
+    double bounce;
+    double pile_s, pile_m;
+    double dot_mm;
+    double gain, light_gain, min_width_px, soft_m, near_m;
+} scene_splash;
+
+/* The splashes of a scene. */
+scene_splash *scene_splash_of(const scene_file *scene);
+
+/* The keywords that a file has for them. */
+const char *scene_splash_mode_name(uint32_t mode);
+const char *scene_splash_style_name(uint32_t style);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
