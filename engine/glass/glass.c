@@ -2,6 +2,11 @@
 #include "glass/glass_internal.h"
 
 #include "core/light.h"
+#include "core/settings.h"
+#include "gpu/budget.h"
+#include "gpu/builds.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
 
 #include <virga/shared/impact.h>
 

@@ -2,6 +2,14 @@
  * drawing. */
 #include "glass/glass_picture.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/target.h"
+#include "gpu/timers.h"
+#include "gpu/view.h"
+
 #include "shaders/glass_picture_mist_frag.spv.h"
 #include "shaders/glass_picture_mist_vert.spv.h"
 #include "shaders/glass_picture_pane_vert.spv.h"

@@ -12,8 +12,10 @@
 #ifndef VIRGA_GLASS_INTERNAL_H
 #define VIRGA_GLASS_INTERNAL_H
 
+#include "gpu/bindings.h"
 #include "gpu/context.h"
-#include "gpu/view.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <virga/glass.h>
 #include <virga/shared/glass_gpu.h>

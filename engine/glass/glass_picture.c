@@ -1,6 +1,9 @@
 /* glass/glass_picture.c - what the height map and the draws need: create, destroy, and what their sets hold. */
 #include "glass/glass_picture.h"
 
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+
 #include "shaders/glass_picture_balls_comp.spv.h"
 #include "shaders/glass_picture_blocks_comp.spv.h"
 #include "shaders/glass_picture_boxes_comp.spv.h"

@@ -10,6 +10,7 @@
 #include "glass/glass_internal.h"
 
 #include <virga/shared/glass_picture_gpu.h>
+#include <virga/shared/view_gpu.h>
 
 #define GLASS_MAX_TARGETS 8
 

@@ -1,6 +1,9 @@
 /* glass/glass_shape.c - panes flat and bent, masks, bumps: what nodes and cells know. */
 #include "glass/glass_internal.h"
 
+#include "core/settings.h"
+#include "gpu/errors.h"
+
 #include <virga/shared/random.h>
 
 #include <math.h>

@@ -1,6 +1,14 @@
 /* glass/glass_step.c - a step: drops land, run, meet blades and dry, tick by tick. */
 #include "glass/glass_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/checks.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <virga/shared/random.h>
 
 #include <math.h>

@@ -1,6 +1,8 @@
 /* glass/glass_temporal.c - where a pane was in the previous frame's picture. */
 #include "glass/glass_picture.h"
 
+#include "gpu/view.h"
+
 #include <string.h>
 
 /* out = a b, of rotations column by column. */

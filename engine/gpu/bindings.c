@@ -1,5 +1,10 @@
 /* gpu/bindings.c - the binding model: an effect lists its bindings once, and all of its passes see the same set. */
+#include "gpu/bindings.h"
+
 #include "gpu/context.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/retire.h"
 
 static void bindings_destroy(virga_context *context, virga_resource *resource)
 {
@@ -77,7 +82,7 @@ error:
     return result;
 }
 
-/* A pass may see what devices are asked for, and a device at hand may allow more: so that it is seen here. */
+/* The device at hand may allow more than others do: so that too many are found here too. */
 static virga_result check_storage(const virga_context *context, const virga_binding_kind *kinds, uint32_t count)
 {
     const VkShaderStageFlags stages[] = {VK_SHADER_STAGE_COMPUTE_BIT, VK_SHADER_STAGE_VERTEX_BIT,
@@ -114,27 +119,6 @@ virga_result virga_bindings_create(virga_context *context, const virga_binding_k
     else
         *bindings = made;
     return result;
-}
-
-virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
-                                   VkDeviceSize size, VkDeviceSize least)
-{
-    const VkDeviceSize asked = context->properties.limits.minStorageBufferOffsetAlignment;
-    const VkDeviceSize alignment = asked > 4 ? asked : 4; /* indirect arguments lie in it */
-    if (offset % alignment)
-        return virga_wrong_argument(&context->log, "%s_offset: expected a multiple of %llu on this device, got %llu",
-                                    name, (unsigned long long)alignment, (unsigned long long)offset);
-    if (size && size < least)
-        return virga_wrong_argument(&context->log, "%s_size: expected at least %llu bytes, got %llu", name,
-                                    (unsigned long long)least, (unsigned long long)size);
-    return VIRGA_OK;
-}
-
-VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize most)
-{
-    const VkDeviceSize limit = context->properties.limits.maxStorageBufferRange;
-    most = most < limit ? most : limit;
-    return !size ? VK_WHOLE_SIZE : size < most ? size : most;
 }
 
 VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bindings, uint32_t index,

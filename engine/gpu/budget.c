@@ -2,6 +2,8 @@
  *
  * An estimate is an upper bound, and what is left is cut by pages; so an effect is simply tried, smaller each time,
  * until it fits. Pipelines come last in every create, so that a try costs the making of some buffers and no more. */
+#include "gpu/budget.h"
+
 #include "gpu/context.h"
 
 #include <stdio.h>

@@ -1,15 +1,19 @@
 /* gpu/builds.c - when pipelines are built: at once, in steps of the host's choice, or by the host's jobs.
  *
- * A build that waits holds a copy of its definition. Whoever runs it, on whatever thread, calls the device and writes
- * into the build alone; the thread of the API takes the result over when it collects. So the context needs no lock:
- * what threads share of a build is its state, which moves
+ * A waiting build holds a copy of its definition. Any thread may run it: it calls the device and writes only into the
+ * build. The thread of the API collects the result. So the context needs no lock: threads share only the state of a
+ * build, which goes
  *
  *     WAITING -> RUNNING -> DONE -> collected          WAITING -> DROPPED -> DONE -> collected
  *
- * where the second way is that of a pipeline let go of before its turn. A job that the host has been given keeps a
- * pointer to its build, so that a dropped one is freed only after its job was run (and did nothing), or with the
- * context. */
+ * The second way is for a pipeline that was retired before its build began. The host's job keeps a pointer to its
+ * build, so a dropped build is freed only after its job was run (and did nothing), or with the context. */
+#include "gpu/builds.h"
+
 #include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <stdatomic.h>
 
@@ -18,12 +22,12 @@ enum { WAITING, RUNNING, DROPPED, DONE };
 typedef struct virga_build {
     struct virga_build *next;
     virga_context *context; /* read by jobs: its functions, device and pipeline cache, which never change */
-    virga_pipeline *owner;  /* NULL: let go of */
+    virga_pipeline *owner;  /* NULL: retired */
     bool graphics;
     virga_compute_def compute_def;
     virga_graphics_def graphics_def;
     atomic_int state;
-    VkPipeline made; /* from here on: written by who runs it, before it is DONE */
+    VkPipeline made; /* from here on: written by whoever runs it, before DONE */
     VkResult result;
     const char *call;
 } virga_build;
@@ -46,7 +50,7 @@ static void run(void *data)
     atomic_store(&build->state, DONE);
 }
 
-/* The device made it, or did not. */
+/* The device built it, or failed. */
 static virga_result finish(virga_context *context, virga_pipeline *pipeline, VkResult made, VkPipeline handle,
                            const char *call)
 {
@@ -60,8 +64,8 @@ static virga_result finish(virga_context *context, virga_pipeline *pipeline, VkR
     return VIRGA_OK;
 }
 
-virga_result virga_pipeline_ask(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
-                                const virga_graphics_def *graphics)
+virga_result virga_build_request(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
+                                 const virga_graphics_def *graphics)
 {
     if (context->pipelines_when == VIRGA_PIPELINES_AT_ONCE) {
         VkPipeline handle = VK_NULL_HANDLE;
@@ -147,7 +151,7 @@ virga_result virga_builds_collect(virga_context *context)
     return first;
 }
 
-/* Without jobs nobody else knows of a build, so that one nobody wants is as good as run. */
+/* Without jobs nobody else has a pointer to the build, so it counts as run. */
 static void drop(const virga_context *context, virga_build *build)
 {
     int expected = WAITING;
@@ -164,7 +168,7 @@ void virga_build_disown(virga_context *context, virga_pipeline *pipeline)
     pipeline->build = NULL;
 }
 
-bool virga_builds_hold(virga_context *context)
+bool virga_builds_cancel_retired(virga_context *context)
 {
     bool running = false;
     for (virga_build *build = context->builds; build; build = build->next) {
@@ -186,13 +190,13 @@ void virga_builds_free(virga_context *context)
     }
 }
 
-/* Runs up to `most` of those that wait, in the order they were asked for. */
-static void run_some(const virga_context *context, uint32_t most)
+/* Runs up to `max_count` of the waiting builds, in the order of the requests. */
+static void run_some(const virga_context *context, uint32_t max_count)
 {
-    for (virga_build *build = context->builds; build && most; build = build->next)
+    for (virga_build *build = context->builds; build && max_count; build = build->next)
         if (atomic_load(&build->state) == WAITING) {
             run(build);
-            most--;
+            max_count--;
         }
 }
 

@@ -1,97 +1,19 @@
-/* gpu/context.c - takes a host's device into use, and moves with its frames. */
+/* gpu/context.c - creates the context on a host's device, and follows the host's frames. */
 #include "gpu/context.h"
 
-#include <stdarg.h>
-#include <stdio.h>
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
+#include "gpu/functions.h"
+#include "gpu/pipeline_cache.h"
+#include "gpu/retire.h"
+#include "gpu/timers.h"
+
 #include <string.h>
 
 #define CONTEXT_COOKIE VIRGA_COOKIE(1)
 
-/* ---- results and their lines */
-
-static const char *vulkan_result_name(VkResult result)
-{
-    switch (result) {
-#define NAME(value)    \
-    case value: {      \
-        return #value; \
-    }
-        NAME(VK_SUCCESS)
-        NAME(VK_NOT_READY)
-        NAME(VK_TIMEOUT)
-        NAME(VK_INCOMPLETE)
-        NAME(VK_ERROR_OUT_OF_HOST_MEMORY)
-        NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY)
-        NAME(VK_ERROR_INITIALIZATION_FAILED)
-        NAME(VK_ERROR_DEVICE_LOST)
-        NAME(VK_ERROR_MEMORY_MAP_FAILED)
-        NAME(VK_ERROR_FEATURE_NOT_PRESENT)
-        NAME(VK_ERROR_TOO_MANY_OBJECTS)
-        NAME(VK_ERROR_FORMAT_NOT_SUPPORTED)
-        NAME(VK_ERROR_FRAGMENTED_POOL)
-        NAME(VK_ERROR_OUT_OF_POOL_MEMORY)
-        NAME(VK_ERROR_UNKNOWN)
-#undef NAME
-    default: {
-        return "another VkResult";
-    }
-    }
-}
-
-virga_result virga_vulkan_failed(virga_context *context, VkResult result, const char *call)
-{
-    if (result == VK_ERROR_DEVICE_LOST) {
-        if (!context->lost)
-            virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s",
-                          call);
-        context->lost = true;
-        return VIRGA_ERROR_DEVICE_LOST;
-    }
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_VULKAN_CALL, "%s (%d) from %.300s",
-                  vulkan_result_name(result), (int)result, call);
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        return VIRGA_ERROR_HOST_MEMORY;
-    return result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? VIRGA_ERROR_DEVICE_MEMORY : VIRGA_ERROR_VULKAN;
-}
-
-virga_result virga_out_of_host_memory(virga_context *context, const char *what)
-{
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for %s", what);
-    return VIRGA_ERROR_HOST_MEMORY;
-}
-
-virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
-{
-    char line[VIRGA_LOG_LINE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s", line);
-    return VIRGA_ERROR_INVALID;
-}
-
-virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *told)
-{
-    if (ready == VIRGA_OK && !*told) {
-        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "%s: %s", call,
-                      attached ? "nothing was prepared in this frame" : "the target was not attached");
-        *told = true;
-    }
-    return VIRGA_NOT_READY;
-}
-
-/* Numbers of ticks wrap around, after years. */
-virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
-{
-    if (!ticks || !last || (int32_t)(first - *last) > 0)
-        return VIRGA_OK;
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                  "step_info.first_tick: %u after %u, expected one behind it", first, *last);
-    return VIRGA_ERROR_INVALID;
-}
-
-/* ---- create and destroy */
+#define LARGEST_POOL_TEXELS 33554432 /* at least: the largest pools hold 4194304 streaks or sprites of 5 texels */
 
 virga_context_def virga_default_context_def(void)
 {
@@ -124,15 +46,18 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     return VIRGA_OK;
 }
 
-/* Out of range it would be found out at the first submit only. */
-static virga_result check_family(const virga_context *context, uint32_t family, const VkQueueFamilyProperties *families,
-                                 uint32_t count)
+/* A wrong family would otherwise show only at the first submit. Fills how many bits of its timestamps are valid. */
+static virga_result check_family(const virga_context *context, uint32_t family, uint32_t *timestamp_bits)
 {
     const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    if (family < count && (families[family].queueFlags & both) == both)
-        return VIRGA_OK;
-    return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute",
-                                family);
+    VkQueueFamilyProperties families[64];
+    uint32_t count = 64;
+    context->vk.GetPhysicalDeviceQueueFamilyProperties(context->physical_device, &count, families);
+    if (family >= count || (families[family].queueFlags & both) != both)
+        return virga_wrong_argument(&context->log, "context_def.queue_family: %u is none with graphics and compute",
+                                    family);
+    *timestamp_bits = families[family].timestampValidBits;
+    return VIRGA_OK;
 }
 
 static virga_result check_lines(const virga_context *context, const virga_context_def *def)
@@ -142,32 +67,6 @@ static virga_result check_lines(const virga_context *context, const virga_contex
     if (!def->wide_lines || there.features.wideLines)
         return VIRGA_OK;
     return virga_wrong_argument(&context->log, "context_def.wide_lines: the device has no wideLines");
-}
-
-static virga_result create_timers(virga_context *context, const virga_context_def *def)
-{
-    virga_result result = VIRGA_OK;
-    VkQueueFamilyProperties families[64];
-    uint32_t count = 64;
-    context->vk.GetPhysicalDeviceQueueFamilyProperties(context->physical_device, &count, families);
-    result = check_family(context, def->queue_family, families, count);
-    if (result)
-        return result;
-    const uint32_t bits = families[def->queue_family].timestampValidBits;
-    context->timings = def->timings && bits > 0;
-    if (!context->timings)
-        return VIRGA_OK;
-    context->timestamp_mask = bits >= 64 ? UINT64_MAX : (UINT64_C(1) << bits) - 1;
-    context->timestamp_ns = (double)context->properties.limits.timestampPeriod;
-    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                        .queryCount = VIRGA_MAX_QUERIES};
-    for (uint32_t i = 0; i < context->frames_in_flight; i++) {
-        VK_TRY(context, CreateQueryPool(context->device, &info, NULL, &context->timers[i].pool));
-        context->objects++;
-    }
-error:
-    return result;
 }
 
 static virga_result create_samplers(virga_context *context)
@@ -188,7 +87,7 @@ error:
 
 static void destroy_objects(virga_context *context)
 {
-    virga_graveyard_sweep(context, true);
+    virga_destroy_retired(context, true);
     virga_builds_free(context);
     const VkSampler samplers[2] = {context->nearest, context->linear};
     for (int i = 0; i < 2; i++)
@@ -196,11 +95,7 @@ static void destroy_objects(virga_context *context)
             context->vk.DestroySampler(context->device, samplers[i], NULL);
             context->objects--;
         }
-    for (uint32_t i = 0; i < VIRGA_MAX_FRAMES_IN_FLIGHT; i++)
-        if (context->timers[i].pool) {
-            context->vk.DestroyQueryPool(context->device, context->timers[i].pool, NULL);
-            context->objects--;
-        }
+    virga_timers_destroy(context);
     if (context->pipeline_cache) {
         context->vk.DestroyPipelineCache(context->device, context->pipeline_cache, NULL);
         context->objects--;
@@ -218,6 +113,7 @@ static virga_result init(virga_context *context, const virga_context_def *def)
 {
     virga_result result = VIRGA_OK;
     char reason[256];
+    uint32_t timestamp_bits = 0;
     context->instance = def->instance;
     context->physical_device = def->physical_device;
     context->device = def->device;
@@ -239,12 +135,13 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->software = context->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     TRY(check_lines(context, def));
     context->lines = def->wide_lines && context->software && context->properties.limits.strictLines;
-    /* By the device alone and not by what is asked of it, so that it has one kind of pipelines. GPUs of desktops have
-     * 2^27 texels or more in a view, those of phones often what is promised. */
-    context->small_views = context->properties.limits.maxTexelBufferElements < VIRGA_MOST_TEXELS;
+    /* The device alone decides, not the sizes of pools, so that a device has one variant of each pipeline. Desktop GPUs
+     * allow 2^27 texels or more in a view, phones often only what Vulkan guarantees. */
+    context->small_views = context->properties.limits.maxTexelBufferElements < LARGEST_POOL_TEXELS;
     context->vk.GetPhysicalDeviceMemoryProperties(def->physical_device, &context->memory_properties);
     TRY(virga_pipeline_cache_create(context, def->pipeline_cache, def->pipeline_cache_size));
-    TRY(create_timers(context, def));
+    TRY(check_family(context, def->queue_family, &timestamp_bits));
+    TRY(virga_timers_create(context, def->timings ? timestamp_bits : 0));
     TRY(create_samplers(context));
 error:
     return result;
@@ -321,13 +218,9 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     context->frame_index = frame_index;
     context->completed_index = completed_index;
     context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
-    virga_builds_collect(context); /* a failure is its effect's to say */
-    virga_graveyard_sweep(context, false);
-    virga_timer_slot *slot = &context->timers[context->ring_slot];
-    const virga_result result = virga_timers_collect(context, slot);
-    slot->count = 0;
-    slot->reset = false;
-    return result;
+    virga_builds_collect(context); /* its effect reports a failure */
+    virga_destroy_retired(context, false);
+    return virga_timers_begin_frame(context);
 }
 
 virga_result virga_frame_completed(virga_context *context, uint64_t completed_index)
@@ -343,16 +236,8 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
                       (unsigned long long)context->frame_index);
         return VIRGA_ERROR_INVALID;
     }
-    virga_result result = VIRGA_OK;
     context->completed_index = completed_index;
-    for (uint32_t i = 0; i < context->frames_in_flight && result >= 0; i++)
-        if (context->timers[i].count && context->timers[i].frame_index <= completed_index) {
-            const virga_result collected = virga_timers_collect(context, &context->timers[i]);
-            result = collected ? collected : result;
-            context->timers[i].count = 0;
-            context->timers[i].reset = false;
-        }
-    return result;
+    return virga_timers_collect(context);
 }
 
 void virga_memory_get(const virga_context *context, virga_memory_stats *stats)

@@ -1,4 +1,6 @@
 /* gpu/device_check.c - what a device must have, as data, and the check of a device against it. */
+#include "gpu/device_check.h"
+
 #include "gpu/functions.h"
 
 #include <stdio.h>

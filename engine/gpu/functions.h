@@ -9,9 +9,6 @@
 
 #include <virga/vulkan.h>
 
-/* Storage buffers that one pass may see; devices with fewer are refused. Vulkan promises four. */
-#define VIRGA_STORAGE_BUFFERS 16
-
 #define VIRGA_INSTANCE_FUNCTIONS(X)           \
     X(GetPhysicalDeviceProperties)            \
     X(GetPhysicalDeviceProperties2)           \

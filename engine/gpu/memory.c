@@ -2,7 +2,10 @@
  *
  * Buffers and images never share a page, so bufferImageGranularity needs no thought. A page keeps its free ranges in
  * order of offset; releasing merges neighbours, and an empty page is given back at once. */
+#include "gpu/memory.h"
+
 #include "gpu/context.h"
+#include "gpu/errors.h"
 
 #include <string.h>
 

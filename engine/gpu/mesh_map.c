@@ -2,6 +2,13 @@
  * first. Rain asks it what shelters, ground asks it what there is to wet. */
 #include "gpu/mesh_map.h"
 
+#include "core/settings.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/pipelines.h"
+#include "gpu/record.h"
+#include "gpu/resources.h"
+#include "gpu/retire.h"
 #include "shaders/gpu_mesh_map_frag.spv.h"
 #include "shaders/gpu_mesh_map_vert.spv.h"
 

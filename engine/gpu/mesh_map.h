@@ -6,7 +6,8 @@
 #ifndef VIRGA_GPU_MESH_MAP_H
 #define VIRGA_GPU_MESH_MAP_H
 
-#include "gpu/context.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <virga/mesh.h>
 

@@ -1,5 +1,10 @@
-/* gpu/resources.c - buffers and images with memory, name and count, and the graveyard that outlives their frames. */
+/* gpu/resources.c - buffers and images, with their memory, their views and their debug names. */
+#include "gpu/resources.h"
+
 #include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/memory.h"
+#include "gpu/retire.h"
 
 #include <string.h>
 
@@ -40,7 +45,7 @@ static void heap_flags(virga_heap_kind heap, VkMemoryPropertyFlags *wanted, VkMe
                      : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* What the device sets a limit to is asked before it is made: beyond it the device may do anything. */
+/* Checked before a resource is made: beyond a limit the device may do anything. */
 static virga_result check_limit(virga_context *context, const char *name, const char *what, VkDeviceSize value,
                                 VkDeviceSize limit)
 {
@@ -51,18 +56,18 @@ static virga_result check_limit(virga_context *context, const char *name, const 
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
-/* A view of the whole of it, for shaders that fetch texels; with small_views of as much of it as a view may have, to be
- * bound and not read. */
+/* A view of the whole buffer, for shaders that fetch texels. With small_views it covers as much as a view may; it is
+ * then bound, but not read. */
 static virga_result create_texels(virga_context *context, const char *name, virga_buffer *buffer)
 {
     virga_result result = VIRGA_OK;
-    const VkDeviceSize texels = buffer->size / 16, most = context->properties.limits.maxTexelBufferElements;
+    const VkDeviceSize texels = buffer->size / 16, max_texels = context->properties.limits.maxTexelBufferElements;
     const VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                          .buffer = buffer->buffer,
                                          .format = VK_FORMAT_R32G32B32A32_UINT,
-                                         .range = texels > most ? most * 16 : VK_WHOLE_SIZE};
+                                         .range = texels > max_texels ? max_texels * 16 : VK_WHOLE_SIZE};
     if (!context->small_views)
-        TRY(check_limit(context, name, "texels", texels, most));
+        TRY(check_limit(context, name, "texels", texels, max_texels));
     VK_TRY(context, CreateBufferView(context->device, &info, NULL, &buffer->texels));
     context->objects++;
 error:
@@ -127,7 +132,7 @@ void virga_buffers_retire(virga_context *context, const virga_buffer_row *rows, 
         VIRGA_RETIRE(context, *rows[i].buffer);
 }
 
-/* The mapped range, widened to whole atoms; buffer_create saw to it that they are the buffer's own. */
+/* The mapped range, widened to whole atoms; virga_buffer_create made them the buffer's own. */
 static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset,
                                         VkDeviceSize size)
 {
@@ -255,35 +260,4 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
 error:
     image_destroy(context, &image->resource);
     return result;
-}
-
-/* ---- the graveyard */
-
-void virga_retire(virga_context *context, virga_resource *resource)
-{
-    resource->last_frame = context->making ? 0 : context->frame_index;
-    resource->retired = true;
-    resource->next = context->graveyard;
-    context->graveyard = resource;
-    /* No device work is under way, so nothing has to wait: memory is free for what is made next, a create that failed
-     * half-way leaves nothing behind, and a host that has no more frames gets everything back. */
-    if (context->making || context->frame_index == context->completed_index)
-        virga_graveyard_sweep(context, false);
-}
-
-void virga_graveyard_sweep(virga_context *context, bool all)
-{
-    /* A pipeline that is being built on another thread reads its layout, which may lie here. */
-    if (virga_builds_hold(context) && !all)
-        return;
-    virga_resource **at = &context->graveyard;
-    while (*at) {
-        virga_resource *resource = *at;
-        if (all || resource->last_frame <= context->completed_index) {
-            *at = resource->next;
-            resource->destroy(context, resource);
-        } else {
-            at = &resource->next;
-        }
-    }
 }

@@ -1,5 +1,10 @@
 /* gpu/target.c - what draws go into: a host's render pass, or its dynamic rendering. */
+#include "gpu/target.h"
+
+#include "core/settings.h"
 #include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/pipelines.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,6 +2,9 @@
 #include "gpu/view.h"
 
 #include "core/phase.h"
+#include "core/settings.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,10 +2,9 @@
 #ifndef VIRGA_GPU_VIEW_H
 #define VIRGA_GPU_VIEW_H
 
-#include "gpu/context.h"
-
 #include <virga/light.h>
 #include <virga/shared/view_gpu.h>
+#include <virga/vulkan.h>
 
 /* VIRGA_OK; VIRGA_ERROR_INVALID with a line for what is not a view, or not a time; VIRGA_NOT_READY with a line for a
  * viewport of no pixels. */

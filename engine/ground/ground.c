@@ -1,6 +1,12 @@
 /* ground/ground.c - create, destroy, settings, and what others read. */
 #include "ground/ground_internal.h"
 
+#include "core/settings.h"
+#include "gpu/budget.h"
+#include "gpu/builds.h"
+#include "gpu/checks.h"
+#include "gpu/errors.h"
+
 #include "shaders/ground_adopt_comp.spv.h"
 #include "shaders/ground_far_floor_comp.spv.h"
 #include "shaders/ground_far_map_comp.spv.h"

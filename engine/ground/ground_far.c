@@ -2,6 +2,10 @@
  * water of their own but show what has stood there in the rain, see standing.c. */
 #include "ground/ground_internal.h"
 
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <math.h>
 #include <stdlib.h>
 

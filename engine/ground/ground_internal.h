@@ -12,8 +12,11 @@
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
 
+#include "gpu/bindings.h"
 #include "gpu/context.h"
 #include "gpu/mesh_map.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <virga/ground.h>
 #include <virga/shared/ground_gpu.h>

@@ -1,5 +1,8 @@
 /* ground/ground_rings.c - the ripple map: a table of waves, and a pass that adds up the rings that live. */
 #include "ground/ground_internal.h"
+
+#include "gpu/errors.h"
+#include "gpu/record.h"
 #include "ground/ring_table.h"
 
 #include "shaders/ground_ring_frag.spv.h"

@@ -1,6 +1,14 @@
 /* ground/ground_step.c - a step: the window follows, drops land, water flows, maps are written. */
 #include "ground/ground_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/checks.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <virga/drops.h>
 
 #include <math.h>

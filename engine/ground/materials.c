@@ -6,6 +6,8 @@
  * (lawn), silt loam 10.8 (trodden soil). Manning's n: paved surfaces .011 to .016, overland flow in grass .15. */
 #include "ground/ground_internal.h"
 
+#include "core/settings.h"
+
 #define CM_DAY (10.0f / 24) /* mm/h */
 
 /* clang-format off */

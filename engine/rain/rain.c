@@ -2,6 +2,10 @@
 #include "rain/rain_internal.h"
 
 #include "core/light.h"
+#include "core/settings.h"
+#include "gpu/budget.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
 
 #include "shaders/rain_hit_count_comp.spv.h"
 #include "shaders/rain_hit_find_comp.spv.h"

@@ -3,6 +3,14 @@
 #include "rain/rain_internal.h"
 
 #include "core/phase.h"
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/target.h"
+#include "gpu/timers.h"
+#include "gpu/view.h"
 
 #include "shaders/rain_glow_frag.spv.h"
 #include "shaders/rain_glow_vert.spv.h"

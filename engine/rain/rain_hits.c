@@ -1,6 +1,13 @@
 /* rain/rain_hits.c - drops that meet a pane: a windshield, a visor, the front of a camera. */
 #include "rain/rain_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <math.h>
 
 #define HITS_SIZE (sizeof(virga_impacts_gpu) + VIRGA_RAIN_MAX_HITS * sizeof(virga_impact_gpu))

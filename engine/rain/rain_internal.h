@@ -11,9 +11,11 @@
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H
 
+#include "gpu/bindings.h"
 #include "gpu/context.h"
 #include "gpu/mesh_map.h"
-#include "gpu/view.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <stddef.h>
 
@@ -21,6 +23,7 @@
 #include <virga/shared/compact.h>
 #include <virga/shared/drop.h>
 #include <virga/shared/rain_gpu.h>
+#include <virga/shared/view_gpu.h>
 
 /* ---- classes.c: on the host, in double */
 

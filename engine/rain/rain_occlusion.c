@@ -7,6 +7,11 @@
  * each four times as wide as the one inside it. */
 #include "rain/rain_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
+#include "gpu/timers.h"
+
 #include <math.h>
 #include <string.h>
 

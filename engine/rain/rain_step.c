@@ -1,6 +1,13 @@
 /* rain/rain_step.c - ticks: where the drops are, and which of them met something. */
 #include "rain/rain_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* scene/scene.c - the effects of a place along their events. The only file that knows them all. */
+#include "core/settings.h"
 #include "glass/glass_internal.h"
-#include "gpu/context.h"
+#include "gpu/errors.h"
 #include "gpu/view.h"
 
 #include <virga/scene.h>

@@ -2,6 +2,10 @@
 #include "splash/splash_internal.h"
 
 #include "core/light.h"
+#include "core/settings.h"
+#include "gpu/budget.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
 
 #include "shaders/splash_droplet_find_comp.spv.h"
 #include "shaders/splash_fall_comp.spv.h"

@@ -2,6 +2,14 @@
  * a target (attach), drawing. */
 #include "splash/splash_internal.h"
 
+#include "gpu/builds.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/target.h"
+#include "gpu/timers.h"
+#include "gpu/view.h"
+
 #include "shaders/splash_crown_frag.spv.h"
 #include "shaders/splash_crown_frag_both.spv.h"
 #include "shaders/splash_crown_frag_motion.spv.h"

@@ -8,8 +8,10 @@
 #ifndef VIRGA_SPLASH_INTERNAL_H
 #define VIRGA_SPLASH_INTERNAL_H
 
+#include "gpu/bindings.h"
 #include "gpu/context.h"
-#include "gpu/view.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
 
 #include <virga/shared/splash_gpu.h>
 #include <virga/splash.h>

@@ -1,6 +1,14 @@
 /* splash/splash_step.c - a step: spawns become splashes, droplets fly, and what fell is given back. */
 #include "splash/splash_internal.h"
 
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/checks.h"
+#include "gpu/device_check.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -8,6 +8,8 @@
  * from a drop of 2 mm, as such splashes have (Bai, Rusche and Gosman 2002). */
 #include "splash/splash_internal.h"
 
+#include "core/settings.h"
+
 #include <math.h>
 #include <virga/material.h>
 

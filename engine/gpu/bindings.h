@@ -1,0 +1,44 @@
+/* gpu/bindings.h - one set of bindings per effect, the same for all of its passes. Internal. */
+#ifndef VIRGA_GPU_BINDINGS_H
+#define VIRGA_GPU_BINDINGS_H
+
+#include "gpu/retire.h"
+
+#define VIRGA_MAX_BINDINGS 32
+#define VIRGA_ALL_STAGES   (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
+
+typedef struct virga_binding_kind {
+    VkDescriptorType type;
+    VkShaderStageFlags stages;
+} virga_binding_kind;
+
+typedef struct virga_bindings {
+    virga_resource resource;         /* first */
+    const virga_binding_kind *kinds; /* static */
+    uint32_t count, sets_per_frame;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet *sets; /* frames_in_flight x sets_per_frame */
+} virga_bindings;
+
+/* What a binding is bound to: a buffer (range 0: to its end) or an image view. Neither: it is left as it is. */
+typedef struct virga_bound {
+    VkBuffer buffer;
+    VkDeviceSize offset, range;
+    VkBufferView texels;
+    VkImageView view;
+    VkImageLayout image_layout;
+    VkSampler sampler;
+} virga_bound;
+
+/* Set layout, pipeline layout (with push constants for all stages where push_bytes is not 0), pool and sets. `kinds`
+ * must be static. */
+virga_result virga_bindings_create(virga_context *context, const virga_binding_kind *kinds, uint32_t count,
+                                   uint32_t sets_per_frame, uint32_t push_bytes, virga_bindings **bindings);
+
+/* Writes set `index` of the frame being recorded; once a frame, before it is bound. */
+VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bindings, uint32_t index,
+                                     const virga_bound *bound);
+
+#endif

@@ -1,0 +1,36 @@
+/* gpu/checks.c - checks of arguments that several effects have in common. */
+#include "gpu/checks.h"
+
+#include "gpu/context.h"
+#include "gpu/errors.h"
+
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+                                   VkDeviceSize size, VkDeviceSize min_size)
+{
+    const VkDeviceSize required = context->properties.limits.minStorageBufferOffsetAlignment;
+    const VkDeviceSize alignment = required > 4 ? required : 4; /* indirect arguments lie in it */
+    if (offset % alignment)
+        return virga_wrong_argument(&context->log, "%s_offset: expected a multiple of %llu on this device, got %llu",
+                                    name, (unsigned long long)alignment, (unsigned long long)offset);
+    if (size && size < min_size)
+        return virga_wrong_argument(&context->log, "%s_size: expected at least %llu bytes, got %llu", name,
+                                    (unsigned long long)min_size, (unsigned long long)size);
+    return VIRGA_OK;
+}
+
+VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize max_range)
+{
+    const VkDeviceSize limit = context->properties.limits.maxStorageBufferRange;
+    max_range = max_range < limit ? max_range : limit;
+    return !size ? VK_WHOLE_SIZE : size < max_range ? size : max_range;
+}
+
+/* Tick numbers wrap around, after years. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
+{
+    if (!ticks || !last || (int32_t)(first - *last) > 0)
+        return VIRGA_OK;
+    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                  "step_info.first_tick: %u after %u, expected one behind it", first, *last);
+    return VIRGA_ERROR_INVALID;
+}

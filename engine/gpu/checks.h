@@ -1,0 +1,22 @@
+/* gpu/checks.h - checks of arguments that several effects have in common. Internal. */
+#ifndef VIRGA_GPU_CHECKS_H
+#define VIRGA_GPU_CHECKS_H
+
+#include "core/log.h"
+
+#include <virga/vulkan.h>
+
+/* A host's list in a storage buffer: its offset must be aligned, and its size (0: not given) must hold `min_size`
+ * bytes. `name` is the member that holds the buffer; the members name_offset and name_size belong to it. */
+virga_result virga_host_list_check(const virga_context *context, const char *name, VkDeviceSize offset,
+                                   VkDeviceSize size, VkDeviceSize min_size);
+
+/* The range to bind of such a list: its size, at most `max_range` and what the device allows; VK_WHOLE_SIZE if no size
+ * is given. */
+VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize max_range);
+
+/* The ticks of a step must follow those before it, else VIRGA_ERROR_INVALID with a line in the log. `last` is NULL
+ * before the first. */
+virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);
+
+#endif

@@ -1,0 +1,40 @@
+/* gpu/errors.h - failed calls and wrong arguments: a line in the log, and the result to return. Internal. */
+#ifndef VIRGA_GPU_ERRORS_H
+#define VIRGA_GPU_ERRORS_H
+
+#include "core/log.h"
+#include "gpu/context.h"
+
+/* A Vulkan call failed. Remembers that the device is lost, if it is. */
+virga_result virga_vulkan_failed(virga_context *context, VkResult result, const char *call);
+
+/* One Vulkan call in a function that has `virga_result result` and a label `error`. */
+#define VK_TRY(context, call)                                              \
+    do {                                                                   \
+        const VkResult vk_result_ = (context)->vk.call;                    \
+        if (vk_result_ != VK_SUCCESS) {                                    \
+            result = virga_vulkan_failed(context, vk_result_, "vk" #call); \
+            goto error;                                                    \
+        }                                                                  \
+    } while (0)
+
+/* One call of ours in such a function. */
+#define TRY(call)        \
+    do {                 \
+        result = (call); \
+        if (result < 0)  \
+            goto error;  \
+    } while (0)
+
+/* No host memory for `what`. */
+virga_result virga_out_of_host_memory(virga_context *context, const char *what);
+
+/* An argument is wrong. Returns VIRGA_ERROR_INVALID. */
+virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
+
+/* A draw has nothing to draw. Returns VIRGA_NOT_READY, which hosts that check for errors only do not notice, so `call`
+ * is logged once: `logged` is reset by the next successful draw. Not logged while pipelines are still being built
+ * (`ready` is not VIRGA_OK), which is normal. */
+virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *logged);
+
+#endif

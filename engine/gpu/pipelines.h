@@ -1,0 +1,110 @@
+/* gpu/pipelines.h - compute and graphics pipelines from embedded SPIR-V. Internal.
+ *
+ * When a pipeline is built, at once or later, is decided in gpu/builds.c. */
+#ifndef VIRGA_GPU_PIPELINES_H
+#define VIRGA_GPU_PIPELINES_H
+
+#include "gpu/retire.h"
+
+#include <stddef.h>
+
+/* Pipelines that are needed together: nothing that uses them is recorded before all of them are built. */
+typedef struct virga_pipeline_group {
+    uint32_t waiting;    /* pipelines still to be built */
+    virga_result failed; /* of the first that failed; VIRGA_OK: none */
+} virga_pipeline_group;
+
+typedef struct virga_pipeline {
+    virga_resource resource;     /* first */
+    VkPipeline pipeline;         /* null until it is built, or if that failed */
+    const char *name;            /* static */
+    virga_pipeline_group *group; /* (optional) lives until the pipeline is retired */
+    struct virga_build *build;   /* NULL: not waiting to be built */
+    uint32_t *code;              /* a copy of the fragment shader, if it was patched for the target; NULL once built */
+    virga_result failed;
+} virga_pipeline;
+
+typedef struct virga_spirv {
+    const uint32_t *code;
+    size_t size; /* bytes */
+} virga_spirv;
+
+/* An embedded shader: the array that the build made of shaders/<effect>/<pass>. */
+#define VIRGA_SPIRV(name) ((virga_spirv){name##_spv, sizeof name##_spv})
+
+/* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one; constant 1
+ * is the context's small_views. */
+typedef struct virga_compute_def {
+    virga_spirv shader;
+    VkPipelineLayout layout;
+    uint32_t constant;
+    virga_pipeline_group *group; /* (optional) */
+    const char *name;            /* static */
+} virga_compute_def;
+
+virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
+                                           virga_pipeline **pipeline);
+
+/* A row of an effect's table of compute passes. */
+typedef struct virga_compute_row {
+    virga_pipeline **pipeline;
+    virga_spirv shader;
+    const char *name;
+} virga_compute_row;
+
+/* As virga_buffers_create and virga_buffers_retire. `constant` is every row's, see virga_compute_def. */
+virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout, uint32_t constant,
+                                            virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count);
+void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
+
+/* What fragment shaders write besides the colour: bits. Such a shader is compiled once for each combination, see
+ * shaders/meson.build. */
+typedef enum virga_target_outputs {
+    VIRGA_OUTPUTS_COLOR = 0,
+    VIRGA_OUTPUTS_MOTION = 1,
+    VIRGA_OUTPUTS_REACTIVE = 2,
+    VIRGA_OUTPUTS_BOTH = 3,
+    VIRGA_OUTPUTS_FORMS = 4,
+} virga_target_outputs;
+
+/* The four forms of a fragment shader, and the two of a vertex shader, by outputs. */
+#define VIRGA_FRAGMENT_FORM(name, outputs)                                \
+    ((outputs) == VIRGA_OUTPUTS_BOTH       ? VIRGA_SPIRV(name##_both)     \
+     : (outputs) == VIRGA_OUTPUTS_MOTION   ? VIRGA_SPIRV(name##_motion)   \
+     : (outputs) == VIRGA_OUTPUTS_REACTIVE ? VIRGA_SPIRV(name##_reactive) \
+                                           : VIRGA_SPIRV(name))
+#define VIRGA_VERTEX_FORM(name, outputs) \
+    ((outputs) & VIRGA_OUTPUTS_MOTION ? VIRGA_SPIRV(name##_motion) : VIRGA_SPIRV(name))
+
+/* What a graphics pipeline of ours varies in. Holds no pointer that must outlive the call. */
+typedef struct virga_graphics_def {
+    virga_spirv vertex, fragment;
+    VkPipelineLayout layout;
+    VkRenderPass render_pass; /* null: dynamic rendering into these formats */
+    uint32_t subpass;
+    VkFormat color_formats[VIRGA_MAX_ATTACHMENTS], depth_format, stencil_format;
+    uint32_t vertex_stride;                          /* 0: no vertex input; else one vec3 at location 0 */
+    uint32_t color_count;                            /* those beyond the first are not written but for these: */
+    virga_target_outputs outputs;                    /* of the fragment shader */
+    uint32_t motion_attachment, reactive_attachment; /* 0: none */
+    bool blend_premultiplied, blend_add;
+    bool depth_test, depth_write, reversed_depth;
+    bool cull_back;    /* counter-clockwise on the picture is the front */
+    bool lines;        /* and not triangles; their width is dynamic */
+    uint32_t constant; /* specialisation constant 0 of either shader, where it has one */
+    VkSampleCountFlagBits samples;
+    virga_pipeline_group *group; /* (optional) */
+    const char *name;            /* static */
+} virga_graphics_def;
+
+virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
+                                            virga_pipeline **pipeline);
+
+/* Builds one pipeline. Uses the device and changes nothing in the context, so any thread may call it. `call` gets
+ * the name of the Vulkan call that failed. */
+VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
+                             const char **call);
+VkResult virga_graphics_build(const virga_context *context, const virga_graphics_def *def, VkPipeline *pipeline,
+                              const char **call);
+
+#endif

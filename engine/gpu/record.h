@@ -1,0 +1,46 @@
+/* gpu/record.h - barriers and compute passes, as every effect records them. Internal. */
+#ifndef VIRGA_GPU_RECORD_H
+#define VIRGA_GPU_RECORD_H
+
+#include "gpu/pipelines.h"
+
+/* Sets viewport and scissor to a view's rectangle: x, y, width, height in pixels. */
+void virga_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4]);
+
+/* A memory barrier: writes before it, in the stages `from`, are visible to accesses after it, in the stages `to`. */
+void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,
+                   VkPipelineStageFlags to, VkAccessFlags reads);
+
+/* How a compute pass accesses the buffers and images that it writes. */
+#define READ_WRITE (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
+
+/* Between two compute passes. */
+void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
+
+/* The same where the pass before may also have written the arguments of an indirect dispatch or draw. */
+void virga_indirect_barrier(virga_context *context, VkCommandBuffer cmd);
+
+/* One compute pass of that many workgroups. */
+void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
+void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
+                       uint32_t rows);
+
+/* One whose workgroups are counted in a buffer, e.g. at offset 0 in the head of a list (virga_list_gpu). */
+void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                             VkBuffer arguments, VkDeviceSize offset);
+
+/* A dispatch, then an indirect barrier: for chains of passes, each of which works on what those before it wrote. */
+void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                uint32_t groups);
+void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                         VkBuffer arguments, VkDeviceSize offset);
+
+/* Ordered stream compaction of the slots of `groups` workgroups, see shaders/gpu/compact_buffers.glsl. The last pass
+ * has an invocation per 32 slots. Ends with a barrier: the next pass may read the list. */
+void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
+                       const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
+
+void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
+                         virga_image_state before, virga_image_state after);
+
+#endif

@@ -1,0 +1,71 @@
+/* gpu/resources.h - buffers and images, with their memory, their views and their debug names. Internal. */
+#ifndef VIRGA_GPU_RESOURCES_H
+#define VIRGA_GPU_RESOURCES_H
+
+#include "gpu/memory.h"
+#include "gpu/retire.h"
+
+typedef struct virga_buffer {
+    virga_resource resource; /* first */
+    VkBuffer buffer;
+    /* As R32G32B32A32_UINT, where the usage has a uniform texel buffer. It covers the whole buffer, or with the
+     * context's small_views as much as a view may. */
+    VkBufferView texels;
+    VkDeviceSize size;
+    virga_memory memory;
+    bool coherent;
+} virga_buffer;
+
+typedef struct virga_image_2d {
+    virga_resource resource; /* first */
+    VkImage image;
+    VkImageView view;         /* all layers, as a 2D array */
+    VkImageView *layer_views; /* one layer each, as plain 2D */
+    uint32_t layers;
+    VkExtent2D extent;
+    VkFormat format;
+    virga_memory memory;
+} virga_image_2d;
+
+/* Where a buffer lives. */
+typedef enum virga_heap_kind {
+    VIRGA_HEAP_DEVICE,   /* on the device */
+    VIRGA_HEAP_UPLOAD,   /* mapped, written by the host each frame */
+    VIRGA_HEAP_READBACK, /* mapped, read by the host */
+} virga_heap_kind;
+
+virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 virga_heap_kind heap, const char *name, virga_buffer **buffer);
+
+/* A row of an effect's table of buffers. */
+typedef struct virga_buffer_row {
+    virga_buffer **buffer;
+    VkDeviceSize size; /* 0: not made, an option that is off */
+    VkBufferUsageFlags usage;
+    virga_heap_kind heap;
+    const char *name;
+} virga_buffer_row;
+
+/* Makes the buffers of a table, up to the first that can not be made. */
+virga_result virga_buffers_create(virga_context *context, const virga_buffer_row *rows, uint32_t count);
+
+/* Retires those that were created; their sizes and names are ignored. */
+void virga_buffers_retire(virga_context *context, const virga_buffer_row *rows, uint32_t count);
+
+/* `layers` 0: a 3D image of depth 1. */
+virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
+                                VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
+                                virga_image_2d **image);
+
+/* Make what the host wrote visible to the device, and what the device wrote visible to the host. A failed flush is
+ * logged, and the API call that flushed returns virga_uploaded(). */
+void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
+void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
+
+/* The error of the flushes since the last call, or VIRGA_OK. A lost device stays lost. */
+virga_result virga_uploaded(virga_context *context);
+
+/* The name that debuggers and validation messages show. */
+void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, const char *name);
+
+#endif

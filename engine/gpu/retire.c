@@ -1,0 +1,34 @@
+/* gpu/retire.c - deferred destruction of what frames in flight may still use. */
+#include "gpu/retire.h"
+
+#include "gpu/builds.h"
+#include "gpu/context.h"
+
+void virga_retire(virga_context *context, virga_resource *resource)
+{
+    resource->last_frame = context->making ? 0 : context->frame_index;
+    resource->retired = true;
+    resource->next = context->retired;
+    context->retired = resource;
+    /* No device work is in flight, so nothing has to wait: its memory is free for the next resource, a create that
+     * failed half-way leaves nothing behind, and a host that renders no more frames gets everything back. */
+    if (context->making || context->frame_index == context->completed_index)
+        virga_destroy_retired(context, false);
+}
+
+void virga_destroy_retired(virga_context *context, bool all)
+{
+    /* A pipeline that is being built on another thread reads its layout, which may be among them. */
+    if (virga_builds_cancel_retired(context) && !all)
+        return;
+    virga_resource **at = &context->retired;
+    while (*at) {
+        virga_resource *resource = *at;
+        if (all || resource->last_frame <= context->completed_index) {
+            *at = resource->next;
+            resource->destroy(context, resource);
+        } else {
+            at = &resource->next;
+        }
+    }
+}

@@ -1,0 +1,56 @@
+/* gpu/timers.h - labels and timestamps around passes. Internal. */
+#ifndef VIRGA_GPU_TIMERS_H
+#define VIRGA_GPU_TIMERS_H
+
+#include <virga/vulkan.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define VIRGA_MAX_PASSES  32  /* different pass names with times of their own */
+#define VIRGA_MAX_QUERIES 512 /* timestamps in a frame; passes beyond them are not timed */
+
+/* The timestamps of one frame in flight. */
+typedef struct virga_timer_slot {
+    VkQueryPool pool;
+    uint64_t frame_index;
+    uint32_t count;                       /* queries written */
+    uint8_t names[VIRGA_MAX_QUERIES / 2]; /* of each pair: an index into pass_times */
+    bool reset;                           /* the pool was reset in this frame */
+} virga_timer_slot;
+
+typedef struct virga_timers {
+    bool enabled;
+    double timestamp_ns;
+    uint64_t timestamp_mask;
+    virga_timer_slot slots[VIRGA_MAX_FRAMES_IN_FLIGHT];
+    virga_pass_time pass_times[VIRGA_MAX_PASSES];
+    uint32_t pass_count;
+} virga_timers;
+
+/* `valid_bits`: of the queue family's timestamps. 0: it has none, and no pass is timed. */
+virga_result virga_timers_create(virga_context *context, uint32_t valid_bits);
+void virga_timers_destroy(virga_context *context);
+
+/* A frame begins: reads the times of the frame that used its slot before. VIRGA_DEGRADED where they can not be read,
+ * VIRGA_ERROR_DEVICE_LOST where the device is lost. */
+virga_result virga_timers_begin_frame(virga_context *context);
+
+/* Reads the times of all frames that have completed. Returns as virga_timers_begin_frame. */
+virga_result virga_timers_collect(virga_context *context);
+
+/* Call it before the passes of every call that records outside rendering: the first in a frame resets the queries. */
+void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
+
+/* A pass between its label and timestamps; `name` is static, e.g. "rain.step". */
+typedef struct virga_pass_scope {
+    uint32_t query; /* of the end; 0: not timed */
+} virga_pass_scope;
+
+virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
+
+/* The same inside a host's rendering, where barriers are not allowed. */
+virga_pass_scope virga_draw_begin(virga_context *context, VkCommandBuffer cmd, const char *name);
+void virga_pass_end(virga_context *context, VkCommandBuffer cmd, virga_pass_scope scope);
+
+#endif
