@@ -1,5 +1,5 @@
-/* rain_triangle.c - triangle.c with rain over it: what is more here than there are the parts that README.md,
- * "Embed it", has in its six steps, and the tests hold all three together.
+/* rain_triangle.c - triangle.c with rain over it. engine/README.md goes from the one program to the other in six steps.
+ * A test checks that it shows every line that differs.
  *
  *     rain_triangle [PICTURE.ppm]
  */
@@ -39,7 +39,7 @@ static virga_context *context;
 static virga_scene *rain;
 static virga_target *target;
 
-/* Why something failed stands in the log; the result says only that it did. */
+/* The log says why a call failed. The result says only that it failed. */
 static void print_line(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
     (void)user;
@@ -49,7 +49,7 @@ static void print_line(void *user, virga_log_level level, virga_log_id id, const
 
 static void check(virga_result result, const char *what)
 {
-    if (result < 0) { /* above 0 is a remark: done, with something to know */
+    if (result < 0) { /* a positive result is a success with a remark */
         fprintf(stderr, "%s: %s\n", what, virga_result_name(result));
         exit(1);
     }
@@ -337,44 +337,44 @@ static void create_rain(void)
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.log = print_line;
     check(virga_context_create(&def, &context), "context");
-    virga_scene_def scene = virga_default_scene_def(); /* rain alone */
+    virga_scene_def scene = virga_default_scene_def(); /* only rain */
     check(virga_scene_create(context, &scene, &rain), "scene");
     virga_rain_settings settings = virga_default_rain_settings();
     settings.rate_mm_h = 50; /* a storm */
     settings.wind_m_s[0] = 2;
-    settings.streak_gain = 8; /* 1 is physical, and subtle */
+    settings.streak_gain = 8; /* 1 is physical, which is subtle */
     for (int i = 0; i < 9; i++)
         for (int c = 0; c < 3; c++)
-            settings.lighting.environment_sh[i][c] *= 4; /* 0.5 above by default; now 2, over colors up to 1 */
+            settings.lighting.environment_sh[i][c] *= 4; /* the default sky is a grey of 0.5; ours is 2 */
     check(virga_rain_set(virga_scene_rain(rain), &settings), "settings");
-    virga_target_def into = virga_default_target_def();
-    into.render_pass = render_pass;
-    into.depth_attached = false; /* a tutorial's triangle has no depth yet; true is the default */
-    check(virga_target_create(context, &into, &target), "target");
+    virga_target_def target_def = virga_default_target_def();
+    target_def.render_pass = render_pass;
+    target_def.depth_attached = false; /* this render pass has no depth. The default is true */
+    check(virga_target_create(context, &target_def, &target), "target");
     check(virga_scene_attach(rain, target), "pipelines");
 }
 
 static void step_rain(VkCommandBuffer cmd, uint64_t frame)
 {
-    const float near_m = 0.1f, far_m = 200, zoom = 2; /* 1 / tan(half the angle from top to bottom): 53 degrees */
+    const float near_m = 0.1f, far_m = 200, zoom = 2; /* 1 / tan(half of the vertical angle of view, 53 degrees) */
     float clip_from_view[16] = {0};
     clip_from_view[0] = zoom * HEIGHT / WIDTH;
     clip_from_view[5] = -zoom; /* y down */
     clip_from_view[10] = far_m / (near_m - far_m);
     clip_from_view[11] = -1; /* w = -z */
     clip_from_view[14] = near_m * far_m / (near_m - far_m);
-    const float no_turn[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const float no_rotation[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     virga_view view = virga_default_view();
-    view.position_m[1] = 1.5; /* where the camera is; of the matrix below the rotation alone is read */
-    memcpy(view.view_from_world, no_turn, sizeof no_turn);
+    view.position_m[1] = 1.5; /* of the matrix below only the rotation is read */
+    memcpy(view.view_from_world, no_rotation, sizeof no_rotation);
     memcpy(view.clip_from_view, clip_from_view, sizeof clip_from_view);
-    view.open_position_m[1] = 1.5; /* the same as the shutter opened: the last frame's camera. This one stands still */
-    memcpy(view.open_view_from_world, no_turn, sizeof no_turn);
+    view.open_position_m[1] = 1.5; /* open_*: the previous frame's camera. This one does not move */
+    memcpy(view.open_view_from_world, no_rotation, sizeof no_rotation);
     memcpy(view.open_clip_from_view, clip_from_view, sizeof clip_from_view);
     view.viewport[2] = WIDTH;
     view.viewport[3] = HEIGHT;
     virga_scene_frame step = {.dt_s = 1.0 / 60, .camera_m = {0, 1.5, 0}, .view = &view};
-    const uint64_t completed = frame > FRAMES_IN_FLIGHT ? frame - FRAMES_IN_FLIGHT : 0; /* its fence was waited for */
+    const uint64_t completed = frame > FRAMES_IN_FLIGHT ? frame - FRAMES_IN_FLIGHT : 0; /* its fence has signalled */
     check(virga_frame_begin(context, frame, completed), "frame");
     check(virga_scene_record(rain, cmd, &step), "step");
 }
@@ -407,7 +407,7 @@ static void draw_frame(uint64_t frame)
     vk(vkQueueSubmit(queue, 1, &submit, fence), "submit");
 }
 
-/* A buffer that the CPU sees, for the picture. */
+/* A buffer that the CPU can read, for the picture. */
 static void create_pixels(void)
 {
     VkBufferCreateInfo info = {

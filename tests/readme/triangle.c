@@ -1,6 +1,5 @@
-/* triangle.c - where a newcomer begins: a Vulkan triangle as tutorials have it, with two frames in flight, no camera
- * and no depth; without a window, its last frame is a picture. rain_triangle.c is this and the parts of README.md,
- * "Embed it".
+/* triangle.c - a Vulkan triangle as tutorials have it: two frames in flight, no camera, no depth. It has no window; its
+ * last frame is written as a picture. rain_triangle.c is the same program with rain, see engine/README.md.
  *
  *     glslangValidator -V triangle.vert -o triangle.vert.spv && glslangValidator -V triangle.frag -o triangle.frag.spv
  *     cc triangle.c -o triangle -lvulkan
@@ -328,7 +327,7 @@ static void draw_frame(uint64_t frame)
     vk(vkQueueSubmit(queue, 1, &submit, fence), "submit");
 }
 
-/* A buffer that the CPU sees, for the picture. */
+/* A buffer that the CPU can read, for the picture. */
 static void create_pixels(void)
 {
     VkBufferCreateInfo info = {

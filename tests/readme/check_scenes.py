@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Scenes on the pages are good, and assets/README.md shows each of ours. Usage: check_scenes.py SOURCE_ROOT VIRGA
+
+A YAML block that begins with `virga:` is a whole scene. Another one is a part, which is checked as a part of a scene.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import pages
+
+root, virga = sys.argv[1:3]
+report = pages.Report()
+REST = "virga: 1\ncamera: {keys: [{position_m: [0, 1, 0], look_at_m: [0, 1, -5]}]}\n"
+
+with tempfile.TemporaryDirectory() as work:
+    os.symlink(os.path.abspath(f"{root}/assets/environments"), f"{work}/environments")
+    os.mkdir(f"{work}/scenes")
+    for name in os.listdir(f"{root}/assets/scenes"):
+        os.symlink(os.path.abspath(f"{root}/assets/scenes/{name}"), f"{work}/scenes/{name}")
+    for page in pages.names(root):
+        for block in pages.blocks(pages.read(root, page), "yaml"):
+            scene = f"{work}/scenes/page.yaml"
+            with open(scene, "w") as file:
+                file.write(block if block.startswith("virga:") else REST + block)
+            said = subprocess.run([virga, "check", scene], capture_output=True, text=True)
+            report.expect(said.returncode == 0, f"{page}: {said.stderr.strip()}")
+
+gallery = pages.read(root, "assets/README.md")
+for name in sorted(os.listdir(f"{root}/assets/scenes")):
+    if name.endswith(".yaml"):
+        section = re.search(rf"^### {name[:-5]}\n(.*?)^##", gallery, re.M | re.S)
+        report.expect(section and f"pictures/{name[:-5]}.png" in section.group(1) and name in section.group(1),
+                      f"assets/README.md does not show {name} with a picture and a command")
+report.end("scenes are good")
