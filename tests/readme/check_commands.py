@@ -46,7 +46,7 @@ def check_virga(page, line, words):
     report.expect(is_command, f"{page}: no command {command}: {line}")
     if is_command and not command.startswith("-"):
         text = help_of(virga, "help", command)
-        if command == "bench" and len(words) > 2:
+        if command == "bench" and len(words) > 2 and not words[2].startswith("-"):
             report.expect(re.search(rf"^{words[2]} ", text, re.M), f"{page}: no bench {words[2]}: {line}")
         check_options(page, line, words[2:], text)
         check_settings(page, line, words)
