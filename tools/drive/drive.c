@@ -1,5 +1,5 @@
 /* drive.c - a car in the rain: how a renderer takes Virga in. This is the file to read; it has all calls of Virga, in
- * the order that a host comes to them, and README.md walks through it. stage.c is a small renderer and car.c a car: any
+ * the order that a host comes to them; engine/README.md explains it. stage.c is a small renderer and car.c a car: any
  * others would do; options, window, world, windshield and game are the rest of the program. They make no call of Virga;
  * of it the renderer sees only the maps and lamps that its material reads.
  *
