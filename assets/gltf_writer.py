@@ -275,8 +275,8 @@ class _Glb:
 
     @staticmethod
     def _material(m, used):
-        pbr = {"baseColorFactor": list(m.get("colour", (1, 1, 1))) + [m.get("alpha", 1)], "metallicFactor": m.get("metal", 0),
-               "roughnessFactor": m["rough"]}
+        pbr = {"baseColorFactor": list(m.get("colour", (1, 1, 1))) + [m.get("alpha", 1)],
+               "metallicFactor": m.get("metal", 0), "roughnessFactor": m["rough"]}
         out = {"name": m["name"], "pbrMetallicRoughness": pbr}
         if "image" in m:
             pbr["baseColorTexture"] = {"index": used.index(m["image"])}

@@ -3,9 +3,9 @@
 only.
 
 Metres, Y up, its front at -Z, wheels on y = 0, as tools/drive/car.h has it. The windshield leaves room for the pane of
-car.h (PANE); both are changed together. The game tells parts by the beginnings of their materials' names: cabin_ is
-seen from within and gets little sky, glass_side is not drawn from within, wheel_ is one wheel about the origin, and
-what begins with rain_ is never drawn: it keeps rain off. The same source always gives the same bytes.
+car.h (PANE); change both together. The game recognises parts by prefixes of their material names: cabin_ is seen from
+inside and gets little sky, glass_side is not drawn from inside, wheel_ is one wheel about the origin, and rain_ is
+never drawn: it keeps rain off. The same source always gives the same bytes.
 
 The body is one loft of cross-sections along Z, like the parked car of street_parts.py, but finer, with curved ends and
 the glass on the pane's own surface. Half sections run from the sill up over belt and roof rail to the middle.
@@ -100,7 +100,7 @@ def ease(low, high, x):
 
 
 def screen_y(x, z):
-    """Height of the pane at a place seen from above."""
+    """Height of the pane at (x, z)."""
     back = PANE["bend"] * (1 - math.cos(math.asin(min(abs(x) / PANE["bend"], 1.0))))
     return PANE["y"] + ((z - PANE["z"]) / math.tan(PANE["rake"])) - back / math.sin(PANE["rake"])
 
@@ -190,7 +190,7 @@ def stations():
 
 
 def body_material(z, j):
-    """Of a patch, by its middle z and by the row in the half section; None: nothing is there."""
+    """Material of a patch, by its middle z and by the row in the half section. None: no patch."""
     if j < 1 or (abs(z) > 1.73 and j < 2):
         return "plastic"
     if j in (7, 8) and -1.16 < z < 1.34:
@@ -282,7 +282,7 @@ def wheel_well(g, z):
 
 
 def on_end(points, z, lift):
-    """Places (x, y) on the face of an end."""
+    """Points (x, y) on the face of an end."""
     out = lift if z > 0 else -lift
     return [(x, y, z + end_shift(x, y, z) + out) for x, y in points]
 
@@ -437,7 +437,7 @@ def make_wheel():
 
 
 def in_cabin(p):
-    """How much light comes to a place: the lower, the less, and under the roof, too."""
+    """How much light reaches a point: less near the floor and under the roof."""
     _, y, z = p
     low = 0.10 + 0.90 * ease(0.50, 0.90, y)
     roof = 1.0 - 0.20 * ease(1.15, 1.40, y)
@@ -753,7 +753,7 @@ def ramp(size=256):
 
 
 def set_uvs(g):
-    """Into the ramp of the texture `open`, where a material has it; others have no need of any."""
+    """Texture coordinates in the ramp `open`, for a material that has it. Others need none."""
     for name, mesh in g.meshes.items():
         textured = next("image" in m for m in MATERIALS if m["name"] == name)
         mesh.uvs = [(0.02 + 0.96 * in_cabin(p), 0.5) for p in mesh.positions] if textured else []

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes what the scenes of panes need: environments/night.exr, scenes/panel.glb and scenes/leaf.glb, and of both the
-bump maps, scenes/panel_bumps.png and scenes/leaf_bumps.png. Python 3 standard library only. The same source always gives
+"""Writes what the scenes of panes need: environments/night.exr, scenes/panel.glb and scenes/leaf.glb, and their bump
+maps, scenes/panel_bumps.png and scenes/leaf_bumps.png. Python 3 standard library only. The same source always gives
 the same bytes.
 
-The night is a street in rain as a lens sees it that is focused on a window: lamps, signs and cars as discs of light.
-The panel is 30 x 22 cm of car paint on hammered sheet metal; its bump map is the height of the same surface. The leaf is
+The night is a street in rain, out of focus: a lens that focuses on a window shows lamps, signs and cars as discs. The
+panel is 30 x 22 cm of car paint on hammered sheet metal; its bump map is the height of the same surface. The leaf is
 18 x 13 cm of a broad leaf's upper side, its tip downwards: veins lie in furrows, and what is between them bulges.
 """
 import array
@@ -27,7 +27,7 @@ WARM, WHITE, RED, GREEN = (1.0, 0.62, 0.28), (0.95, 0.95, 1.0), (1.0, 0.07, 0.03
 
 
 def background(elevation):
-    """Radiance by height alone: sky over the town, wet ground, and a horizon as far out of focus as the lamps are."""
+    """Radiance by elevation only: sky over the town, wet ground, and a horizon as far out of focus as the lamps are."""
     glow, sheen = math.exp(-max(elevation, 0.0) / 12.0), math.exp(min(elevation, 0.0) / 9.0)
     above = (0.008 + 0.024 * glow, 0.010 + 0.018 * glow, 0.018 + 0.014 * glow)
     below = (0.005 + 0.014 * sheen, 0.005 + 0.011 * sheen, 0.007 + 0.009 * sheen)
@@ -37,7 +37,7 @@ def background(elevation):
 
 
 def add_spot(image, azimuth, elevation, width, height, colour, strength, edge):
-    """A disc, or an ellipse, of half axes in degrees; its rim, `edge` of them wide, is brighter, as lenses have it."""
+    """A disc, or an ellipse, with half axes in degrees. Its rim is brighter, as lenses show it; `edge` is its width."""
     x0, x1 = int((azimuth - width + 180) / DEGREES) - 1, int((azimuth + width + 180) / DEGREES) + 2
     y0, y1 = int((90 - elevation - height) / DEGREES) - 1, int((90 - elevation + height) / DEGREES) + 2
     for y in range(max(y0, 0), min(y1, HEIGHT)):
@@ -132,8 +132,8 @@ MARKS = dents()
 
 
 def height_at(u, v):
-    """[0; 1] by place in metres: each mark is a round hollow, and where they meet stand ridges that hammering has
-    rounded: the squared distance to the nearest, as a smooth minimum over all."""
+    """Height in [0; 1] at a position in metres. Each hammer mark is a round hollow with rounded ridges around it. The
+    height is the squared distance to the nearest mark, as a smooth minimum over all marks."""
     x, y, sum_of_all = u / TILE[0], v / TILE[1], 1e-30
     for mx, my, size in MARKS:
         dx, dy = (x - mx + 0.5) % 1.0 - 0.5, (y - my + 0.5) % 1.0 - 0.5
@@ -145,7 +145,7 @@ def height_at(u, v):
 
 
 def write_png(path, width, height, pixel, colour_type):
-    """`pixel` gives the bytes of a column and a row, rows from above."""
+    """`pixel` returns the bytes of a column and a row; row 0 is at the top."""
     raw = bytearray()
     for row in range(height):
         raw.append(0)
@@ -208,7 +208,7 @@ def leaf_veins(u, v):
 
 
 def leaf_height(u, v):
-    """[0; 1] by place in metres."""
+    """Height in [0; 1] at a position in metres."""
     side, to_side, to_fine = leaf_veins(u, v)
     between = 0.62 * furrow(to_side, 0.0034) + 0.23 * furrow(to_side, 0.0010) + 0.15 * furrow(to_fine, 0.0008)
     return max(between * (0.25 + 0.75 * furrow(side, 0.0042)) * (0.55 + 0.45 * furrow(side, 0.0011)), 0.0)
@@ -235,7 +235,7 @@ def make_leaf_bumps(path):
 
 
 def make_leaf(path):
-    """As the panel."""
+    """In the same frame as the panel."""
     colours = write_png(None, LEAF_COLOURS[0], LEAF_COLOURS[1], lambda column, row: leaf_colour(
         LEAF[0] * (column + 0.5) / LEAF_COLOURS[0], LEAF[1] * (LEAF_COLOURS[1] - 0.5 - row) / LEAF_COLOURS[1]), 2)
     g = Group("leaf", {})
