@@ -10,30 +10,30 @@
 
 #include <virga/shared/impact.h>
 
-#include "shaders/glass_awake_list_comp.spv.h"
-#include "shaders/glass_awake_scan_comp.spv.h"
-#include "shaders/glass_capture_comp.spv.h"
-#include "shaders/glass_capture_find_comp.spv.h"
-#include "shaders/glass_census_find_comp.spv.h"
-#include "shaders/glass_census_list_comp.spv.h"
-#include "shaders/glass_census_scan_comp.spv.h"
-#include "shaders/glass_choose_comp.spv.h"
-#include "shaders/glass_dry_comp.spv.h"
-#include "shaders/glass_enter_comp.spv.h"
-#include "shaders/glass_film_list_comp.spv.h"
-#include "shaders/glass_gather_comp.spv.h"
-#include "shaders/glass_leave_comp.spv.h"
-#include "shaders/glass_leave_find_comp.spv.h"
-#include "shaders/glass_measure_comp.spv.h"
-#include "shaders/glass_move_comp.spv.h"
-#include "shaders/glass_place_claim_comp.spv.h"
-#include "shaders/glass_place_comp.spv.h"
-#include "shaders/glass_place_scan_comp.spv.h"
-#include "shaders/glass_relax_comp.spv.h"
-#include "shaders/glass_relax_sort_comp.spv.h"
-#include "shaders/glass_settle_comp.spv.h"
-#include "shaders/glass_touch_comp.spv.h"
-#include "shaders/glass_wipe_comp.spv.h"
+#include "shaders/glass_step_active_compact_comp.spv.h"
+#include "shaders/glass_step_active_scan_comp.spv.h"
+#include "shaders/glass_step_begin_tick_comp.spv.h"
+#include "shaders/glass_step_capture_comp.spv.h"
+#include "shaders/glass_step_capture_mark_comp.spv.h"
+#include "shaders/glass_step_choose_cell_comp.spv.h"
+#include "shaders/glass_step_dry_film_comp.spv.h"
+#include "shaders/glass_step_empty_bins_comp.spv.h"
+#include "shaders/glass_step_end_tick_comp.spv.h"
+#include "shaders/glass_step_enter_cell_comp.spv.h"
+#include "shaders/glass_step_film_compact_comp.spv.h"
+#include "shaders/glass_step_live_compact_comp.spv.h"
+#include "shaders/glass_step_live_mark_comp.spv.h"
+#include "shaders/glass_step_live_scan_comp.spv.h"
+#include "shaders/glass_step_measure_comp.spv.h"
+#include "shaders/glass_step_particle_grid_comp.spv.h"
+#include "shaders/glass_step_push_particles_comp.spv.h"
+#include "shaders/glass_step_spawn_claim_comp.spv.h"
+#include "shaders/glass_step_spawn_comp.spv.h"
+#include "shaders/glass_step_spawn_scan_comp.spv.h"
+#include "shaders/glass_step_split_drops_comp.spv.h"
+#include "shaders/glass_step_to_drops_claim_comp.spv.h"
+#include "shaders/glass_step_to_drops_comp.spv.h"
+#include "shaders/glass_step_wipe_film_comp.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -195,30 +195,30 @@ static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
 static void list_passes(virga_glass *glass, virga_compute_row rows[PASSES])
 {
     const virga_compute_row wanted[PASSES] = {
-        {&glass->census_find, VIRGA_SPIRV(glass_census_find_comp), "glass.census_find"},
-        {&glass->census_scan, VIRGA_SPIRV(glass_census_scan_comp), "glass.census_scan"},
-        {&glass->census_list, VIRGA_SPIRV(glass_census_list_comp), "glass.census_list"},
-        {&glass->move, VIRGA_SPIRV(glass_move_comp), "glass.move"},
-        {&glass->awake_scan, VIRGA_SPIRV(glass_awake_scan_comp), "glass.awake_scan"},
-        {&glass->awake_list, VIRGA_SPIRV(glass_awake_list_comp), "glass.awake_list"},
-        {&glass->choose, VIRGA_SPIRV(glass_choose_comp), "glass.choose"},
-        {&glass->enter, VIRGA_SPIRV(glass_enter_comp), "glass.enter"},
-        {&glass->capture_find, VIRGA_SPIRV(glass_capture_find_comp), "glass.capture_find"},
-        {&glass->capture, VIRGA_SPIRV(glass_capture_comp), "glass.capture"},
-        {&glass->wipe, VIRGA_SPIRV(glass_wipe_comp), "glass.wipe"},
-        {&glass->touch, VIRGA_SPIRV(glass_touch_comp), "glass.touch"},
-        {&glass->gather, VIRGA_SPIRV(glass_gather_comp), "glass.gather"},
-        {&glass->relax_sort, VIRGA_SPIRV(glass_relax_sort_comp), "glass.relax_sort"},
-        {&glass->relax, VIRGA_SPIRV(glass_relax_comp), "glass.relax"},
-        {&glass->leave_find, VIRGA_SPIRV(glass_leave_find_comp), "glass.leave_find"},
-        {&glass->leave, VIRGA_SPIRV(glass_leave_comp), "glass.leave"},
-        {&glass->place_claim, VIRGA_SPIRV(glass_place_claim_comp), "glass.place_claim"},
-        {&glass->place_scan, VIRGA_SPIRV(glass_place_scan_comp), "glass.place_scan"},
-        {&glass->place, VIRGA_SPIRV(glass_place_comp), "glass.place"},
-        {&glass->settle, VIRGA_SPIRV(glass_settle_comp), "glass.settle"},
-        {&glass->dry, VIRGA_SPIRV(glass_dry_comp), "glass.dry"},
-        {&glass->film_list, VIRGA_SPIRV(glass_film_list_comp), "glass.film_list"},
-        {&glass->measure, VIRGA_SPIRV(glass_measure_comp), "glass.measure"},
+        {&glass->census_find, VIRGA_SPIRV(glass_step_live_mark_comp), "glass.live_mark"},
+        {&glass->census_scan, VIRGA_SPIRV(glass_step_live_scan_comp), "glass.live_scan"},
+        {&glass->census_list, VIRGA_SPIRV(glass_step_live_compact_comp), "glass.live_compact"},
+        {&glass->move, VIRGA_SPIRV(glass_step_begin_tick_comp), "glass.begin_tick"},
+        {&glass->awake_scan, VIRGA_SPIRV(glass_step_active_scan_comp), "glass.active_scan"},
+        {&glass->awake_list, VIRGA_SPIRV(glass_step_active_compact_comp), "glass.active_compact"},
+        {&glass->choose, VIRGA_SPIRV(glass_step_choose_cell_comp), "glass.choose_cell"},
+        {&glass->enter, VIRGA_SPIRV(glass_step_enter_cell_comp), "glass.enter_cell"},
+        {&glass->capture_find, VIRGA_SPIRV(glass_step_capture_mark_comp), "glass.capture_mark"},
+        {&glass->capture, VIRGA_SPIRV(glass_step_capture_comp), "glass.capture"},
+        {&glass->wipe, VIRGA_SPIRV(glass_step_wipe_film_comp), "glass.wipe_film"},
+        {&glass->touch, VIRGA_SPIRV(glass_step_split_drops_comp), "glass.split_drops"},
+        {&glass->gather, VIRGA_SPIRV(glass_step_empty_bins_comp), "glass.empty_bins"},
+        {&glass->relax_sort, VIRGA_SPIRV(glass_step_particle_grid_comp), "glass.particle_grid"},
+        {&glass->relax, VIRGA_SPIRV(glass_step_push_particles_comp), "glass.push_particles"},
+        {&glass->leave_find, VIRGA_SPIRV(glass_step_to_drops_claim_comp), "glass.to_drops_claim"},
+        {&glass->leave, VIRGA_SPIRV(glass_step_to_drops_comp), "glass.to_drops"},
+        {&glass->place_claim, VIRGA_SPIRV(glass_step_spawn_claim_comp), "glass.spawn_claim"},
+        {&glass->place_scan, VIRGA_SPIRV(glass_step_spawn_scan_comp), "glass.spawn_scan"},
+        {&glass->place, VIRGA_SPIRV(glass_step_spawn_comp), "glass.spawn"},
+        {&glass->settle, VIRGA_SPIRV(glass_step_end_tick_comp), "glass.end_tick"},
+        {&glass->dry, VIRGA_SPIRV(glass_step_dry_film_comp), "glass.dry_film"},
+        {&glass->film_list, VIRGA_SPIRV(glass_step_film_compact_comp), "glass.film_compact"},
+        {&glass->measure, VIRGA_SPIRV(glass_step_measure_comp), "glass.measure"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }

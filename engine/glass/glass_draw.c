@@ -10,19 +10,19 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/glass_picture_mist_frag.spv.h"
-#include "shaders/glass_picture_mist_vert.spv.h"
-#include "shaders/glass_picture_pane_vert.spv.h"
-#include "shaders/glass_picture_paper_frag.spv.h"
-#include "shaders/glass_picture_paper_frag_both.spv.h"
-#include "shaders/glass_picture_paper_frag_motion.spv.h"
-#include "shaders/glass_picture_paper_frag_reactive.spv.h"
-#include "shaders/glass_picture_paper_vert.spv.h"
-#include "shaders/glass_picture_physical_frag.spv.h"
-#include "shaders/glass_picture_physical_frag_both.spv.h"
-#include "shaders/glass_picture_physical_frag_motion.spv.h"
-#include "shaders/glass_picture_physical_frag_reactive.spv.h"
-#include "shaders/glass_picture_refraction_frag.spv.h"
+#include "shaders/glass_draw_mist_frag.spv.h"
+#include "shaders/glass_draw_mist_vert.spv.h"
+#include "shaders/glass_draw_pane_vert.spv.h"
+#include "shaders/glass_draw_paper_frag.spv.h"
+#include "shaders/glass_draw_paper_frag_both.spv.h"
+#include "shaders/glass_draw_paper_frag_motion.spv.h"
+#include "shaders/glass_draw_paper_frag_reactive.spv.h"
+#include "shaders/glass_draw_paper_vert.spv.h"
+#include "shaders/glass_draw_physical_frag.spv.h"
+#include "shaders/glass_draw_physical_frag_both.spv.h"
+#include "shaders/glass_draw_physical_frag_motion.spv.h"
+#include "shaders/glass_draw_physical_frag_reactive.spv.h"
+#include "shaders/glass_draw_refraction_frag.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -588,9 +588,9 @@ static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphi
 {
     const bool mist = i >= GLASS_DRAW_MIST;
     const bool paper = i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION;
-    def->vertex = mist    ? VIRGA_SPIRV(glass_picture_mist_vert)
-                  : paper ? VIRGA_SPIRV(glass_picture_paper_vert)
-                          : VIRGA_SPIRV(glass_picture_pane_vert);
+    def->vertex = mist    ? VIRGA_SPIRV(glass_draw_mist_vert)
+                  : paper ? VIRGA_SPIRV(glass_draw_paper_vert)
+                          : VIRGA_SPIRV(glass_draw_pane_vert);
     def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
     def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
     def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
@@ -600,10 +600,10 @@ static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphi
         def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;
     } else if (i >= GLASS_DRAW_REFRACTION && (i - GLASS_DRAW_REFRACTION) & GLASS_DRAW_OF_PAPER)
         def->constant |= VIRGA_GLASS_DRAW_PAPER;
-    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_picture_physical_frag, outputs)
-                    : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_picture_paper_frag, outputs)
-                    : mist                      ? VIRGA_SPIRV(glass_picture_mist_frag)
-                                                : VIRGA_SPIRV(glass_picture_refraction_frag);
+    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_draw_physical_frag, outputs)
+                    : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_draw_paper_frag, outputs)
+                    : mist                      ? VIRGA_SPIRV(glass_draw_mist_frag)
+                                                : VIRGA_SPIRV(glass_draw_refraction_frag);
     def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
                 : i < GLASS_DRAW_REFRACTION ? "glass.paper"
                 : mist                      ? "glass.mist"

@@ -4,20 +4,20 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
-#include "shaders/glass_picture_balls_comp.spv.h"
-#include "shaders/glass_picture_blocks_comp.spv.h"
-#include "shaders/glass_picture_boxes_comp.spv.h"
-#include "shaders/glass_picture_copy_comp.spv.h"
-#include "shaders/glass_picture_fill_comp.spv.h"
-#include "shaders/glass_picture_film_comp.spv.h"
-#include "shaders/glass_picture_gather_comp.spv.h"
-#include "shaders/glass_picture_gather_narrow_comp.spv.h"
-#include "shaders/glass_picture_gather_shuffle_comp.spv.h"
-#include "shaders/glass_picture_list_comp.spv.h"
-#include "shaders/glass_picture_mist_comp.spv.h"
-#include "shaders/glass_picture_relief_comp.spv.h"
-#include "shaders/glass_picture_relief_narrow_comp.spv.h"
-#include "shaders/glass_picture_shrink_comp.spv.h"
+#include "shaders/glass_draw_balls_comp.spv.h"
+#include "shaders/glass_draw_film_tiles_comp.spv.h"
+#include "shaders/glass_draw_height_comp.spv.h"
+#include "shaders/glass_draw_height_narrow_comp.spv.h"
+#include "shaders/glass_draw_height_shuffle_comp.spv.h"
+#include "shaders/glass_draw_mist_blocks_comp.spv.h"
+#include "shaders/glass_draw_mist_comp.spv.h"
+#include "shaders/glass_draw_plate_copy_comp.spv.h"
+#include "shaders/glass_draw_plate_shrink_comp.spv.h"
+#include "shaders/glass_draw_relief_comp.spv.h"
+#include "shaders/glass_draw_relief_narrow_comp.spv.h"
+#include "shaders/glass_draw_tile_fill_comp.spv.h"
+#include "shaders/glass_draw_tile_list_comp.spv.h"
+#include "shaders/glass_draw_tile_quads_comp.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -238,14 +238,14 @@ static bool can_filter(const virga_context *context)
 static void list_passes(struct glass_picture *picture, virga_compute_row rows[PASSES])
 {
     const virga_compute_row wanted[PASSES] = {
-        {&picture->ball_pass, VIRGA_SPIRV(glass_picture_balls_comp), "glass.balls"},
-        {&picture->block_pass, VIRGA_SPIRV(glass_picture_blocks_comp), "glass.blocks"},
-        {&picture->film_pass, VIRGA_SPIRV(glass_picture_film_comp), "glass.film"},
-        {&picture->list_pass, VIRGA_SPIRV(glass_picture_list_comp), "glass.list"},
-        {&picture->fill_pass, VIRGA_SPIRV(glass_picture_fill_comp), "glass.fill"},
-        {&picture->box_pass, VIRGA_SPIRV(glass_picture_boxes_comp), "glass.boxes"},
-        {&picture->copy_pass, VIRGA_SPIRV(glass_picture_copy_comp), "glass.copy"},
-        {&picture->shrink_pass, VIRGA_SPIRV(glass_picture_shrink_comp), "glass.shrink"},
+        {&picture->ball_pass, VIRGA_SPIRV(glass_draw_balls_comp), "glass.balls"},
+        {&picture->block_pass, VIRGA_SPIRV(glass_draw_mist_blocks_comp), "glass.mist_blocks"},
+        {&picture->film_pass, VIRGA_SPIRV(glass_draw_film_tiles_comp), "glass.film_tiles"},
+        {&picture->list_pass, VIRGA_SPIRV(glass_draw_tile_list_comp), "glass.tile_list"},
+        {&picture->fill_pass, VIRGA_SPIRV(glass_draw_tile_fill_comp), "glass.tile_fill"},
+        {&picture->box_pass, VIRGA_SPIRV(glass_draw_tile_quads_comp), "glass.tile_quads"},
+        {&picture->copy_pass, VIRGA_SPIRV(glass_draw_plate_copy_comp), "glass.plate_copy"},
+        {&picture->shrink_pass, VIRGA_SPIRV(glass_draw_plate_shrink_comp), "glass.plate_shrink"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }
@@ -264,9 +264,9 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
     struct glass_picture *picture = glass->picture;
-    const virga_spirv shader = !picture->lanes       ? VIRGA_SPIRV(glass_picture_gather_comp)
-                               : picture->lanes <= 8 ? VIRGA_SPIRV(glass_picture_gather_narrow_comp)
-                                                     : VIRGA_SPIRV(glass_picture_gather_shuffle_comp);
+    const virga_spirv shader = !picture->lanes       ? VIRGA_SPIRV(glass_draw_height_comp)
+                               : picture->lanes <= 8 ? VIRGA_SPIRV(glass_draw_height_narrow_comp)
+                                                     : VIRGA_SPIRV(glass_draw_height_shuffle_comp);
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < 3; i++) {
         const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
@@ -293,15 +293,14 @@ static virga_result create_forms(virga_glass *glass)
 {
     struct glass_picture *picture = glass->picture;
     virga_result result = VIRGA_OK;
-    virga_compute_def def = {.shader = VIRGA_SPIRV(glass_picture_mist_comp),
+    virga_compute_def def = {.shader = VIRGA_SPIRV(glass_draw_mist_comp),
                              .layout = picture->bindings->layout,
                              .group = &glass->needed,
                              .name = "glass.mist"};
     for (def.constant = 0; def.constant < 4; def.constant++)
         if (!picture->mist_passes[def.constant])
             TRY(virga_compute_pipeline_create(glass->context, &def, &picture->mist_passes[def.constant]));
-    def.shader =
-        picture->lanes == 8 ? VIRGA_SPIRV(glass_picture_relief_narrow_comp) : VIRGA_SPIRV(glass_picture_relief_comp);
+    def.shader = picture->lanes == 8 ? VIRGA_SPIRV(glass_draw_relief_narrow_comp) : VIRGA_SPIRV(glass_draw_relief_comp);
     def.name = "glass.relief";
     for (def.constant = 0; def.constant < 2; def.constant++)
         TRY(virga_compute_pipeline_create(glass->context, &def, &picture->relief_passes[def.constant]));

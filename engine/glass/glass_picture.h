@@ -57,7 +57,7 @@ struct glass_picture {
     virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners, *view_ring;
     virga_image_2d *map;
     bool whole_map;         /* the host wants it, also where there is only mist */
-    virga_image_2d *words;  /* what the paper's style draws from, see shaders/glass/picture_words.glsl */
+    virga_image_2d *words;  /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
     virga_image_2d *relief; /* what others do */
     virga_image_2d *copies, *mist_map;
     bool filtered;                             /* the device filters the relief */

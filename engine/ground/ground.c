@@ -7,19 +7,19 @@
 #include "gpu/checks.h"
 #include "gpu/errors.h"
 
-#include "shaders/ground_adopt_comp.spv.h"
 #include "shaders/ground_far_floor_comp.spv.h"
 #include "shaders/ground_far_map_comp.spv.h"
 #include "shaders/ground_flow_comp.spv.h"
-#include "shaders/ground_forget_comp.spv.h"
 #include "shaders/ground_land_comp.spv.h"
 #include "shaders/ground_map_comp.spv.h"
 #include "shaders/ground_measure_comp.spv.h"
 #include "shaders/ground_ring_comp.spv.h"
 #include "shaders/ground_share_comp.spv.h"
 #include "shaders/ground_soak_comp.spv.h"
-#include "shaders/ground_spawn_find_comp.spv.h"
+#include "shaders/ground_spawn_mark_comp.spv.h"
 #include "shaders/ground_spawn_scan_comp.spv.h"
+#include "shaders/ground_tile_discard_comp.spv.h"
+#include "shaders/ground_tile_load_comp.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -283,9 +283,9 @@ void ground_write_sets(virga_ground *ground)
 static virga_result create_pipelines(virga_ground *ground)
 {
     const virga_compute_row passes[] = {
-        {&ground->adopt, VIRGA_SPIRV(ground_adopt_comp), "ground.adopt"},
-        {&ground->forget, VIRGA_SPIRV(ground_forget_comp), "ground.forget"},
-        {&ground->spawn_find, VIRGA_SPIRV(ground_spawn_find_comp), "ground.spawn_find"},
+        {&ground->adopt, VIRGA_SPIRV(ground_tile_load_comp), "ground.tile_load"},
+        {&ground->forget, VIRGA_SPIRV(ground_tile_discard_comp), "ground.tile_discard"},
+        {&ground->spawn_find, VIRGA_SPIRV(ground_spawn_mark_comp), "ground.spawn_mark"},
         {&ground->spawn_scan, VIRGA_SPIRV(ground_spawn_scan_comp), "ground.spawn_scan"},
         {&ground->land, VIRGA_SPIRV(ground_land_comp), "ground.land"},
         {&ground->share, VIRGA_SPIRV(ground_share_comp), "ground.share"},

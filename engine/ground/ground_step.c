@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define COPY        (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
-#define NEVER_SEEN  0x80000000u /* as in shaders/ground/adopt.comp */
+#define NEVER_SEEN  0x80000000u /* as in shaders/ground/tile_load.comp */
 #define FLOW_PASSES 4           /* a round: through all four sides of each cell, see flow.comp */
 #define TILE_GROUPS (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#define SPREAD 1.18 /* standard deviation of the bumps in shaders/ground/lie.glsl, over that of the material */
+#define SPREAD 1.18 /* standard deviation of the bumps in shaders/ground/terrain.glsl, over that of the material */
 
 /* Share of the ground that is under water where hollows are full to `level_um`: bumps are taken as a normal
  * distribution, and humps begin half a deviation below its middle (as in shaders/ground/standing.glsl). */

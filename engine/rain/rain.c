@@ -7,26 +7,26 @@
 #include "gpu/builds.h"
 #include "gpu/errors.h"
 
-#include "shaders/rain_hit_count_comp.spv.h"
-#include "shaders/rain_hit_find_comp.spv.h"
-#include "shaders/rain_hit_place_comp.spv.h"
-#include "shaders/rain_hit_scan_comp.spv.h"
-#include "shaders/rain_hit_write_comp.spv.h"
-#include "shaders/rain_impact_find_comp.spv.h"
-#include "shaders/rain_impact_near_comp.spv.h"
-#include "shaders/rain_impact_near_scan_comp.spv.h"
-#include "shaders/rain_impact_scan_comp.spv.h"
-#include "shaders/rain_impact_write_comp.spv.h"
-#include "shaders/rain_list_comp.spv.h"
-#include "shaders/rain_points_comp.spv.h"
-#include "shaders/rain_prepare_find_comp.spv.h"
-#include "shaders/rain_prepare_order_comp.spv.h"
-#include "shaders/rain_prepare_order_count_comp.spv.h"
-#include "shaders/rain_prepare_order_scan_comp.spv.h"
-#include "shaders/rain_prepare_scan_comp.spv.h"
-#include "shaders/rain_prepare_write_comp.spv.h"
-#include "shaders/rain_step_comp.spv.h"
-#include "shaders/rain_sway_comp.spv.h"
+#include "shaders/rain_compact_comp.spv.h"
+#include "shaders/rain_draw_order_count_comp.spv.h"
+#include "shaders/rain_draw_order_indices_comp.spv.h"
+#include "shaders/rain_draw_order_scan_comp.spv.h"
+#include "shaders/rain_draw_streak_mark_comp.spv.h"
+#include "shaders/rain_draw_streak_scan_comp.spv.h"
+#include "shaders/rain_draw_streak_write_comp.spv.h"
+#include "shaders/rain_step_hit_count_comp.spv.h"
+#include "shaders/rain_step_hit_mark_comp.spv.h"
+#include "shaders/rain_step_hit_offsets_comp.spv.h"
+#include "shaders/rain_step_hit_scan_comp.spv.h"
+#include "shaders/rain_step_hit_write_comp.spv.h"
+#include "shaders/rain_step_impact_mark_comp.spv.h"
+#include "shaders/rain_step_impact_near_mark_comp.spv.h"
+#include "shaders/rain_step_impact_near_scan_comp.spv.h"
+#include "shaders/rain_step_impact_scan_comp.spv.h"
+#include "shaders/rain_step_impact_write_comp.spv.h"
+#include "shaders/rain_step_move_comp.spv.h"
+#include "shaders/rain_step_points_comp.spv.h"
+#include "shaders/rain_step_sway_comp.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -205,26 +205,26 @@ static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
 static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
 {
     const virga_compute_row all[] = {
-        {&rain->step, VIRGA_SPIRV(rain_step_comp), "rain.step"},
-        {&rain->sway, VIRGA_SPIRV(rain_sway_comp), "rain.sway"},
-        {&rain->impact_near, VIRGA_SPIRV(rain_impact_near_comp), "rain.impact_near"},
-        {&rain->impact_near_scan, VIRGA_SPIRV(rain_impact_near_scan_comp), "rain.impact_near_scan"},
-        {&rain->impact_find, VIRGA_SPIRV(rain_impact_find_comp), "rain.impact_find"},
-        {&rain->list, VIRGA_SPIRV(rain_list_comp), "rain.list"},
-        {&rain->impact_scan, VIRGA_SPIRV(rain_impact_scan_comp), "rain.impact_scan"},
-        {&rain->impact_write, VIRGA_SPIRV(rain_impact_write_comp), "rain.impact_write"},
-        {&rain->prepare_find, VIRGA_SPIRV(rain_prepare_find_comp), "rain.prepare_find"},
-        {&rain->prepare_scan, VIRGA_SPIRV(rain_prepare_scan_comp), "rain.prepare_scan"},
-        {&rain->prepare_write, VIRGA_SPIRV(rain_prepare_write_comp), "rain.prepare_write"},
-        {&rain->prepare_order_count, VIRGA_SPIRV(rain_prepare_order_count_comp), "rain.prepare_order_count"},
-        {&rain->prepare_order_scan, VIRGA_SPIRV(rain_prepare_order_scan_comp), "rain.prepare_order_scan"},
-        {&rain->prepare_order, VIRGA_SPIRV(rain_prepare_order_comp), "rain.prepare_order"},
-        {&rain->hit_find, VIRGA_SPIRV(rain_hit_find_comp), "rain.hit_find"},
-        {&rain->hit_scan, VIRGA_SPIRV(rain_hit_scan_comp), "rain.hit_scan"},
-        {&rain->hit_count, VIRGA_SPIRV(rain_hit_count_comp), "rain.hit_count"},
-        {&rain->hit_place, VIRGA_SPIRV(rain_hit_place_comp), "rain.hit_place"},
-        {&rain->hit_write, VIRGA_SPIRV(rain_hit_write_comp), "rain.hit_write"},
-        {&rain->points, VIRGA_SPIRV(rain_points_comp), "rain.points"},
+        {&rain->step, VIRGA_SPIRV(rain_step_move_comp), "rain.move"},
+        {&rain->sway, VIRGA_SPIRV(rain_step_sway_comp), "rain.sway"},
+        {&rain->impact_near, VIRGA_SPIRV(rain_step_impact_near_mark_comp), "rain.impact_near_mark"},
+        {&rain->impact_near_scan, VIRGA_SPIRV(rain_step_impact_near_scan_comp), "rain.impact_near_scan"},
+        {&rain->impact_find, VIRGA_SPIRV(rain_step_impact_mark_comp), "rain.impact_mark"},
+        {&rain->list, VIRGA_SPIRV(rain_compact_comp), "rain.compact"},
+        {&rain->impact_scan, VIRGA_SPIRV(rain_step_impact_scan_comp), "rain.impact_scan"},
+        {&rain->impact_write, VIRGA_SPIRV(rain_step_impact_write_comp), "rain.impact_write"},
+        {&rain->prepare_find, VIRGA_SPIRV(rain_draw_streak_mark_comp), "rain.streak_mark"},
+        {&rain->prepare_scan, VIRGA_SPIRV(rain_draw_streak_scan_comp), "rain.streak_scan"},
+        {&rain->prepare_write, VIRGA_SPIRV(rain_draw_streak_write_comp), "rain.streak_write"},
+        {&rain->prepare_order_count, VIRGA_SPIRV(rain_draw_order_count_comp), "rain.order_count"},
+        {&rain->prepare_order_scan, VIRGA_SPIRV(rain_draw_order_scan_comp), "rain.order_scan"},
+        {&rain->prepare_order, VIRGA_SPIRV(rain_draw_order_indices_comp), "rain.order_indices"},
+        {&rain->hit_find, VIRGA_SPIRV(rain_step_hit_mark_comp), "rain.hit_mark"},
+        {&rain->hit_scan, VIRGA_SPIRV(rain_step_hit_scan_comp), "rain.hit_scan"},
+        {&rain->hit_count, VIRGA_SPIRV(rain_step_hit_count_comp), "rain.hit_count"},
+        {&rain->hit_place, VIRGA_SPIRV(rain_step_hit_offsets_comp), "rain.hit_offsets"},
+        {&rain->hit_write, VIRGA_SPIRV(rain_step_hit_write_comp), "rain.hit_write"},
+        {&rain->points, VIRGA_SPIRV(rain_step_points_comp), "rain.points"},
     };
     _Static_assert(sizeof all == PASSES * sizeof all[0], "a row for each pass");
     memcpy(rows, all, sizeof all);

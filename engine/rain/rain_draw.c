@@ -12,22 +12,22 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/rain_glow_frag.spv.h"
-#include "shaders/rain_glow_vert.spv.h"
-#include "shaders/rain_haze_frag.spv.h"
-#include "shaders/rain_haze_vert.spv.h"
-#include "shaders/rain_streak_thin_frag.spv.h"
-#include "shaders/rain_streak_thin_frag_both.spv.h"
-#include "shaders/rain_streak_thin_frag_motion.spv.h"
-#include "shaders/rain_streak_thin_frag_reactive.spv.h"
-#include "shaders/rain_streak_thin_vert.spv.h"
-#include "shaders/rain_streak_thin_vert_motion.spv.h"
-#include "shaders/rain_streak_wide_frag.spv.h"
-#include "shaders/rain_streak_wide_frag_both.spv.h"
-#include "shaders/rain_streak_wide_frag_motion.spv.h"
-#include "shaders/rain_streak_wide_frag_reactive.spv.h"
-#include "shaders/rain_streak_wide_vert.spv.h"
-#include "shaders/rain_streak_wide_vert_motion.spv.h"
+#include "shaders/rain_draw_glow_frag.spv.h"
+#include "shaders/rain_draw_glow_vert.spv.h"
+#include "shaders/rain_draw_haze_frag.spv.h"
+#include "shaders/rain_draw_haze_vert.spv.h"
+#include "shaders/rain_draw_streak_thin_frag.spv.h"
+#include "shaders/rain_draw_streak_thin_frag_both.spv.h"
+#include "shaders/rain_draw_streak_thin_frag_motion.spv.h"
+#include "shaders/rain_draw_streak_thin_frag_reactive.spv.h"
+#include "shaders/rain_draw_streak_thin_vert.spv.h"
+#include "shaders/rain_draw_streak_thin_vert_motion.spv.h"
+#include "shaders/rain_draw_streak_wide_frag.spv.h"
+#include "shaders/rain_draw_streak_wide_frag_both.spv.h"
+#include "shaders/rain_draw_streak_wide_frag_motion.spv.h"
+#include "shaders/rain_draw_streak_wide_frag_reactive.spv.h"
+#include "shaders/rain_draw_streak_wide_vert.spv.h"
+#include "shaders/rain_draw_streak_wide_vert_motion.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,9 +40,9 @@ uint32_t rain_view_bytes(void)
 
 /* ---- a view in the device's terms */
 
-#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
+#define MOST_COVERAGE 0.25 /* as in shaders/rain/draw/streak_write.comp */
 #define LEAST_COVERAGE \
-    (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
+    (1.0 / 400) /* as in shaders/rain/draw/view.glsl: what covers less is below what the eye and 8 bits see */
 
 /* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
 static double streak_coverage(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
@@ -312,25 +312,25 @@ virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
         .layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
     for (uint32_t depth = 0; depth < 2; depth++) {
         def.constant = depth ? VIRGA_RAIN_STREAKS_DEPTH : 0;
-        def.vertex = VIRGA_VERTEX_FORM(rain_streak_thin_vert, outputs);
-        def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_thin_frag, outputs);
+        def.vertex = VIRGA_VERTEX_FORM(rain_draw_streak_thin_vert, outputs);
+        def.fragment = VIRGA_FRAGMENT_FORM(rain_draw_streak_thin_frag, outputs);
         def.name = "rain.thin_streaks";
         TRY(virga_target_pipeline(target, def, &slot->thin[depth]));
         if (rain->context->lines)
             TRY(line_pipeline(target, def, &slot->lines[depth]));
-        def.vertex = VIRGA_VERTEX_FORM(rain_streak_wide_vert, outputs);
-        def.fragment = VIRGA_FRAGMENT_FORM(rain_streak_wide_frag, outputs);
+        def.vertex = VIRGA_VERTEX_FORM(rain_draw_streak_wide_vert, outputs);
+        def.fragment = VIRGA_FRAGMENT_FORM(rain_draw_streak_wide_frag, outputs);
         def.name = "rain.wide_streaks";
         TRY(virga_target_pipeline(target, def, &slot->wide[depth]));
     }
-    def.vertex = VIRGA_SPIRV(rain_haze_vert);
-    def.fragment = VIRGA_SPIRV(rain_haze_frag);
+    def.vertex = VIRGA_SPIRV(rain_draw_haze_vert);
+    def.fragment = VIRGA_SPIRV(rain_draw_haze_frag);
     def.outputs = VIRGA_OUTPUTS_COLOR; /* haze moves with what it lies over */
     def.depth_test = false;
     def.name = "rain.haze";
     TRY(virga_target_pipeline(target, def, &slot->haze));
-    def.vertex = VIRGA_SPIRV(rain_glow_vert);
-    def.fragment = VIRGA_SPIRV(rain_glow_frag);
+    def.vertex = VIRGA_SPIRV(rain_draw_glow_vert);
+    def.fragment = VIRGA_SPIRV(rain_draw_glow_frag);
     def.name = "rain.glow";
     TRY(virga_target_pipeline(target, def, &slot->glow));
     slot->motion = outputs & VIRGA_OUTPUTS_MOTION;

@@ -7,19 +7,19 @@
 #include "gpu/builds.h"
 #include "gpu/errors.h"
 
-#include "shaders/splash_droplet_find_comp.spv.h"
-#include "shaders/splash_fall_comp.spv.h"
-#include "shaders/splash_fall_scan_comp.spv.h"
-#include "shaders/splash_few_find_comp.spv.h"
-#include "shaders/splash_indices_comp.spv.h"
-#include "shaders/splash_rebase_comp.spv.h"
-#include "shaders/splash_spawn_comp.spv.h"
-#include "shaders/splash_spawn_scan_comp.spv.h"
-#include "shaders/splash_splash_find_comp.spv.h"
-#include "shaders/splash_sprite_write_comp.spv.h"
-#include "shaders/splash_step_comp.spv.h"
-#include "shaders/splash_view_list_comp.spv.h"
-#include "shaders/splash_view_scan_comp.spv.h"
+#include "shaders/splash_draw_droplet_mark_comp.spv.h"
+#include "shaders/splash_draw_few_mark_comp.spv.h"
+#include "shaders/splash_draw_indices_comp.spv.h"
+#include "shaders/splash_draw_splash_mark_comp.spv.h"
+#include "shaders/splash_draw_sprite_write_comp.spv.h"
+#include "shaders/splash_draw_view_compact_comp.spv.h"
+#include "shaders/splash_draw_view_scan_comp.spv.h"
+#include "shaders/splash_step_fall_compact_comp.spv.h"
+#include "shaders/splash_step_fall_scan_comp.spv.h"
+#include "shaders/splash_step_fly_comp.spv.h"
+#include "shaders/splash_step_rebase_comp.spv.h"
+#include "shaders/splash_step_spawn_comp.spv.h"
+#include "shaders/splash_step_spawn_scan_comp.spv.h"
 
 #include <string.h>
 
@@ -197,19 +197,19 @@ typedef struct pass_row {
 static void list_passes(virga_splash *splash, pass_row rows[PASSES])
 {
     const pass_row wanted[PASSES] = {
-        {&splash->spawn_scan, 1, VIRGA_SPIRV(splash_spawn_scan_comp), "splash.spawn_scan"},
-        {&splash->spawn, 1, VIRGA_SPIRV(splash_spawn_comp), "splash.spawn"},
-        {&splash->step, 1, VIRGA_SPIRV(splash_step_comp), "splash.step"},
-        {&splash->fall_scan, 1, VIRGA_SPIRV(splash_fall_scan_comp), "splash.fall_scan"},
-        {&splash->fall, 1, VIRGA_SPIRV(splash_fall_comp), "splash.fall"},
-        {&splash->rebase, 1, VIRGA_SPIRV(splash_rebase_comp), "splash.rebase"},
-        {&splash->indices, 1, VIRGA_SPIRV(splash_indices_comp), "splash.indices"},
-        {splash->few_find, SPLASH_STYLES, VIRGA_SPIRV(splash_few_find_comp), "splash.few_find"},
-        {splash->droplet_find, SPLASH_STYLES, VIRGA_SPIRV(splash_droplet_find_comp), "splash.droplet_find"},
-        {splash->splash_find, SPLASH_STYLES, VIRGA_SPIRV(splash_splash_find_comp), "splash.splash_find"},
-        {&splash->view_scan, 1, VIRGA_SPIRV(splash_view_scan_comp), "splash.view_scan"},
-        {&splash->view_list, 1, VIRGA_SPIRV(splash_view_list_comp), "splash.view_list"},
-        {splash->sprite_write, VIRGA_SPLASH_FORMS, VIRGA_SPIRV(splash_sprite_write_comp), "splash.sprite_write"},
+        {&splash->spawn_scan, 1, VIRGA_SPIRV(splash_step_spawn_scan_comp), "splash.spawn_scan"},
+        {&splash->spawn, 1, VIRGA_SPIRV(splash_step_spawn_comp), "splash.spawn"},
+        {&splash->step, 1, VIRGA_SPIRV(splash_step_fly_comp), "splash.fly"},
+        {&splash->fall_scan, 1, VIRGA_SPIRV(splash_step_fall_scan_comp), "splash.fall_scan"},
+        {&splash->fall, 1, VIRGA_SPIRV(splash_step_fall_compact_comp), "splash.fall_compact"},
+        {&splash->rebase, 1, VIRGA_SPIRV(splash_step_rebase_comp), "splash.rebase"},
+        {&splash->indices, 1, VIRGA_SPIRV(splash_draw_indices_comp), "splash.indices"},
+        {splash->few_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_few_mark_comp), "splash.few_mark"},
+        {splash->droplet_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_droplet_mark_comp), "splash.droplet_mark"},
+        {splash->splash_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_splash_mark_comp), "splash.splash_mark"},
+        {&splash->view_scan, 1, VIRGA_SPIRV(splash_draw_view_scan_comp), "splash.view_scan"},
+        {&splash->view_list, 1, VIRGA_SPIRV(splash_draw_view_compact_comp), "splash.view_compact"},
+        {splash->sprite_write, VIRGA_SPLASH_FORMS, VIRGA_SPIRV(splash_draw_sprite_write_comp), "splash.sprite_write"},
     };
     memcpy(rows, wanted, sizeof wanted);
 }

@@ -10,30 +10,30 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/splash_crown_frag.spv.h"
-#include "shaders/splash_crown_frag_both.spv.h"
-#include "shaders/splash_crown_frag_motion.spv.h"
-#include "shaders/splash_crown_frag_reactive.spv.h"
-#include "shaders/splash_crown_pyramid_vert.spv.h"
-#include "shaders/splash_crown_pyramid_vert_motion.spv.h"
-#include "shaders/splash_crown_vert.spv.h"
-#include "shaders/splash_crown_vert_motion.spv.h"
-#include "shaders/splash_pile_pyramid_vert.spv.h"
-#include "shaders/splash_pile_pyramid_vert_motion.spv.h"
-#include "shaders/splash_pyramid_frag.spv.h"
-#include "shaders/splash_pyramid_frag_both.spv.h"
-#include "shaders/splash_pyramid_frag_motion.spv.h"
-#include "shaders/splash_pyramid_frag_reactive.spv.h"
-#include "shaders/splash_sprite_thin_frag.spv.h"
-#include "shaders/splash_sprite_thin_frag_both.spv.h"
-#include "shaders/splash_sprite_thin_frag_motion.spv.h"
-#include "shaders/splash_sprite_thin_frag_reactive.spv.h"
-#include "shaders/splash_sprite_vert.spv.h"
-#include "shaders/splash_sprite_vert_motion.spv.h"
-#include "shaders/splash_sprite_wide_frag.spv.h"
-#include "shaders/splash_sprite_wide_frag_both.spv.h"
-#include "shaders/splash_sprite_wide_frag_motion.spv.h"
-#include "shaders/splash_sprite_wide_frag_reactive.spv.h"
+#include "shaders/splash_draw_crown_frag.spv.h"
+#include "shaders/splash_draw_crown_frag_both.spv.h"
+#include "shaders/splash_draw_crown_frag_motion.spv.h"
+#include "shaders/splash_draw_crown_frag_reactive.spv.h"
+#include "shaders/splash_draw_crown_pyramid_vert.spv.h"
+#include "shaders/splash_draw_crown_pyramid_vert_motion.spv.h"
+#include "shaders/splash_draw_crown_vert.spv.h"
+#include "shaders/splash_draw_crown_vert_motion.spv.h"
+#include "shaders/splash_draw_pile_pyramid_vert.spv.h"
+#include "shaders/splash_draw_pile_pyramid_vert_motion.spv.h"
+#include "shaders/splash_draw_pyramid_frag.spv.h"
+#include "shaders/splash_draw_pyramid_frag_both.spv.h"
+#include "shaders/splash_draw_pyramid_frag_motion.spv.h"
+#include "shaders/splash_draw_pyramid_frag_reactive.spv.h"
+#include "shaders/splash_draw_sprite_thin_frag.spv.h"
+#include "shaders/splash_draw_sprite_thin_frag_both.spv.h"
+#include "shaders/splash_draw_sprite_thin_frag_motion.spv.h"
+#include "shaders/splash_draw_sprite_thin_frag_reactive.spv.h"
+#include "shaders/splash_draw_sprite_vert.spv.h"
+#include "shaders/splash_draw_sprite_vert_motion.spv.h"
+#include "shaders/splash_draw_sprite_wide_frag.spv.h"
+#include "shaders/splash_draw_sprite_wide_frag_both.spv.h"
+#include "shaders/splash_draw_sprite_wide_frag_motion.spv.h"
+#include "shaders/splash_draw_sprite_wide_frag_reactive.spv.h"
 
 #include <math.h>
 #include <string.h>
@@ -222,22 +222,22 @@ typedef struct draw_row {
 
 static void list_draws(virga_target_outputs outputs, draw_row rows[SPLASH_DRAWS])
 {
-    const virga_spirv sprite = VIRGA_VERTEX_FORM(splash_sprite_vert, outputs);
-    const virga_spirv thin = VIRGA_FRAGMENT_FORM(splash_sprite_thin_frag, outputs);
-    const virga_spirv wide = VIRGA_FRAGMENT_FORM(splash_sprite_wide_frag, outputs);
-    const virga_spirv sheet = VIRGA_FRAGMENT_FORM(splash_crown_frag, outputs);
-    const virga_spirv pyramid = VIRGA_FRAGMENT_FORM(splash_pyramid_frag, outputs);
+    const virga_spirv sprite = VIRGA_VERTEX_FORM(splash_draw_sprite_vert, outputs);
+    const virga_spirv thin = VIRGA_FRAGMENT_FORM(splash_draw_sprite_thin_frag, outputs);
+    const virga_spirv wide = VIRGA_FRAGMENT_FORM(splash_draw_sprite_wide_frag, outputs);
+    const virga_spirv sheet = VIRGA_FRAGMENT_FORM(splash_draw_crown_frag, outputs);
+    const virga_spirv pyramid = VIRGA_FRAGMENT_FORM(splash_draw_pyramid_frag, outputs);
     const uint32_t puffs = VIRGA_SPLASH_SPRITES_PUFFS, lines = VIRGA_SPLASH_SPRITES_LINES;
     rows[SPLASH_DRAW_LINES] = (draw_row){sprite, thin, "splash.lines", lines, false};
     rows[SPLASH_DRAW_THIN] = (draw_row){sprite, thin, "splash.thin", 0, false};
     rows[SPLASH_DRAW_PUFFS] = (draw_row){sprite, thin, "splash.puffs", puffs, false};
     rows[SPLASH_DRAW_WIDE] = (draw_row){sprite, wide, "splash.wide", 0, false};
     rows[SPLASH_DRAW_SHEETS] =
-        (draw_row){VIRGA_VERTEX_FORM(splash_crown_vert, outputs), sheet, "splash.sheets", 0, false};
+        (draw_row){VIRGA_VERTEX_FORM(splash_draw_crown_vert, outputs), sheet, "splash.sheets", 0, false};
     rows[SPLASH_DRAW_PILES] =
-        (draw_row){VIRGA_VERTEX_FORM(splash_pile_pyramid_vert, outputs), pyramid, "splash.pile_pyramids", 0, true};
-    rows[SPLASH_DRAW_CROWNS] =
-        (draw_row){VIRGA_VERTEX_FORM(splash_crown_pyramid_vert, outputs), pyramid, "splash.crown_pyramids", 0, true};
+        (draw_row){VIRGA_VERTEX_FORM(splash_draw_pile_pyramid_vert, outputs), pyramid, "splash.pile_pyramids", 0, true};
+    rows[SPLASH_DRAW_CROWNS] = (draw_row){VIRGA_VERTEX_FORM(splash_draw_crown_pyramid_vert, outputs), pyramid,
+                                          "splash.crown_pyramids", 0, true};
 }
 
 virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)

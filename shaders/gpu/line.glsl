@@ -1,4 +1,5 @@
-// line.glsl - what is drawn as a line in place of two triangles around it: rain/streak.glsl says why. After a view.
+// line.glsl - what is drawn as a line in place of two triangles around it: rain/draw/streak.glsl says why. After a
+// view.
 
 // . (x, y, 1) of a pixel is how far (px) it is beside the line from an end (normalised device x, y), whose side (px) is
 // of unit length. All pixels of a line across have the same inputs but for this.

@@ -4,9 +4,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
-#include "groups.glsl"
+#include "workgroups.glsl"
 #include "standing.glsl"
-#include "lie.glsl"
+#include "terrain.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 23) writeonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };

@@ -6,7 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
-#include "groups.glsl"
+#include "workgroups.glsl"
 #include "rings.glsl"
 #include "standing.glsl"
 

@@ -10,7 +10,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
-#include "swing.glsl"
+#include "flow_average.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z, not x; bit 1: the lower cell is odd

@@ -3,9 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
-#include "groups.glsl"
+#include "workgroups.glsl"
 #include "rings.glsl"
-#include "swing.glsl"
+#include "flow_average.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };

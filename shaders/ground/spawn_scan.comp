@@ -60,7 +60,7 @@ void main()
         spawns_head.first_tick = tick.tick;
     if (head.is_return == 0u) {
         spawns_head.origin = head.origin;
-        // land.comp weighs by the radius that spawn_find.comp chose by.
+        // land.comp weighs by the radius that spawn_mark.comp chose by.
         spawns_head.near_of_tick_m = spawns_head.near_m;
         spawns_head.near_m = next_near(spawns_head.near_m, float(found));
     }

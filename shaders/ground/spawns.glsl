@@ -84,7 +84,7 @@ virga_splash_rule_gpu rule_at(virga_impact_gpu impact, Piece piece)
     return rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state_at(piece.place)];
 }
 
-// The decision, taken once: by spawn_find.comp.
+// The decision, taken once: by spawn_mark.comp.
 bool is_splash(virga_impact_gpu impact, Piece piece, uint i)
 {
     const uint model = model_of(impact, rule_at(impact, piece), state_at(piece.place), depth_at(piece.place));

@@ -130,7 +130,7 @@ struct virga_streak_gpu {
     uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its
                           * light */
     uint turns;          /* oscillations along the streak; where in a turn it is at the tail */
-    uint order;          /* see shaders/rain/order.glsl: bucket x VIRGA_RAIN_GROUP + rank there */
+    uint order;          /* see shaders/rain/draw/order.glsl: bucket x VIRGA_RAIN_GROUP + rank there */
     uint light[3];       /* radiance at the middle line (rgb), then at the edge (rgb) */
     uint id;             /* of the drop */
 };

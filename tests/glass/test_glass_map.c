@@ -61,7 +61,7 @@ static double smooth(double low, double high, double x)
     return t * t * (3 - 2 * t);
 }
 
-/* Density and height at a place; see picture_gather.glsl. */
+/* Density and height at a place; see shaders/glass/draw/height.glsl. */
 static void reference(const shot *s, const ball *balls, int count, double u, double v, double *density, double *height)
 {
     const int kind = s->settings.density;

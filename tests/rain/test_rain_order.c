@@ -8,7 +8,7 @@ static bool has_lines(const shot *s)
     return s->f.context->lines;
 }
 
-/* As shaders/rain/order.glsl has it, in doubles. A streak on a border between areas may be counted to either. */
+/* As shaders/rain/draw/order.glsl has it, in doubles. A streak on a border between areas may be counted to either. */
 static uint32_t area_of(const virga_streak_gpu *streak, uint32_t down, double shift)
 {
     const uint32_t areas[2] = {AREAS_ACROSS, down};

@@ -1,0 +1,36 @@
+// beads.glsl - film on cells: fresh it is a sheet, later it has broken into fine beads at hashed places.
+layout(scalar, set = 0, binding = 2) readonly buffer Film { uint film[]; };     // nl
+layout(scalar, set = 0, binding = 3) readonly buffer Passed { uint passed[]; }; // tick of the last wetting; 0: never
+
+#define BEADS 2          // at most in a cell
+
+// The share of a cell's film that is still a sheet, by the tick that it was wetted in.
+float film_fresh(uint wetted)
+{
+    const float age = float(look.tick - wetted) * look.tick_s + look.late_s;
+    const float fresh = 1.0 - smoothstep(0.7, 1.3, age / max(look.film_break_s, 1e-6));
+    return look.film_break_s <= 0.0 || wetted == 0u ? 0.0 : fresh;
+}
+
+// Radii of a cell's beads, of the film that is no sheet; 0: it has not got so many.
+vec2 bead_radii(uint number, float broken_nl)
+{
+    const float first = 0.55 + 0.45 * virga_unit(virga_hash3(look.pane.seed, 0x6265u, number));
+    const vec2 radii = pow(broken_nl / look.drop_nl_of_m3 * vec2(first, 1.0 - first), vec2(1.0 / 3.0));
+    return min(radii, vec2(VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m));
+}
+
+// Place of one of them in the cell (x, y), and its radius.
+vec3 bead_of(ivec2 cell, uint number, uint i, float broken_nl)
+{
+    const uint random = virga_hash3(look.pane.seed, 0x6265u, number);
+    const vec2 at = vec2(virga_unit(virga_hash2(random, 2u * i)), virga_unit(virga_hash2(random, 2u * i + 1u)));
+    return vec3((vec2(cell) + at) * look.pane.cell_m, bead_radii(number, broken_nl)[i]);
+}
+
+// How much of a bead is shape, the rest mist. One alone is seen from half a shape on, where its density reaches the
+// threshold, so half of it is mist until then.
+vec2 bead_shapes(vec2 radii)
+{
+    return smoothstep(VIRGA_GLASS_BEAD_SEEN, 1.25, radii / max(look.texel_m[0], look.texel_m[1]));
+}

@@ -1,0 +1,37 @@
+// film_tiles.comp - in blocks that have film with a shape: the tiles of its cells learn that they have it to show.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "tiles.glsl"
+#include "beads.glsl"
+
+layout(local_size_x = 64) in;
+
+bool has_shape(uint number)
+{
+    const float fresh = film_fresh(passed[number]);
+    const vec2 shapes = bead_shapes(bead_radii(number, float(film[number]) * (1.0 - fresh)));
+    return film[number] != 0u && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
+}
+
+void mark(uvec2 cell)
+{
+    const float reach_m = 1.6 * look.pane.cell_m;
+    ivec2 first, last;
+    tiles_around((vec2(cell) + 0.5) * look.pane.cell_m, reach_m, first, last);
+    for (int y = first.y; y <= last.y; y++)
+        for (int x = first.x; x <= last.x; x++)
+            atomicOr(tiles[tile_number(uvec2(x, y))].film, 1u);
+}
+
+void main()
+{
+    const uint block = wet[2u * look.max_tiles + gl_WorkGroupID.x], side = VIRGA_GLASS_MIST_BLOCK * look.mist_cells;
+    const uvec2 corner = uvec2(block & 0xffffu, block >> 16) * side;
+    for (uint i = gl_LocalInvocationIndex; i < side * side; i += 64u) {
+        const uvec2 cell = corner + uvec2(i % side, i / side);
+        if (cell.x < look.pane.columns && cell.y < look.pane.rows && has_shape(cell.x + cell.y * look.pane.columns))
+            mark(cell);
+    }
+}

@@ -1,0 +1,83 @@
+// surface.glsl - what a pixel of the pane shows of the water there: coverage, slopes and curvature.
+#define SCENE_DEPTH_BINDING 15
+#include "gpu/scene_depth.glsl"
+#include "gpu/view.glsl"
+
+#include "mode.glsl"
+#define HAS_DEPTH ((DRAW_MODE & VIRGA_GLASS_DRAW_DEPTH) != 0u)
+#define HAS_LAMPS ((DRAW_MODE & VIRGA_GLASS_DRAW_LAMPS) != 0u)
+#define BY_HAND ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
+#define SIDE (DRAW_MODE & VIRGA_GLASS_DRAW_SIDE)
+
+// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, per metre. Alpha: above 0 the
+// share that water too small for a shape covers; below 0, in drops, the largest change of the slope (1/m), or on what
+// is not glass the height (m).
+layout(set = 0, binding = 12) uniform sampler2D relief_map;
+
+layout(location = 0) in vec2 place;
+layout(location = 1) in vec3 position;
+layout(location = 5) flat in vec4 map_grid; // these as in corner.glsl
+layout(location = 6) flat in vec4 view_box;
+layout(location = 7) flat in vec2 shown_by;
+#ifdef PAPER
+layout(location = 2) in vec4 pane_ways;
+#else
+layout(location = 2) in vec3 along_u;
+layout(location = 3) in vec3 along_v;
+layout(location = 4) in vec3 mist_light;
+layout(location = 8) flat in vec4 tint_given; // these as in corner_light.glsl
+layout(location = 9) flat in vec4 clip_xy[2];
+layout(location = 11) flat in vec4 clip_w;
+layout(location = 13) flat in vec2 gain_angle;
+#endif
+
+struct Water {
+    float cover;  // of the pixel by drops and film that have a shape
+    float mist;   // and by water too small for one
+    float height; // m
+    float density;
+    vec2 slope;   // of the height, or (paper) of the density, per metre
+    float bend;   // largest change of the slope, 1/m
+};
+
+vec2 last_texel() { return map_grid.zw; }
+
+// The pixel's place among the middles of texels.
+vec2 texels_here() { return clamp(place / map_grid.xy - 0.5, vec2(0.0), last_texel()); }
+
+// Not every device filters four whole floats.
+vec4 relief_here()
+{
+    const vec2 texels = texels_here(), low = floor(texels), t = texels - low;
+    if (!BY_HAND)
+        return textureLod(relief_map, (texels + 0.5) / vec2(textureSize(relief_map, 0)), 0.0);
+    const ivec2 at = ivec2(low), next = min(at + 1, ivec2(last_texel()));
+    return mix(mix(texelFetch(relief_map, at, 0), texelFetch(relief_map, ivec2(next.x, at.y), 0), t.x),
+               mix(texelFetch(relief_map, ivec2(at.x, next.y), 0), texelFetch(relief_map, next, 0), t.x), t.y);
+}
+
+bool behind_scene()
+{
+    if (!HAS_DEPTH)
+        return false;
+    const float stored = buffer_depth(gl_FragCoord.xy);
+    return stored != view.far_depth && view_depth(stored) < 0.9999 / gl_FragCoord.w;
+}
+
+// Over one pixel the rim goes from nothing to all.
+float cover_of(float density)
+{
+    return clamp((density - shown_by.x) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
+}
+
+Water water_here()
+{
+    const vec4 relief = relief_here();
+    Water water;
+    water.cover = cover_of(relief.x);
+    water.mist = (1.0 - water.cover) * max(relief.w, 0.0);
+    water.density = relief.x;
+    water.slope = relief.yz;
+    water.height = water.bend = max(-relief.w, 0.0);
+    return water;
+}

@@ -1,0 +1,11 @@
+// live_compact.comp - the list of places.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "pane.glsl"
+#include "live_list.glsl"
+#include "gpu/compact_write.glsl"
+
+layout(local_size_x = VIRGA_GLASS_GROUP) in;
+
+void main() { list_pick(gl_GlobalInvocationID.x); }

@@ -1,0 +1,11 @@
+// live_mark.comp - tells places in use from free ones.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "pane.glsl"
+#include "live_list.glsl"
+#include "gpu/compact_mark.glsl"
+
+layout(local_size_x = VIRGA_GLASS_GROUP) in;
+
+void main() { mark_pick(kind_of(drops[gl_GlobalInvocationID.x]) == VIRGA_GLASS_FREE ? FIRST_KIND : SECOND_KIND); }

@@ -1,0 +1,27 @@
+// live_scan.comp - gives them their places in the list, and sizes the tick's dispatches.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "pane.glsl"
+#include "live_list.glsl"
+#include "gpu/compact_scan.glsl"
+
+layout(local_size_x = VIRGA_GLASS_GROUP) in;
+
+uint[3] groups_of(uint invocations)
+{
+    return uint[3]((invocations + VIRGA_GLASS_GROUP - 1u) / VIRGA_GLASS_GROUP, 1u, 1u);
+}
+
+void main()
+{
+    const uvec2 found = scan_picks(state.census_groups[0], tick.pane.max_drops);
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    state.alive = found.y;
+    state.free = tick.pane.max_drops - found.y;
+    state.free_listed = found.x;
+    state.most_rounds = 0u;
+    state.most_nl = 0u;
+    state.alive_groups = groups_of(found.y);
+}

@@ -1,0 +1,35 @@
+// compact_mark.glsl - the finding part of ordered compaction, see compact_buffers.glsl.
+#include "gpu/compact_buffers.glsl"
+
+#ifndef COMPACT_SETS
+#define COMPACT_SETS 1 // slots of an invocation: one in each of so many sets
+#endif
+#define SET_WORDS (2 * GROUP_WORDS) // both kinds
+
+shared uint group_bits[COMPACT_SETS * SET_WORDS];
+
+// Of the invocation's slot in each set; first[i] is the first workgroup of set i among those of all slots, and it has
+// groups[i] of them. For all invocations of a workgroup alike: there are barriers in it.
+void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[COMPACT_SETS])
+{
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane < COMPACT_SETS * SET_WORDS)
+        group_bits[lane] = 0u;
+    barrier();
+    for (uint i = 0u; i < COMPACT_SETS; i++) {
+        const uint word = i * SET_WORDS + (kinds[i] - FIRST_KIND) * GROUP_WORDS + (lane >> 5);
+        if (kinds[i] != NOT_PICKED)
+            atomicOr(group_bits[word], 1u << (lane & 31u));
+    }
+    barrier();
+    if (lane < COMPACT_SETS * GROUP_WORDS) {
+        const uint set = lane / GROUP_WORDS, word = lane % GROUP_WORDS, bits = set * SET_WORDS + word;
+        const uvec2 both = uvec2(group_bits[bits], group_bits[bits + GROUP_WORDS]);
+        if (gl_WorkGroupID.x < groups[set])
+            picks[(first[set] + gl_WorkGroupID.x) * GROUP_WORDS + word] = uvec4(both, 0u, 0u);
+    }
+}
+
+#if COMPACT_SETS == 1
+void mark_pick(uint kind) { mark_picks(uint[1](kind), uint[1](0u), uint[1](gl_NumWorkGroups.x)); }
+#endif

@@ -1,0 +1,17 @@
+// compact.comp - writes the picked slots into the list, each at its place.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define VIRGA_GLSL
+#include "shared/rain_limits.h"
+#include "compact.glsl"
+#include "gpu/compact_write.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+
+void main()
+{
+    const uint word = gl_GlobalInvocationID.x;
+    if (word < list.words)
+        list_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
+}

@@ -1,0 +1,78 @@
+// streak.glsl - a streak's record taken apart, and its four corners around its way on the screen, half a pixel wider
+// than it is drawn; or the two ends of a line of that width.
+//
+// Software Vulkan sets up one primitive for a line, and shades each block of pixels once where two triangles both touch
+// nearly all blocks of a thin streak: lines take two thirds to three quarters of the time.
+//
+// Vertices are pulled from the streak buffer by an ordinary index buffer (0 1 2 2 1 3 and so on): instances of four
+// vertices cost software Vulkan half as much again.
+#include "shared/rain_limits.h"
+#include "streak_form.glsl"
+#include "gpu/line.glsl"
+#include "gpu/texels.glsl"
+
+TEXELS(streak_texel, 17, 7) // a virga_streak_gpu is four; behind all a motion each
+#ifdef MOTION
+layout(location = 4) noperspective out vec2 motion; // px, see streak_write.comp
+#endif
+
+struct Streak {
+    vec3 centre, rim; // radiance
+    float alpha, half_width, body_px, way_px;
+    float turns, turns_at_tail, wave_size;
+    vec3 middle_line;    // see line_equation
+    // of this corner
+    vec4 position;
+    float across, along; // px from the middle line; px from the tail
+    float distance;      // view depth (m)
+};
+
+Streak streak_corner(uint vertex)
+{
+    const uint texel = vertex & ~3u; // four corners, four texels
+    const uvec4 ends = streak_texel(texel), depths = streak_texel(texel + 1u),
+                shape = streak_texel(texel + 2u), lit = streak_texel(texel + 3u);
+    const vec2 head = uintBitsToFloat(ends.xy), tail = uintBitsToFloat(ends.zw);
+    const vec2 width_alpha = unpackHalf2x16(shape.x), body_wave = unpackHalf2x16(shape.y);
+    const vec2 turns = unpackHalf2x16(shape.z);
+    const vec2 light[3] = vec2[3](unpackHalf2x16(lit.x), unpackHalf2x16(lit.y), unpackHalf2x16(lit.z));
+    const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const vec2 way = (head - tail) * half_viewport;
+    const bool at_head = (vertex & 2u) != 0u;
+
+    Streak streak;
+    streak.centre = vec3(light[0], light[1].x);
+    streak.rim = vec3(light[1].y, light[2]);
+    streak.alpha = width_alpha.y;
+    streak.half_width = 0.5 * width_alpha.x;
+    streak.body_px = body_wave.x;
+    streak.way_px = length(way);
+    streak.turns = turns.x;
+    streak.turns_at_tail = turns.y;
+    // Not finer than 4 px a turn.
+    streak.wave_size = body_wave.y * clamp(streak.way_px / max(4.0 * turns.x, 1e-3) - 0.5, 0.0, 1.0);
+
+    const vec2 along = streak.way_px > 1e-3 ? way / streak.way_px : vec2(0.0, 1.0);
+    const float margin = 0.5 * streak.body_px + 0.5;
+    const float beside = LINES ? 0.0 : (vertex & 1u) == 0u ? -1.0 : 1.0;
+    streak.across = beside * (streak.half_width + 0.5);
+    streak.along = at_head ? streak.way_px + margin : -margin;
+    streak.distance = uintBitsToFloat(at_head ? depths.z : depths.w);
+    const vec2 side = vec2(-along.y, along.x);
+    streak.middle_line = line_equation(tail, side);
+    const vec2 corner =
+        (at_head ? head : tail) + (side * streak.across + along * (at_head ? margin : -margin)) / half_viewport;
+    // The same w at all corners, so that everything is interpolated without perspective.
+    const float depth = uintBitsToFloat(at_head ? depths.x : depths.y);
+#ifdef MOTION
+    const vec4 motions = uintBitsToFloat(streak_texel(4u * look.max_streaks + (vertex >> 2)));
+    motion = at_head ? motions.xy : motions.zw;
+#endif
+    streak.position = streak.alpha > 0.0 ? vec4(corner, depth, 1.0) : DRAWN_NOWHERE;
+    return streak;
+}
+
+float streak_turns(Streak streak)
+{
+    return streak.turns_at_tail + streak.turns * streak.along / max(streak.way_px, 1.0);
+}

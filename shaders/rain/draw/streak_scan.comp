@@ -1,0 +1,26 @@
+// streak_scan.comp - gives the marked slots their places among the streaks, writes the draw of wide streaks (that of
+// others is not known before order_indices.comp), and sets back what order_count.comp counts.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "rain/field.glsl"
+#include "view.glsl"
+#include "rain/compact.glsl"
+#include "gpu/compact_scan.glsl"
+#include "order.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_gpu prepared; };
+
+void main()
+{
+    order[total_at(gl_LocalInvocationIndex)] = 0u;
+    const uvec2 found = scan_picks(tick.groups, look.max_streaks);
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    prepared.wide = virga_draw_gpu(6u * list.second_kind, 1u, 0u, 0, 0u);
+    prepared.lines = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
+    prepared.thin = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
+    prepared.streaks = list.count;
+    prepared.dropped = found.x + found.y - list.count;
+}

@@ -1,0 +1,41 @@
+// hit_offsets.comp - gives the hits of each slot their places, in order, and writes the head. One workgroup.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "rain/field.glsl"
+#include "rain/compact.glsl"
+#include "gpu/compact_buffers.glsl"
+#include "gpu/group_scan.glsl"
+#include "hit.glsl"
+#include "hit_list.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, run = (list.count + VIRGA_RAIN_GROUP - 1u) / VIRGA_RAIN_GROUP;
+    const uint begin = min(lane * run, list.count), end = min(begin + run, list.count);
+    uint sum = 0u;
+    for (uint i = begin; i < end; i++)
+        sum += hit_places[i];
+    uvec2 all;
+    uint place = scan_group(uvec2(sum, 0u), all).x;
+    for (uint i = begin; i < end; i++) {
+        const uint own = hit_places[i];
+        hit_places[i] = place;
+        place += own;
+    }
+    if (lane != 0u)
+        return;
+    const uint count = min(all.x, VIRGA_RAIN_MAX_HITS);
+    hit_head.count = count;
+    hit_head.dropped = all.x - count;
+    hit_head.water_nl_low = hit_head.water_nl_high = 0u;
+    hit_head.group_count = uint[3]((count + 63u) / 64u, 1u, 1u);
+    hit_head.capacity = VIRGA_RAIN_MAX_HITS;
+    hit_head.origin = float[3](0.0, 0.0, 0.0);
+    hit_head.tick_s = tick.tick_s;
+    hit_head.ticks = pane.ticks;
+    hit_head.first_tick = pane.first_tick;
+    hit_head.is_return = 0u;
+}

@@ -1,0 +1,12 @@
+// hit_scan.comp - gives slots of which drops may have met the pane their places in a list.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "rain/field.glsl"
+#include "rain/compact.glsl"
+#include "gpu/compact_scan.glsl"
+#include "hit.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+
+void main() { scan_picks(pane.groups, pane.groups * VIRGA_RAIN_GROUP); }

@@ -1,0 +1,12 @@
+// impact_near_mark.comp - marks the slots whose drops may have met a surface in this tick.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "rain/field.glsl"
+#include "rain/compact.glsl"
+#include "gpu/compact_mark.glsl"
+#include "impact.glsl"
+
+layout(local_size_x = VIRGA_RAIN_GROUP) in;
+
+void main() { mark_pick(near_surface(gl_GlobalInvocationID.x) ? FIRST_KIND : NOT_PICKED); }

@@ -1,0 +1,13 @@
+// splash_mark.comp - marks what a view may see of splashes, where they are many.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#define COMPACT_SETS 2
+#include "sprite_mark.glsl"
+
+void main()
+{
+    const uint groups = state.splash_groups[0];
+    mark_picks(splash_kinds(gl_GlobalInvocationID.x), splash_sets(), uint[2](groups, groups));
+}

@@ -1,0 +1,272 @@
+// sprite.glsl - what sprites stand for, by slot; and how much each would cover.
+#include "view.glsl"
+
+#define SLOT_NONE 0u
+#define SLOT_DROPLET 1u
+#define SLOT_PILE 2u
+#define SLOT_SPLASH 3u
+
+struct Slot {
+    uint kind;
+    uint place;
+};
+
+Slot slot_of(uint slot)
+{
+    const uint span = state.view_groups[0] * VIRGA_SPLASH_GROUP;
+    Slot found = Slot(SLOT_NONE, NO_PLACE);
+    if (slot < 3u * span) {
+        found.kind = slot < 2u * span ? SLOT_DROPLET : SLOT_PILE;
+        found.place = slot < span ? slot : slot < 2u * span ? slot - span : slot - 2u * span;
+        if (found.place >= state.staying)
+            found.place = NO_PLACE;
+    } else {
+        found.kind = SLOT_SPLASH;
+        found.place = ring_place(state.first_splash, state.end_splash, look.max_splashes, slot - 3u * span);
+    }
+    if (found.place == NO_PLACE)
+        found.kind = SLOT_NONE;
+    return found;
+}
+
+// A sprite before it is projected.
+struct Sprite {
+    uint kind;
+    vec3 head, tail;       // relative to the camera, as the camera sees them at the shutter's end and start
+    vec3 normal;           // (puff) of what it stands on, from tail to head
+    bool moves;            // head and tail are of different times
+    vec2 widths;           // m, at the head and the tail
+    float body;            // m; 0: its whole length
+    float gain, weight;
+    float solid;
+    float spread;          // (puff) m around it where the drops lie that it stands for
+    uint id;
+};
+
+Sprite empty_sprite()
+{
+    Sprite sprite;
+    sprite.kind = VIRGA_SPRITE_DROPLET;
+    sprite.head = sprite.tail = sprite.normal = vec3(0.0);
+    sprite.moves = false;
+    sprite.widths = vec2(0.0);
+    sprite.body = 0.0;
+    sprite.gain = 1.0;
+    sprite.weight = 0.0;
+    sprite.solid = 1.0;
+    sprite.spread = 0.0;
+    sprite.id = 0u;
+    return sprite;
+}
+
+// All of these as they were `ago_s` before the time drawn, 0 for now.
+Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
+{
+    Sprite sprite = empty_sprite();
+    const bool rests = (droplet.kind & VIRGA_DROPLET_ALIVE) == 0u || droplet.age_s + view.time_close_s <= 0.0;
+    sprite.head = droplet_at(droplet, view.time_close_s - ago_s);
+    sprite.tail = is_film() ? droplet_at(droplet, view.time_open_s - ago_s) : sprite.head;
+    sprite.moves = is_film();
+    sprite.widths = vec2(droplet.diameter_m);
+    sprite.body = droplet.diameter_m;
+    sprite.weight = rests ? 0.0 : droplet_weight(droplet);
+    sprite.id = droplet.id;
+    return sprite;
+}
+
+// A pile narrows from its foot to a neck that is thinner than its droplet; a cone stands on a wider foot.
+vec2 pile_widths(virga_droplet_gpu droplet, float left)
+{
+    const float foot = is_upright(droplet) ? 7.0 : 2.2;
+    return droplet.diameter_m * vec2(0.7, foot) * (is_upright(droplet) ? 1.0 : sqrt(left));
+}
+
+Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
+{
+    Sprite sprite = empty_sprite();
+    const vec4 now = pile_tip(droplet, view.time_close_s - ago_s), before = pile_tip(droplet, view.time_open_s - ago_s);
+    const vec3 base = base_of(droplet);
+    const float now_m = distance(now.xyz, base) * step(1e-4, now.w),
+                before_m = distance(before.xyz, base) * step(1e-4, before.w);
+    const bool longer = now_m >= before_m;
+    sprite.kind = VIRGA_SPRITE_PILE;
+    sprite.head = longer ? now.xyz : before.xyz;
+    sprite.tail = base;
+    // It is there all of the time as far as it reaches at both ends of the shutter.
+    sprite.solid = min(now_m, before_m) / max(max(now_m, before_m), 1e-6);
+    sprite.widths = pile_widths(droplet, max(now.w, before.w));
+    // Fingers of a crown are fewer than its droplets: those between were torn off the rim at once.
+    const bool crown = VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE;
+    const bool finger = is_upright(droplet) ||
+                        (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
+    const bool there = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
+    sprite.weight = there ? droplet_weight(droplet) : 0.0;
+    sprite.id = droplet.id;
+    return sprite;
+}
+
+// A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they
+// are not followed one by one (a seventh of the drop's water in a dozen of them). One that stands for several shows
+// them side by side.
+Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
+{
+    Sprite sprite = empty_sprite();
+    const Crown crown = crown_at(splash, 0.5 * (view.time_close_s + view.time_open_s) - ago_s);
+    const float age = max(splash_age(splash, view.time_close_s - ago_s), 0.0), t = age / splash.life_s;
+    const bool alone = crown.droplets == 0u && crown.model != VIRGA_SPLASH_DOT && crown.model != VIRGA_SPLASH_DISK;
+    const float spread = alone ? 0.04 * splash.speed_m_s * age : 0.0;
+    const float across = 2.0 * (crown.radius + spread), up = max(crown.height + spread, 0.2 * across);
+    float area = crown.model == VIRGA_SPLASH_DISK ? 0.3 * across * across : 2.0 * crown.radius * crown.height;
+    if (alone && t < 1.0)
+        area += 2.5 * crown.diameter * crown.diameter * (1.0 - t);
+    sprite.kind = VIRGA_SPRITE_PUFF;
+    sprite.tail = crown.centre;
+    sprite.head = crown.centre + crown.normal * up;
+    sprite.normal = crown.normal;
+    sprite.widths = vec2(across);
+    sprite.body = across;
+    // What is not ground, a leaf or a railing, may end beside the drop.
+    const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
+    const float beside = APART * VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
+    sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
+    sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
+    sprite.gain = area / max(across * up, 1e-8);
+    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10; // pieces of one impact have one id
+    return sprite;
+}
+
+Sprite sprite_of(Slot slot, float ago_s)
+{
+    if (slot.kind == SLOT_NONE)
+        return empty_sprite();
+    if (slot.kind == SLOT_SPLASH)
+        return puff_sprite(splash_of(slot.place), ago_s);
+    const virga_droplet_gpu droplet = droplet_of(slot.place);
+    if (slot.kind == SLOT_PILE)
+        return pile_sprite(droplet, ago_s);
+    return droplet_sprite(droplet, ago_s);
+}
+
+// On the picture.
+struct Projected {
+    vec4 head, tail;  // clip
+    float width_px, way_px, body_px;
+    float coverage;   // of its middle; 0: not to be seen
+    float columns, rows; // (puff) of how many beside and behind each other
+    float spread_px;     // that they are wider than one
+    float one_share;     // of the way that one of them is high
+    float sine;          // of how far from above it is seen: its rim is so much less deep on the picture than wide
+};
+
+// Seen level, what lies on a disc lies on a line. Which of the ground around an impact its drops fell on is not known,
+// so the flatter it is seen the farther they lie before and behind it (m), and the less beside it.
+vec2 strewn_m(float spread, float sine, float distance)
+{
+    const float longer = clamp(FLATTEST / max(sine, 1e-3), 1.0, MOST_LONGER);
+    return spread * vec2(inversesqrt(longer), min(sqrt(longer), max(MOST_REACH * distance / max(spread, 1e-3), 1.0)));
+}
+
+// Both ends get the depth of the ground where they are, or it would hide what stands before the middle; a little
+// nearer, as distances on the picture are those of a chord.
+void lay_down(Sprite sprite, float reach_m, inout Projected p)
+{
+    const mat4 m = to_mat(view.clip_from_rel);
+    const vec3 level = sprite.tail - sprite.normal * dot(sprite.normal, sprite.tail);
+    const vec3 away = level * inversesqrt(max(dot(level, level), 1e-12));
+    const float middle = p.tail.w, reach = min(reach_m, 0.5 * middle);
+    const float nearer = min(reach * reach / middle + distance(sprite.head, sprite.tail), 0.25 * middle);
+    const vec4 before = project(m, sprite.tail - away * (nearer + reach)),
+               behind = project(m, sprite.tail - away * (nearer - reach));
+    p.tail = vec4(p.tail.xy / p.tail.w * before.w, before.zw);
+    p.head = vec4(p.head.xy / p.head.w * behind.w, behind.zw);
+}
+
+// A puff reaches from the near side of its rim to the far one. Several lie on an ellipse, that of a disc on the ground
+// seen from the eye; some are twice as high as they are in the mean.
+void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
+{
+    p.sine = abs(dot(normalize(sprite.tail), sprite.normal));
+    p.body_px = max(p.width_px, drawn);
+    const vec2 strewn = strewn_m(sprite.spread, p.sine, p.tail.w);
+    const float wide_px = pixels(2.0 * strewn.x, nearest), each_px = max(1.5 * p.width_px, LEAST_APART * drawn);
+    const float rim_px = 0.5 * p.sine * p.body_px, high_px = p.way_px;
+    float below_px = rim_px, above_px = rim_px, reach_m = 0.5 * sprite.body;
+    p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MOST_COLUMNS));
+    if (p.columns > 1.5) {
+        const float deep_px = pixels(2.0 * strewn.y, nearest) * p.sine;
+        below_px += 0.5 * deep_px;
+        above_px += 0.5 * deep_px + high_px;
+        p.rows = min(sprite.weight / p.columns, deep_px / (1.5 * (high_px + 2.0 * rim_px + 1.0)));
+        p.rows = clamp(floor(p.rows), 1.0, float(MOST_ROWS));
+        p.spread_px = wide_px;
+        reach_m += strewn.y;
+    }
+    lay_down(sprite, reach_m, p);
+    const vec2 pixel = 2.0 * up / vec2(view.viewport[2], view.viewport[3]);
+    p.head.xy += above_px * pixel * p.head.w;
+    p.tail.xy -= below_px * pixel * p.tail.w;
+    p.one_share = high_px / max(high_px + below_px + above_px, 1e-3);
+}
+
+Projected project_sprite(Sprite sprite)
+{
+    Projected p;
+    p.head = project(to_mat(view.clip_from_rel), sprite.head);
+    if (sprite.moves)
+        p.tail = project(to_mat(view.open_clip_from_rel), sprite.tail);
+    else
+        p.tail = project(to_mat(view.clip_from_rel), sprite.tail);
+    p.coverage = 0.0;
+    p.width_px = p.way_px = p.body_px = p.spread_px = 0.0;
+    p.columns = p.rows = p.one_share = 1.0;
+    p.sine = 0.0;
+    const float nearest = min(p.head.w, p.tail.w);
+    if (sprite.weight <= 0.0 || nearest < NEAR_W)
+        return p;
+    const vec2 moved = (p.head.xy / p.head.w - p.tail.xy / p.tail.w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    p.way_px = length(moved);
+    p.width_px = pixels(max(sprite.widths.x, sprite.widths.y), nearest);
+    const float drawn = max(view.min_width_px, 1e-3);
+    p.body_px = pixels(sprite.body, nearest);
+    if (sprite.kind == VIRGA_SPRITE_PUFF) {
+        const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
+        spread_out(sprite, nearest, drawn, up, p);
+    }
+    const float beyond = (p.width_px + p.spread_px + 2.0) * max(p.head.w, p.tail.w);
+    const vec2 margin = beyond / vec2(view.viewport[2], view.viewport[3]);
+    const vec2 high = min(p.head.xy - p.head.w, p.tail.xy - p.tail.w),
+               low = min(-p.head.xy - p.head.w, -p.tail.xy - p.tail.w);
+    if (any(greaterThan(high, margin)) || any(greaterThan(low, margin)))
+        return p;
+    const float mean_px =
+        sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
+    float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
+    const float high_px = max(p.way_px, 0.2 * p.width_px); // (puff) from above it covers its width for its height
+    float shown = one;
+    if (sprite.kind == VIRGA_SPRITE_DROPLET)
+        shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
+    else if (sprite.kind == VIRGA_SPRITE_PILE)
+        shown = one *= min(max(p.way_px, 0.05), 1.0);
+    else {
+        // A blob is drawn a pixel higher and half a pixel wider than it is, see puff_cover.
+        const float wide_px = max(p.width_px, drawn);
+        shown = one *= high_px / (high_px + 1.0) * wide_px / (wide_px + 0.5);
+    }
+    const float many = sprite.weight / (p.columns * p.rows);
+    const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
+    const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);
+    p.coverage = min(all, max(look.gain, 1.0)) * fade * near_fade(0.5 * (sprite.head + sprite.tail));
+    if (sprite.kind == VIRGA_SPRITE_PUFF)
+        p.coverage *= (high_px + 1.0) / (p.way_px + 1.0);
+    return p;
+}
+
+// Whether a splash's sheet is large enough to be drawn as one.
+bool is_sheet(virga_splash_gpu splash, Crown crown)
+{
+    const float distance = project(to_mat(view.clip_from_rel), crown.centre).w;
+    const float size = crown.model == VIRGA_SPLASH_DISK  ? crown.radius
+                       : crown.model == VIRGA_SPLASH_DOT ? 1.5 * crown.diameter
+                                                         : crown_height(splash.diameter_m, splash_weber(splash));
+    return distance > NEAR_W && pixels(size, distance) >= MESH_PX;
+}

@@ -1,0 +1,63 @@
+// sprite_corner.glsl - a sprite's record taken apart, and its four corners around its way on the picture, half a pixel
+// wider than it is drawn; or the two ends of a line of that width, for a droplet (see rain/draw/streak.glsl).
+//
+// Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
+// half as much again.
+#include "sprite_form.glsl"
+#include "gpu/line.glsl"
+#include "gpu/texels.glsl"
+
+TEXELS(sprite_texel, 20, 13) // four a sprite; behind all a motion each
+
+#ifdef MOTION
+layout(location = 5) noperspective out vec2 motion; // px
+#endif
+
+layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; view depth; -
+layout(location = 1) flat out vec4 centre_alpha;
+layout(location = 2) flat out vec4 rim_kind;
+layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
+// Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
+// above); share; columns, and a fraction by lot. Of a line: see line_equation.
+layout(location = 4) flat out vec4 turn;
+
+void set_corner(uint vertex)
+{
+    const uint texel = vertex & ~3u; // four corners, four texels
+    const vec4 ends = uintBitsToFloat(sprite_texel(texel)), depths = uintBitsToFloat(sprite_texel(texel + 1u));
+    const uvec4 shown = sprite_texel(texel + 2u), rest = sprite_texel(texel + 3u);
+    const vec2 head = ends.xy, tail = ends.zw;
+    const vec2 widths = unpackHalf2x16(shown.x), alpha_body = unpackHalf2x16(shown.y);
+    const vec2 light[3] = vec2[3](unpackHalf2x16(shown.z), unpackHalf2x16(shown.w), unpackHalf2x16(rest.x));
+    const uint kind = rest.y;
+    const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
+    const vec2 way = (head - tail) * half_viewport;
+    const float way_px = length(way);
+    const vec2 along = way_px > 1e-3 ? way / way_px : vec2(0.0, -1.0), side = vec2(-along.y, along.x);
+    const bool at_head = (vertex & 2u) != 0u;
+    // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
+    const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
+    const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
+    const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
+    const float across = LINES ? 0.0 : (vertex & 1u) == 0u ? -own : own;
+    const vec2 corner =
+        (at_head ? head : tail) + (side * across + along * (at_head ? margin : -margin)) / half_viewport;
+#ifdef MOTION
+    const vec4 moved = uintBitsToFloat(sprite_texel(4u * look.max_sprites + (vertex >> 2)));
+    motion = at_head ? moved.xy : moved.zw;
+#endif
+    place = vec4(across, at_head ? way_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
+    centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
+    rim_kind = vec4(light[1].y, light[2], float(kind));
+    shape = vec4(0.5 * widths, way_px, alpha_body.y);
+    const vec2 shares = unpackHalf2x16(rest.z);
+    const float lot = float(rest.w & 1023u) / 1024.0, life = float(rest.w >> 10 & 1023u) / 1024.0;
+    const float rows = floor(shares.y / 32.0);
+    turn = vec4(along, shares.x, shares.y - 32.0 * rows + lot);
+    if (kind == VIRGA_SPRITE_PUFF)
+        turn.xy = vec2(rows + life, widths.y);
+    if (LINES)
+        turn = vec4(line_equation(tail, side), 0.0);
+    // The same w at all corners, so that everything is interpolated without perspective.
+    gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
+}

@@ -1,0 +1,83 @@
+// sprite_mark.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets
+// and splashes have a dispatch each, as software Vulkan runs every lane through all branches.
+#define IN_FORMS
+#include "sprite.glsl"
+#include "compact.glsl"
+#include "gpu/line.glsl"
+#include "gpu/compact_mark.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+
+// In the film's style the second kind shows what is behind it; in the paper's it is a pyramid.
+uint kind_of(Sprite sprite, Projected p)
+{
+    const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
+    const bool second = is_film() ? p.width_px >= WIDE_PX && sprite.kind != VIRGA_SPRITE_PUFF : pile;
+    return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
+}
+
+// As thin as droplets are drawn, so that all lines have one width.
+bool is_line(Projected p)
+{
+    return look.lines != 0u && p.width_px <= view.min_width_px &&
+           is_whole(p.head.xy / p.head.w, p.tail.xy / p.tail.w, 0.5 * view.min_width_px + 0.5);
+}
+
+// A droplet's as a line, and else; and its pile's.
+uint[3] droplet_kinds(uint place)
+{
+    if (place >= state.staying)
+        return uint[3](NOT_PICKED, NOT_PICKED, NOT_PICKED);
+    const virga_droplet_gpu droplet = droplet_of(place);
+    const Sprite flies = droplet_sprite(droplet, 0.0), pile = pile_sprite(droplet, 0.0);
+    const Projected p = project_sprite(flies);
+    const uint kind = kind_of(flies, p);
+    const bool line = kind == FIRST_KIND && is_line(p);
+    return uint[3](line ? kind : NOT_PICKED, line ? NOT_PICKED : kind, kind_of(pile, project_sprite(pile)));
+}
+
+uint[3] droplet_sets()
+{
+    const uint groups = state.view_groups[0];
+    return uint[3](0u, groups, 2u * groups);
+}
+
+// In the film's style by its sheet; in the paper's by its pyramids, a crown where it is large enough.
+bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
+{
+    return is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE ? is_sheet(splash, crown) : splash.kind >> 16 != 0u;
+}
+
+bool on_picture(Crown crown)
+{
+    const vec4 clip = project(to_mat(view.clip_from_rel), crown.centre);
+    const float margin = 2.0 * crown.radius + 2.0 * crown.height;
+    const vec2 m = margin / view.pixel_angle * 2.0 / vec2(view.viewport[2], view.viewport[3]);
+    return clip.w > NEAR_W && all(lessThan(abs(clip.xy) - clip.w, m));
+}
+
+uint sheet_kind(virga_splash_gpu splash, Crown crown)
+{
+    const Crown before = crown_at(splash, view.time_open_s);
+    if (max(crown.height, before.height) <= 0.0 || !on_picture(crown))
+        return NOT_PICKED;
+    // The paper has no sheets but crowns, which are pyramids.
+    const bool drawn = is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE;
+    return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
+}
+
+// A splash's seen from afar, and its sheet's where that is large enough on the picture to be drawn as such.
+uint[2] splash_kinds(uint entry)
+{
+    const uint place = splash_place(entry);
+    if (place == NO_PLACE)
+        return uint[2](NOT_PICKED, NOT_PICKED);
+    const virga_splash_gpu splash = splash_of(place);
+    const Crown crown = crown_at(splash, view.time_close_s);
+    const Sprite sprite = puff_sprite(splash, 0.0);
+    const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(sprite, project_sprite(sprite));
+    return uint[2](puff, sheet_kind(splash, crown));
+}
+
+// Behind droplets and piles; and behind all sprites.
+uint[2] splash_sets() { return uint[2](3u * state.view_groups[0], state.sprite_groups[0]); }

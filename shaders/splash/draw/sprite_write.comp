@@ -1,0 +1,64 @@
+// sprite_write.comp - a sprite for each thing that a view sees: where it is on the picture, and the light in it.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#define IN_FORMS
+#include "sprite.glsl"
+#include "gpu/light.glsl"
+#include "torn.glsl"
+#include "compact.glsl"
+#include "gpu/compact_buffers.glsl"
+#include "view_lists.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+const bool FULL = (FORM & uint(VIRGA_SPLASH_FORM_FULL)) != 0u;
+// Four for each of `max_sprites` virga_sprite_gpu, behind which lies each one's motion.
+layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]; };
+
+// A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines
+// of those).
+uvec3 light_of(vec3 middle, float torn)
+{
+    const vec3 d = normalize(middle);
+    const vec2 at_rim = vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3);
+    const vec3 glitter = FULL ? lamps(middle, d) : vec3(0.0);
+    const vec3 centre = torn_light(environment(d, vec2(0.97, 0.90)), torn) + glitter;
+    const vec3 rim = torn_light(environment(d, at_rim), torn) + 0.6 * glitter;
+    return uvec3(halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
+}
+
+// From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there
+// then comes from where it began.
+void write_motion(uint index, Slot slot, Sprite sprite)
+{
+    const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);
+    const Sprite before = sprite_of(slot, view.ago_s);
+    sprites[4u * look.max_sprites + index] =
+        floatBitsToUint(vec4(motion_px(project(now, sprite.head), project(previous, before.head)),
+                             motion_px(project(now, sprite.tail), project(previous, before.tail))));
+}
+
+void main()
+{
+    const uint index = unwritten(lists[SPRITES]) + gl_GlobalInvocationID.x;
+    if (index >= lists[SPRITES].count)
+        return;
+    const Slot slot = slot_of(listed[index]);
+    const Sprite sprite = sprite_of(slot, 0.0);
+    const Projected p = project_sprite(sprite);
+    const vec3 head = p.head.xyz / p.head.w, tail = p.tail.xyz / p.tail.w;
+    const bool puff = sprite.kind == VIRGA_SPRITE_PUFF;
+    const float tail_px = max(pixels(sprite.widths.y, p.tail.w), view.min_width_px);
+    const float head_px = puff ? p.body_px : max(pixels(sprite.widths.x, p.head.w), view.min_width_px);
+    const uint widths = halves(head_px + p.spread_px, puff ? p.sine : tail_px);
+    const uint shares = puff ? halves(p.one_share, p.columns + 32.0 * p.rows) : halves(sprite.solid, 1.0);
+    const float torn = puff ? TORN_PUFF : sprite.kind == VIRGA_SPRITE_PILE ? TORN_PILE : TORN_DROPLET;
+    const uvec3 light = light_of(0.5 * (sprite.head + sprite.tail), torn);
+    sprites[4u * index] = floatBitsToUint(vec4(head.xy, tail.xy));
+    sprites[4u * index + 1u] = floatBitsToUint(vec4(head.z, tail.z, p.head.w, p.tail.w));
+    sprites[4u * index + 2u] = uvec4(widths, halves(p.coverage, p.body_px), light.xy);
+    sprites[4u * index + 3u] = uvec4(light.z, sprite.kind, shares, sprite.id);
+    if (FULL && look.motion != 0u)
+        write_motion(index, slot, sprite);
+}

@@ -1,0 +1,19 @@
+// view_compact.comp - writes what a view sees into its lists.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "view.glsl"
+#include "compact.glsl"
+#include "gpu/compact_write.glsl"
+#include "view_lists.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+
+void main()
+{
+    const uint word = gl_GlobalInvocationID.x, kind = word < words_of(SPRITES).count ? SPRITES : SHEETS;
+    const Words words = words_of(kind);
+    if (word < words.first + words.count)
+        list_word(word, 32u * (word - words.first), words.entry, lists[kind]);
+}

@@ -1,0 +1,74 @@
+// view_scan.comp - gives what a view sees its places, and writes the arguments of their draws. A workgroup for sprites
+// and one for sheets. Where there is little it lists them too, and spares the pass that else does.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "view.glsl"
+#include "compact.glsl"
+#define COMPACT_ACCESS coherent // the first lane looks at what others have written, see first_of_set
+#define SCAN_LANES VIRGA_SPLASH_LANES
+#include "gpu/compact_scan.glsl"
+#include "gpu/compact_write.glsl"
+#include "view_lists.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
+layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gpu prepared; };
+
+#define LITTLE 512u // words that are listed here: a dispatch costs software Vulkan as much as these
+
+// Where in the list those begin that only show one colour and are of a set (see droplet_sets and splash_sets).
+uint first_of_set(uint groups_before, virga_list_gpu head)
+{
+    return min(groups_before < state.sprite_groups[0] ? picks[groups_before * GROUP_WORDS].z : head.count, head.count);
+}
+
+// Six indices a sprite, two a line, or twelve a pyramid; those of the second kind come first in the list, then lines.
+void draw_sprites(virga_list_gpu head)
+{
+    const uint each = is_film() ? 6u : 12u, second = head.second_kind;
+    const uint quads = first_of_set(state.view_groups[0], head), puffs = first_of_set(3u * state.view_groups[0], head);
+    const uint first_line = 18u * look.max_sprites + VIRGA_CROWN_INDICES;
+    prepared.wide = virga_splash_draw_gpu(each * second, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
+    prepared.lines = virga_splash_draw_gpu(2u * (quads - second), 1u, first_line + 2u * second, 0, 0u);
+    prepared.thin = virga_splash_draw_gpu(6u * (puffs - quads), 1u, 6u * quads, 0, 0u);
+    prepared.puffs = virga_splash_draw_gpu(6u * (head.count - puffs), 1u, 6u * puffs, 0, 0u);
+    prepared.sprites = head.count;
+}
+
+void draw_sheets(virga_list_gpu head)
+{
+    const uint quads = 6u * look.max_sprites, pyramids = 12u * look.max_sprites; // indices before the sheet's
+    if (is_film()) // an instance each
+        prepared.crowns = virga_splash_draw_gpu(VIRGA_CROWN_INDICES, head.count, quads + pyramids, 0, 0u);
+    else
+        prepared.crowns = virga_splash_draw_gpu(12u * VIRGA_CROWN_PYRAMIDS * head.count, 1u, quads, 0, 0u);
+}
+
+void main()
+{
+    const uint kind = gl_WorkGroupID.x, all = words_of(SPRITES).count + words_of(SHEETS).count;
+    const Words words = words_of(kind);
+    const uvec2 found = place_picks(words.first, words.count, words.most);
+    const virga_list_gpu head = list_head(found, words.most);
+    const bool listed_here = all <= LITTLE;
+    const uvec2 own = listed_here ? lane_words(words.first, words.count) : uvec2(0u);
+    memoryBarrierBuffer();
+    barrier();
+    for (uint i = own.x; i < own.y; i++)
+        list_word(i, 32u * (i - words.first), words.entry, head);
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    lists[kind].count = head.count;
+    lists[kind].second_kind = head.second_kind;
+    const uint written = head.count - unwritten(head);
+    lists[kind].group_count = uint[3]((written + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
+    prepared.cut[kind] = found.x + found.y - head.count;
+    if (kind == SPRITES) {
+        const uint groups = (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP;
+        draw_sprites(head);
+        prepared.list_groups = uint[3](listed_here ? 0u : groups, 1u, 1u);
+    } else {
+        draw_sheets(head);
+    }
+}

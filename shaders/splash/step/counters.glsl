@@ -1,0 +1,10 @@
+// counters.glsl - counts that only grow, in 64 bits.
+
+void count(uint index, uint amount)
+{
+    if (amount == 0u)
+        return;
+    const uint old = atomicAdd(state.counts[index].low, amount);
+    if (old + amount < old)
+        atomicAdd(state.counts[index].high, 1u);
+}

@@ -1,0 +1,101 @@
+// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their
+// places. One workgroup; each lane takes a run of words. Where droplets are few it steps and places them too, and
+// spares the passes that else do.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "counters.glsl"
+#include "flight.glsl"
+#include "spawn.glsl"
+#define MARKS_ACCESS coherent
+#include "fall_buffers.glsl"
+#include "returns.glsl"
+#include "fall_compact.glsl"
+#define STEP_WORDS (VIRGA_SPLASH_FEW / 32)
+#include "fly.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
+#include "gpu/group_scan.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
+
+#define FEW_GROUPS 8u    // as many of droplets and of splashes are found in one dispatch for both
+
+// Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
+uint spawns_to_come()
+{
+    uint low = 0u, high = spawn_count();
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (int(spawns[middle].tick - tick.tick) > 0)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    return spawn_count() - low;
+}
+
+// All of `end` droplets, which are few.
+void step_few(uint lane, uint end)
+{
+    clear_bits(lane);
+    barrier();
+    for (uint place = lane; place < end; place += VIRGA_SPLASH_LANES) {
+        const virga_droplet_gpu droplet = droplet_of(place);
+        if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
+            step_droplet(place, droplet, place);
+    }
+    barrier();
+    if (32u * lane < end)
+        marks[lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);
+    memoryBarrierBuffer();
+    barrier();
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, end_droplet = state.end_droplet, returned = state.returns;
+    const uint words = (end_droplet + 31u) / 32u, few = end_droplet <= VIRGA_SPLASH_FEW ? end_droplet : 0u;
+    step_few(lane, few);
+    const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
+    const uint begin = min(lane * run, words), end = min(begin + run, words);
+    uvec2 sum = uvec2(0u);
+    for (uint i = begin; i < end; i++)
+        sum += uvec2(bitCount(marks[i].xy));
+    uvec2 all;
+    uvec2 before = scan_group(sum, all);
+    for (uint i = begin; i < end; i++) {
+        const uvec4 word = marks[i];
+        marks[i].zw = before;
+        before += uvec2(bitCount(word.xy));
+    }
+    const uint taken = min(returned + spawns_to_come(), tick.max_returns);
+    const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
+    memoryBarrierBuffer();
+    barrier();
+    for (uint place = lane; place < few; place += VIRGA_SPLASH_LANES) // not as texels, as they were written here
+        place_droplet(place, stored_droplet(place), returned, fallen);
+    if (lane != 0u)
+        return;
+    state.returns_before = returned;
+    state.returns = returned + fallen;
+    state.staying = all.y - fallen;
+    state.fall_groups = state.droplet_groups;
+    state.view_groups = ring_groups(0u, all.y - fallen);
+    state.sprite_groups = uint[3](3u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
+    const uint most = max(state.view_groups[0], state.splash_groups[0]);
+    const bool both = most <= FEW_GROUPS;
+    state.find_groups = uint[3](both ? most : 0u, 1u, 1u);
+    state.find_droplet_groups = uint[3](both ? 0u : state.view_groups[0], 1u, 1u);
+    state.find_splash_groups = uint[3](both ? 0u : state.splash_groups[0], 1u, 1u);
+    count(VIRGA_SPLASH_FALLEN, fallen);
+    returns_head.count = returned + fallen;
+    returns_head.dropped = 0u;
+    returns_head.group_count = uint[3]((returned + fallen + 63u) / 64u, 1u, 1u);
+    returns_head.capacity = tick.max_returns;
+    returns_head.origin = tick.anchor;
+    returns_head.tick_s = tick.tick_s;
+    returns_head.ticks = tick.tick_in_step + 1u;
+    returns_head.first_tick = tick.tick - tick.tick_in_step;
+    returns_head.is_return = 1u;
+}

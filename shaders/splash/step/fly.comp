@@ -1,0 +1,26 @@
+// fly.comp - a tick of all droplets, where they are many.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "flight.glsl"
+#include "fall_buffers.glsl"
+#define STEP_WORDS (VIRGA_SPLASH_GROUP / 32)
+#include "fly.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_GROUP) in;
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, place = gl_GlobalInvocationID.x;
+    clear_bits(lane);
+    barrier();
+    if (place < state.end_droplet) {
+        const virga_droplet_gpu droplet = droplet_of(place);
+        if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
+            step_droplet(place, droplet, lane);
+    }
+    barrier();
+    if (lane < STEP_WORDS)
+        marks[gl_WorkGroupID.x * STEP_WORDS + lane] = uvec4(fallen_bits[lane], alive_bits[lane], 0u, 0u);
+}

@@ -1,0 +1,101 @@
+// fly.glsl - a tick of a droplet: it flies, leaves its pile, and falls. The includer says in STEP_WORDS for how many
+// words of 32 droplets its workgroup has room.
+#define MOST_PARTS 4   // of a tick
+#define MOST_AGE_S 3.0 // what flies longer is blown about: its water counts as fallen where it is
+
+shared uint fallen_bits[STEP_WORDS], alive_bits[STEP_WORDS];
+
+bool is_cone(virga_droplet_gpu droplet)
+{
+    return VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE && VIRGA_DROPLET_INDEX(droplet.kind) == 0u;
+}
+
+// Share of a part of a tick after which the droplet leaves its pile; above 1: not in it. A pile stops growing when it
+// has grown for the unit time or over the unit distance (section 4.1, step 5), a cone when it is highest (4.2, step 3).
+float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s, float part_s, vec2 rise)
+{
+    if (is_cone(droplet))
+        return rise.y <= 0.0 ? rise.x / max(rise.x - rise.y, 1e-6) : 2.0;
+    const vec3 base = to_vec(droplet.base);
+    const float length_before = distance(from, base), length_after = distance(to, base);
+    const float by_time = (tick.pile_s - before_s) / part_s;
+    const float by_way =
+        length_after > tick.pile_m ? (tick.pile_m - length_before) / max(length_after - length_before, 1e-9) : 2.0;
+    return max(min(by_time, by_way), 0.0);
+}
+
+// Height above the surface that it came from.
+float height_above(virga_droplet_gpu droplet, vec3 position)
+{
+    const vec3 base = to_vec(droplet.base);
+    return position.y - base.y - dot(unpackHalf2x16(droplet.slopes), position.xz - base.xz);
+}
+
+// As drag asks for; of a droplet on its pile as many as tell when it leaves that.
+int parts_of(virga_droplet_gpu droplet, float against_air, float time_s)
+{
+    const float by_drag = ceil(12.0 * drag_rate(droplet.diameter_m, against_air) * time_s);
+    return (droplet.kind & VIRGA_DROPLET_FREE) == 0u ? MOST_PARTS : int(clamp(by_drag, 1.0, float(MOST_PARTS)));
+}
+
+void move(inout virga_droplet_gpu droplet, float time_s)
+{
+    vec3 position = to_vec(droplet.position), velocity = to_vec(droplet.velocity);
+    const vec3 wind = is_cone(droplet) ? vec3(0.0) : to_vec(tick.wind);
+    const int parts = parts_of(droplet, distance(velocity, wind), time_s);
+    const float part_s = time_s / float(parts);
+    float age = droplet.age_s - time_s;
+    for (int i = 0; i < parts; i++) {
+        const vec3 from = position, before = velocity;
+        fly(position, velocity, wind, droplet.diameter_m, part_s);
+        if ((droplet.kind & VIRGA_DROPLET_FREE) == 0u) {
+            const float share = leaves_pile(droplet, from, position, age, part_s, vec2(before.y, velocity.y));
+            if (share <= 1.0) {
+                droplet.kind |= VIRGA_DROPLET_FREE;
+                droplet.weight_free = halves(unpackHalf2x16(droplet.weight_free).x, age + share * part_s);
+            }
+        }
+        age += part_s;
+        const float above = height_above(droplet, position), above_before = height_above(droplet, from);
+        if (above < 0.0 && above < above_before) {
+            position = mix(position, from, clamp(above / min(above - above_before, -1e-9), 0.0, 1.0));
+            droplet.kind |= VIRGA_DROPLET_FALLEN | VIRGA_DROPLET_FREE;
+            break;
+        }
+    }
+    droplet.position = float[3](position.x, position.y, position.z);
+    droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
+}
+
+// Writes what may have changed: all but its base.
+void store(uint place, virga_droplet_gpu droplet)
+{
+    const uvec4 texels[4] = texels_of(droplet);
+    droplets[4u * place] = texels[0];
+    droplets[4u * place + 1u] = texels[1];
+    droplets[4u * place + 3u] = texels[3];
+}
+
+// `bit`: of the invocation's workgroup.
+void step_droplet(uint place, virga_droplet_gpu droplet, uint bit)
+{
+    if ((droplet.kind & VIRGA_DROPLET_FALLEN) == 0u) {
+        droplet.age_s += tick.tick_s;
+        const float time_s = min(tick.tick_s, droplet.age_s);
+        if (time_s > 0.0)
+            move(droplet, time_s);
+        if (droplet.age_s > MOST_AGE_S)
+            droplet.kind |= VIRGA_DROPLET_FALLEN;
+        store(place, droplet);
+    }
+    atomicOr(alive_bits[bit >> 5], 1u << (bit & 31u));
+    if ((droplet.kind & VIRGA_DROPLET_FALLEN) != 0u)
+        atomicOr(fallen_bits[bit >> 5], 1u << (bit & 31u));
+}
+
+// Before droplets are stepped; a barrier has to follow.
+void clear_bits(uint lane)
+{
+    if (lane < STEP_WORDS)
+        fallen_bits[lane] = alive_bits[lane] = 0u;
+}

@@ -1,0 +1,105 @@
+// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One workgroup; each
+// lane takes a run of spawns. Where that is one spawn it starts its splash too, and spares the pass that else does.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "splash/state.glsl"
+#include "counters.glsl"
+#include "flight.glsl"
+#include "spawn.glsl"
+#include "splash/shape.glsl"
+#include "returns.glsl"
+#include "spawn_start.glsl"
+#define SCAN_LANES VIRGA_SPLASH_LANES
+#include "gpu/group_scan.glsl"
+
+layout(local_size_x = VIRGA_SPLASH_LANES) in;
+
+shared uint crowded_rank, crowded_droplets, expired;
+
+// The oldest splashes that are over make room. Returns the first that is not.
+uint forget_splashes(uint lane)
+{
+    uint first = state.first_splash;
+    for (;;) {
+        if (lane == 0u)
+            expired = VIRGA_SPLASH_LANES;
+        barrier();
+        const uint place = first + lane;
+        bool live = place - first >= state.end_splash - first;
+        if (!live) {
+            const virga_splash_gpu splash = splash_of(place & (tick.max_splashes - 1u));
+            live = (float(tick.tick - splash.tick) - splash.share) * tick.tick_s <= splash.life_s;
+        }
+        if (live)
+            atomicMin(expired, lane);
+        barrier();
+        const uint passed = expired;
+        first += passed;
+        barrier();
+        if (passed < VIRGA_SPLASH_LANES)
+            break;
+    }
+    return first;
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, all = spawn_count();
+    const uint run = (all + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
+    const uint begin = min(lane * run, all), end = min(begin + run, all);
+    const uint staying = state.staying, end_splash = state.end_splash;
+    const uint returned = tick.tick_in_step == 0u ? 0u : state.returns;
+    uint first_splash = forget_splashes(lane);
+    uvec2 sum = uvec2(0u);
+    for (uint i = begin; i < end; i++)
+        if (spawns[i].tick == tick.tick) {
+            places[i].y = droplet_count(spawns[i]);
+            sum += uvec2(1u, places[i].y);
+        }
+    if (lane == 0u)
+        crowded_rank = NO_PLACE;
+    uvec2 found;
+    uvec2 place = scan_group(sum, found);
+    const uint room = tick.max_droplets - staying;
+    for (uint i = begin; i < end; i++) {
+        if (spawns[i].tick != tick.tick)
+            continue;
+        const uint droplets = places[i].y;
+        if (place.y + droplets > room)
+            atomicMin(crowded_rank, place.x);
+        places[i] = uvec2(place.x, min(place.y, 0xffffffu) | droplets << 24);
+        place += uvec2(1u, droplets);
+    }
+    barrier();
+    if (lane == 0u)
+        crowded_droplets = found.y;
+    barrier();
+    for (uint i = begin; i < end; i++)
+        if (spawns[i].tick == tick.tick && places[i].x == crowded_rank)
+            crowded_droplets = first_droplet(places[i].y); // one invocation at most
+    barrier();
+    const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
+    if (end_after - (first_splash & ~block) > tick.max_splashes)
+        first_splash = (end_after - tick.max_splashes + block) & ~block;
+    const bool few = all <= VIRGA_SPLASH_LANES;
+    if (few && lane < all && spawns[lane].tick == tick.tick)
+        start_splash(spawns[lane], places[lane], Starts(end_splash, staying, returned, first_splash, crowded_rank));
+    if (lane != 0u)
+        return;
+    const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
+    state.first_splash = first_splash;
+    state.end_splash = end_after;
+    state.tick_splash = end_splash;
+    state.tick_droplet = staying;
+    state.end_droplet = staying + crowded_droplets;
+    state.crowded_from = crowded_rank;
+    state.returns_before = returned;
+    state.returns = min(returned + crowded, tick.max_returns);
+    state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
+    const uint droplets = staying + crowded_droplets;
+    state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_FEW ? 0u : droplets);
+    state.splash_groups = ring_groups(first_splash, end_after);
+    count(VIRGA_SPLASH_CROWDED, crowded);
+    count(VIRGA_SPLASH_DROPLETS, crowded_droplets);
+}
