@@ -14,6 +14,7 @@
 #include "effect.h"
 #include "glass.h"
 #include "rain.h"
+#include "scene_changes.h"
 #include "scene_lists.h"
 #include "scene_schema.h"
 #include "scene_settings.h"
@@ -68,14 +69,22 @@ static void assigns(scene_file *scene, const char *assignment)
 
 /* ---- what there is */
 
-static void every_rule_is_described(void **state)
+static void assert_described(const scene_group *group)
+{
+    for (uint32_t i = 0; i < group->count; i++) {
+        const scene_row *row = &group->rows[i];
+        if (!row->help || strlen(row->help) < 4)
+            fail_msg("%s has no description", row->key);
+        if (row->group)
+            assert_described(row->group);
+    }
+}
+
+static void every_key_is_described(void **state)
 {
     (void)state;
     scene_file *scene = load(STREET);
-    const scene_rule *rule;
-    for (size_t i = 0; (rule = scene_rule_at(scene->format, i)); i++)
-        if (!rule->help || strlen(rule->help) < 4)
-            fail_msg("%s has no description", rule->path);
+    assert_described(&scene->format->root);
     scene_file_free(scene);
 }
 
@@ -369,7 +378,7 @@ static void a_scene_that_would_be_wrong_is_not_saved(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_rule_is_described),
+        cmocka_unit_test(every_key_is_described),
         cmocka_unit_test(settings_have_names_units_and_ranges),
         cmocka_unit_test(values_print_as_yaml),
         cmocka_unit_test(values_out_of_range_are_refused_and_change_nothing),

@@ -16,6 +16,11 @@ typedef struct tool_effect {
     scene_section scene; /* keys of scene files; see scene_schema.h */
 } tool_effect;
 
+/* rain_effect, ground_effect, ... */
+#define EFFECT(name) extern const tool_effect name##_effect;
+#include "effect_list.h"
+#undef EFFECT
+
 /* All effects, in the order of their keys in scene files; NULL behind the last. */
 extern const tool_effect *const tool_effects[];
 

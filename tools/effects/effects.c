@@ -1,10 +1,6 @@
 /* effects.c - the register of effects. */
 #include "effect.h"
 
-#define EFFECT(name) extern const tool_effect name##_effect;
-#include "effect_list.h"
-#undef EFFECT
-
 const tool_effect *const tool_effects[] = {
 #define EFFECT(name) &name##_effect,
 #include "effect_list.h"

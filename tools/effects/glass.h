@@ -87,7 +87,7 @@ typedef struct scene_pane {
 
 /* All panes, distant ones first. */
 typedef struct scene_glass {
-    scene_pane *panes;
+    scene_pane *panes; /* the key `glass` */
     uint32_t pane_count;
 } scene_glass;
 

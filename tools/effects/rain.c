@@ -9,98 +9,68 @@
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
 
-static const cyaml_schema_field_t size_entry_fields[] = {
-    NUMBER(scene_size_entry, diameter_mm),
-    NUMBER(scene_size_entry, number),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_value_t size_entry = {CYAML_VALUE_MAPPING(D, scene_size_entry, size_entry_fields)};
-
-static const cyaml_schema_field_t rain_key_fields[] = {
-    NUMBER(scene_rain_key, time_s),
-    NUMBER(scene_rain_key, rate_mm_h),
-    VECTOR(scene_rain_key, wind_m_s),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_value_t rain_key = {CYAML_VALUE_MAPPING(D, scene_rain_key, rain_key_fields)};
-
-static const cyaml_strval_t sizes[] = {
-    {"marshall-palmer", SCENE_SIZES_MARSHALL_PALMER},
-    {"best", SCENE_SIZES_BEST},
-    {"table", SCENE_SIZES_TABLE},
-};
-static const cyaml_schema_field_t rain_fields[] = {
-    NUMBER(scene_rain, rate_mm_h),
-    CHOICE(scene_rain, sizes, sizes),
-    LIST("table", scene_rain, table, table_count, &size_entry, 0, 256),
-    NUMBER(scene_rain, air_density),
-    VECTOR(scene_rain, wind_m_s),
-    NUMBER(scene_rain, gust_m_s),
-    NUMBER(scene_rain, gust_time_s),
-    NUMBER(scene_rain, transition_s),
-    WHOLE(scene_rain, max_drops),
-    NUMBER(scene_rain, range_m),
-    WHOLE(scene_rain, seed),
-    NUMBER(scene_rain, streak_gain),
-    NUMBER(scene_rain, light_gain),
-    NUMBER(scene_rain, min_width_px),
-    NUMBER(scene_rain, soft_m),
-    NUMBER(scene_rain, near_m),
-    NUMBER(scene_rain, oscillation),
-    NUMBER(scene_rain, haze),
-    NUMBER(scene_rain, haze_sky_m),
-    NUMBER(scene_rain, glow),
-    NUMBER(scene_rain, bodies_min_mm),
-    WHOLE(scene_rain, occlusion_size),
-    WHOLE(scene_rain, occlusion_cascades),
-    WHOLE(scene_rain, occlusion_slants),
-    WHOLE(scene_rain, occlusion_turns),
-    LIST("keys", scene_rain, keys, key_count, &rain_key, 0, 100000),
-    CYAML_FIELD_END,
-};
-
 /* Ranges and defaults are the library's own: virga/rain.h. */
-static const scene_rule rain_rules[] = {
-    {"rain", 0, 0, "{}", RESTARTS, "what falls"},
-    {"rain.rate_mm_h", 0, 200, "10", LIVE,
-     "rain that lands on level ground: 0.5 drizzle, 2 light, 10 shower, 25 heavy, 50 storm, 150 cloudburst"},
-    {"rain.sizes", 0, 0, "marshall-palmer", LIVE,
-     "distribution of drop sizes; best has more large drops, table is your own"},
-    {"rain.table", 0, 0, "[]", RESTARTS, "sizes and their relative numbers, for sizes: table"},
-    {"rain.table[].diameter_mm", 0, 20, NULL, RESTARTS, "a size of drops"},
-    {"rain.table[].number", 0, 1e12, NULL, RESTARTS, "relative number of drops of that size"},
-    {"rain.air_density", 0.3, 2, "1.204", LIVE, "kg/m^3; lower at height, where drops fall faster"},
-    {"rain.wind_m_s", -60, 60, "[0, 0, 0]", LIVE, "mean wind; y is an updraught"},
-    {"rain.gust_m_s", 0, 30, "0", LIVE, "standard deviation of each horizontal part of the wind"},
-    {"rain.gust_time_s", 0.1, 600, "4", LIVE, "time scale of gusts"},
-    {"rain.transition_s", 0, 60, "0.5", LIVE, "time in which rate and sizes ease into new values"},
-    {"rain.max_drops", 1024, 4194304, "131072", RESTARTS,
-     "slots of the field of drops: quality falls with it, the rate never; 32 bytes each"},
-    {"rain.range_m", 4, 512, "32", RESTARTS,
-     "drops are drawn and land up to here from the camera, haze takes over beyond"},
-    {"rain.seed", 0, UINT32_TOP, "1", RESTARTS, "another seed, other drops with the same statistics"},
-    {"rain.streak_gain", 0, 100, "1", LIVE, "multiplies the coverage of streaks; 1 is what a camera records"},
-    {"rain.light_gain", 0, 100, "1", LIVE, "multiplies the light of lamps in drops; 1 is physical"},
-    {"rain.min_width_px", 0.5, 4, "1", LIVE, "narrower streaks are drawn this wide with less coverage"},
-    {"rain.soft_m", 0, 1, "0.05", LIVE, "streaks fade over this depth where they meet geometry"},
-    {"rain.near_m", 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"},
-    {"rain.oscillation", 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"},
-    {"rain.haze", 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"},
-    {"rain.haze_sky_m", 0, 100000, "400", LIVE,
-     "haze before the sky; 0 where its picture was taken in rain, as --plate"},
-    {"rain.glow", 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"},
-    {"rain.bodies_min_mm", 0.2, 2, "0.4", LIVE, "smaller drops are drawn as haze only; they land all the same"},
-    {"rain.occlusion_size", 0, 8192, "1024", RESTARTS,
-     "texels along a side of the maps of where no rain falls; 0: it falls through roofs"},
-    {"rain.occlusion_cascades", 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"},
-    {"rain.occlusion_slants", 1, 4, "2", RESTARTS, "maps for drops of different slant"},
-    {"rain.occlusion_turns", 1, 16, "1", LIVE,
-     "frames in which the maps are drawn by turns; more is quicker, and late"},
-    {"rain.keys", 0, 0, "[]", RESTARTS, "rate and wind by time, in place of the two settings"},
-    {"rain.keys[].time_s", -MAX_METERS, MAX_METERS, NULL, RESTARTS, "when they are so"},
-    {"rain.keys[].rate_mm_h", 0, 200, "@rain.rate_mm_h", LIVE, "rain that lands on level ground then"},
-    {"rain.keys[].wind_m_s", -60, 60, "@rain.wind_m_s", LIVE, "mean wind then"},
+
+static const scene_row size_entry_rows[] = {
+    NUMBER(scene_size_entry, diameter_mm, 0, 20, NULL, RESTARTS, "a size of drops"),
+    NUMBER(scene_size_entry, number, 0, 1e12, NULL, RESTARTS, "relative number of drops of that size"),
 };
+static const scene_group size_entry_group = SCENE_GROUP(scene_size_entry, size_entry_rows);
+
+static const scene_row rain_key_rows[] = {
+    NUMBER(scene_rain_key, time_s, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "when they are so"),
+    NUMBER(scene_rain_key, rate_mm_h, 0, 200, "@rain.rate_mm_h", LIVE, "rain that lands on level ground then"),
+    NUMBER(scene_rain_key, wind_m_s, -60, 60, "@rain.wind_m_s", LIVE, "mean wind then"),
+};
+static const scene_group rain_key_group = SCENE_GROUP(scene_rain_key, rain_key_rows);
+
+static const scene_keyword sizes[] = {{"marshall-palmer", SCENE_SIZES_MARSHALL_PALMER},
+                                      {"best", SCENE_SIZES_BEST},
+                                      {"table", SCENE_SIZES_TABLE},
+                                      {NULL, 0}};
+static const scene_row rain_rows[] = {
+    NUMBER(scene_rain, rate_mm_h, 0, 200, "10", LIVE,
+           "rain that lands on level ground: 0.5 drizzle, 2 light, 10 shower, 25 heavy, 50 storm, 150 cloudburst"),
+    CHOICE(scene_rain, sizes, sizes, "marshall-palmer", LIVE,
+           "distribution of drop sizes; best has more large drops, table is your own"),
+    LIST(scene_rain, table, table_count, &size_entry_group, 0, 256, "[]",
+         "sizes and their relative numbers, for sizes: table"),
+    NUMBER(scene_rain, air_density, 0.3, 2, "1.204", LIVE, "kg/m^3; lower at height, where drops fall faster"),
+    NUMBER(scene_rain, wind_m_s, -60, 60, "[0, 0, 0]", LIVE, "mean wind; y is an updraught"),
+    NUMBER(scene_rain, gust_m_s, 0, 30, "0", LIVE, "standard deviation of each horizontal part of the wind"),
+    NUMBER(scene_rain, gust_time_s, 0.1, 600, "4", LIVE, "time scale of gusts"),
+    NUMBER(scene_rain, transition_s, 0, 60, "0.5", LIVE, "time in which rate and sizes ease into new values"),
+    WHOLE(scene_rain, max_drops, 1024, 4194304, "131072", RESTARTS,
+          "slots of the field of drops: quality falls with it, the rate never; 32 bytes each"),
+    NUMBER(scene_rain, range_m, 4, 512, "32", RESTARTS,
+           "drops are drawn and land up to here from the camera, haze takes over beyond"),
+    WHOLE(scene_rain, seed, 0, UINT32_TOP, "1", RESTARTS, "another seed, other drops with the same statistics"),
+    NUMBER(scene_rain, streak_gain, 0, 100, "1", LIVE,
+           "multiplies the coverage of streaks; 1 is what a camera records"),
+    NUMBER(scene_rain, light_gain, 0, 100, "1", LIVE, "multiplies the light of lamps in drops; 1 is physical"),
+    NUMBER(scene_rain, min_width_px, 0.5, 4, "1", LIVE, "narrower streaks are drawn this wide with less coverage"),
+    NUMBER(scene_rain, soft_m, 0, 1, "0.05", LIVE, "streaks fade over this depth where they meet geometry"),
+    NUMBER(scene_rain, near_m, 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"),
+    NUMBER(scene_rain, oscillation, 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"),
+    NUMBER(scene_rain, haze, 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"),
+    NUMBER(scene_rain, haze_sky_m, 0, 100000, "400", LIVE,
+           "haze before the sky; 0 where its picture was taken in rain, as --plate"),
+    NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),
+    NUMBER(scene_rain, bodies_min_mm, 0.2, 2, "0.4", LIVE,
+           "smaller drops are drawn as haze only; they land all the same"),
+    WHOLE(scene_rain, occlusion_size, 0, 8192, "1024", RESTARTS,
+          "texels along a side of the maps of where no rain falls; 0: it falls through roofs"),
+    WHOLE(scene_rain, occlusion_cascades, 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"),
+    WHOLE(scene_rain, occlusion_slants, 1, 4, "2", RESTARTS, "maps for drops of different slant"),
+    WHOLE(scene_rain, occlusion_turns, 1, 16, "1", LIVE,
+          "frames in which the maps are drawn by turns; more is quicker, and late"),
+    LIST(scene_rain, keys, key_count, &rain_key_group, 0, 100000, "[]",
+         "rate and wind by time, in place of the two settings"),
+};
+static const scene_group rain_group = SCENE_GROUP(scene_rain, rain_rows);
+
+/* The section has one key: all of the struct. */
+static const scene_row rain_section[] = {SECTION_GROUP("rain", &rain_group, "what falls")};
 
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
@@ -146,25 +116,6 @@ static bool check_rain(const scene_file *scene, char *error, size_t error_size)
     return check_table(scene, rain, error, error_size);
 }
 
-/* ---- the effect ----------------------------------------------------------------------------------------------- */
-
-const tool_effect rain_effect = {
-    .name = "rain",
-    .scene =
-        {
-            .field = GROUP_SECTION("rain", scene_rain, rain_fields),
-            .size = sizeof(scene_rain),
-            .rules = rain_rules,
-            .rule_count = CYAML_ARRAY_LEN(rain_rules),
-            .check = check_rain,
-        },
-};
-
-scene_rain *scene_rain_of(const scene_file *scene)
-{
-    return scene_file_section(scene, &rain_effect.scene);
-}
-
 void scene_rain_weather(const scene_rain *rain, double time_s, double *rate_mm_h, double wind_m_s[3])
 {
     *rate_mm_h = rain->rate_mm_h;
@@ -182,3 +133,15 @@ void scene_rain_weather(const scene_rain *rain, double time_s, double *rate_mm_h
     for (int i = 0; i < 3; i++)
         wind_m_s[i] = before->wind_m_s[i] + share * (after->wind_m_s[i] - before->wind_m_s[i]);
 }
+
+/* ---- the effect ----------------------------------------------------------------------------------------------- */
+
+scene_rain *scene_rain_of(const scene_file *scene)
+{
+    return scene_file_section(scene, &rain_effect.scene);
+}
+
+const tool_effect rain_effect = {
+    .name = "rain",
+    .scene = {.group = SCENE_GROUP(scene_rain, rain_section), .check = check_rain},
+};

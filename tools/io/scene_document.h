@@ -53,7 +53,4 @@ const char *scene_document_text(scene_document *document, int node);
 /* Whether a node is an empty value: nothing, ~ or null, without quotes. */
 bool scene_document_is_null(scene_document *document, int node);
 
-/* The tree as YAML text (to be freed), every scalar in quotes; NULL without memory. */
-char *scene_document_print(scene_document *document, size_t *size);
-
 #endif

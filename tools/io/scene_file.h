@@ -2,7 +2,7 @@
  *
  * A file names meshes, an environment, lights, the camera's path, the frames to render, and the settings of each
  * effect. All lengths in metres, angles in degrees, Y up. Every key but `virga` and `camera.keys` has a default; see
- * scene_schema.c and the effects for the ranges and defaults. What is wrong is reported in one line with file, line and
+ * scene_core.c and the effects for the ranges and defaults. What is wrong is reported in one line with file, line and
  * key:
  *
  *     street.yaml:12: rain.rate_mm_h: expected a number from 0 to 200, got 'lots'
@@ -80,7 +80,7 @@ typedef struct scene_section scene_section;
 typedef struct scene_format scene_format;
 
 typedef struct scene_file {
-    uint32_t version;
+    uint32_t virga; /* version of the format */
     scene_mesh *meshes;
     uint32_t mesh_count;
     scene_environment environment;

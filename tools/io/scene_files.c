@@ -10,71 +10,22 @@
 
 /* ---- all of them ---------------------------------------------------------------------------------------------- */
 
-/* What one walk over a scene needs. */
-typedef struct walk {
-    const scene_format *format;
+typedef struct visitor {
     bool (*visit)(const char *key, char **name, void *user);
     void *user;
-} walk;
+} visitor;
 
-/* The keys of one group: where they are in the scene ("glass.0") and in the rules ("glass[]"). */
-typedef struct group {
-    const cyaml_schema_field_t *fields;
-    char *data;
-    char path[96], rule[96];
-} group;
-
-static bool walk_group(const walk *w, const group *in);
-
-static bool walk_entries(const walk *w, const group *in, const cyaml_schema_field_t *list)
+static bool visit_file(const scene_item *item, void *user)
 {
-    const cyaml_schema_value_t *entry = list->value.sequence.entry;
-    const uint32_t count = entry->type == CYAML_MAPPING ? scene_list_length(list, in->data) : 0;
-    bool good = true;
-    for (uint32_t i = 0; good && i < count; i++) {
-        group inside = {entry->mapping.fields, *scene_list_entries(list, in->data) + (size_t)i * entry->data_size, "",
-                        ""};
-        snprintf(inside.path, sizeof inside.path, "%.80s.%u", in->path, i);
-        snprintf(inside.rule, sizeof inside.rule, "%.80s[]", in->rule);
-        good = walk_group(w, &inside);
-    }
-    return good;
-}
-
-static bool walk_field(const walk *w, const group *in, const cyaml_schema_field_t *field, bool own_texts)
-{
-    const char *dot = *in->path ? "." : "";
-    group inside = {.data = in->data};
-    snprintf(inside.path, sizeof inside.path, "%.50s%s%.40s", in->path, dot, field->key);
-    snprintf(inside.rule, sizeof inside.rule, "%.50s%s%.40s", in->rule, dot, field->key);
-    if (own_texts) {
-        char **name = (char **)(void *)(in->data + field->data_offset);
-        const scene_rule *rule = field->value.type == CYAML_STRING ? scene_rule_find(w->format, inside.rule) : NULL;
-        return !rule || !(rule->flags & SCENE_RULE_NAMES_FILE) || !*name || w->visit(inside.path, name, w->user);
-    }
-    if (field->value.type == CYAML_SEQUENCE)
-        return walk_entries(w, &inside, field);
-    if (field->value.type != CYAML_MAPPING)
-        return true;
-    inside.fields = field->value.mapping.fields;
-    inside.data += field->data_offset;
-    return walk_group(w, &inside);
-}
-
-static bool walk_group(const walk *w, const group *in)
-{
-    bool good = true;
-    for (int own_texts = 0; own_texts < 2; own_texts++)
-        for (const cyaml_schema_field_t *field = in->fields; good && field->key; field++)
-            good = walk_field(w, in, field, own_texts);
-    return good;
+    const visitor *v = user;
+    char **name = (char **)(void *)item->value;
+    return !(item->row->flags & SCENE_ROW_NAMES_FILE) || !*name || v->visit(item->path, name, v->user);
 }
 
 bool scene_each_file(scene_file *scene, bool (*visit)(const char *key, char **name, void *user), void *user)
 {
-    const walk w = {scene->format, visit, user};
-    const group root = {scene->format->schema.mapping.fields, (char *)scene, "", ""};
-    return walk_group(&w, &root);
+    visitor v = {visit, user};
+    return scene_walk(scene, SCENE_ORDER_GROUPS_FIRST, visit_file, &v);
 }
 
 /* ---- finding -------------------------------------------------------------------------------------------------- */
@@ -95,7 +46,7 @@ static bool find_file(const char *key, char **name, void *user)
     char *path = join_folder(document->path, *name);
     if (!path)
         return scene_document_fail(document, node, "%s: no more memory", key);
-    free(*name); /* libcyaml's memory is realloc's */
+    free(*name);
     *name = path;
     struct stat info;
     if (stat(path, &info) != 0 || (S_ISREG(info.st_mode) && access(path, R_OK) != 0))

@@ -17,7 +17,7 @@ typedef struct scene_list {
     uint32_t count;       /* entries now */
     uint32_t least, most; /* that a file may have */
     bool used;            /* false: a key beside it makes its entries unused, and a file must not have them */
-    const void *field;    /* internal */
+    const struct scene_row *row; /* internal */
     void *owner;
 } scene_list;
 
@@ -25,19 +25,15 @@ typedef struct scene_list {
  * of now. */
 scene_list *scene_lists(scene_file *scene, size_t *count);
 
+/* The list of a path, or NULL. Accepts NULL. */
+scene_list *scene_lists_find(scene_list *lists, size_t count, const char *path);
+
 /* Adds an entry at the end: the last one again, later or larger where entries have to rise; the first has defaults.
  * Settings and lists have to be listed anew. False with one line in `error`: no such list, full, or no memory. */
 bool scene_list_add(scene_file *scene, const char *path, char *error, size_t error_size);
 
 /* Takes the last entry away; likewise. */
 bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t error_size);
-
-/* Whether a setting is part of a list of which `now` has more or fewer entries than `before`, or that a wiper's drive
- * has no use for: then it is no change of its own. */
-bool scene_list_has(const char *setting_path, scene_file *now, scene_file *before);
-
-/* Writes "path=[{...}, ...]" and a zero for each such list, and tells how many. */
-size_t scene_lists_write_changes(FILE *out, scene_file *now, scene_file *before);
 
 #ifdef __cplusplus
 }

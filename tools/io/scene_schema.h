@@ -1,71 +1,121 @@
-/* scene_schema.h - what a scene file may hold: libcyaml's schema, and beside it ranges and defaults.
+/* scene_schema.h - what a scene file may hold, as tables.
  *
- * A scene file is a mapping whose keys come in sections. The first section is tools/io's own: models, sky, lights,
- * camera, frames. Every effect adds one section of its own, so nothing here knows an effect. A section is a table, see
- * scene_rows.h for how one is written. */
+ * A row describes one key: its type, its range, its default, and where its value goes in a struct. The rows of one
+ * struct are a group. A section is a group at the root of the file. The first section is tools/io's own: models, sky,
+ * lights, camera, frames. Every effect adds a section, so nothing here knows an effect.
+ *
+ * Everything else about scene files walks these tables: the check of a document, loading, the list of settings, the
+ * lists that can grow, the files that a scene names. scene_rows.h has short names for writing rows. */
 #ifndef VIRGA_IO_SCENE_SCHEMA_H
 #define VIRGA_IO_SCENE_SCHEMA_H
 
 #include "scene_file.h"
 
-#include <cyaml/cyaml.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef enum scene_rule_flags {
-    SCENE_RULE_RESTARTS = 1,   /* a change needs the simulation to start again: it sizes pools or names a file */
-    SCENE_RULE_NAMES_FILE = 2, /* (text) the name of a file, beside the scene file */
-} scene_rule_flags;
+/* Types of keys, and what the struct has for them. */
+typedef enum scene_type {
+    SCENE_TYPE_NUMBER, /* double, or double[] for a vector; optional: double * */
+    SCENE_TYPE_WHOLE,  /* uint32_t, or uint32_t[] */
+    SCENE_TYPE_SWITCH, /* bool; optional: bool * */
+    SCENE_TYPE_CHOICE, /* uint32_t: the value of a keyword */
+    SCENE_TYPE_TEXT,   /* char *, from malloc; optional: may be NULL */
+    SCENE_TYPE_GROUP,  /* a struct; optional: may be all zero */
+    SCENE_TYPE_LIST,   /* a pointer to an array from malloc, and a uint32_t count: of structs, or of char * */
+} scene_type;
 
-/* What libcyaml's schema cannot say about a key. */
-typedef struct scene_rule {
-    const char *path;  /* "rain.rate_mm_h"; entries of lists as in "lights[].range_m" */
-    double low, high;  /* (numbers, and each number of a vector) */
-    const char *value; /* default, as YAML; "@path" copies the value of another key; NULL: none */
-    int flags;         /* scene_rule_flags */
-    const char *help;  /* one line for the user */
-} scene_rule;
+typedef enum scene_row_flags {
+    SCENE_ROW_RESTARTS = 1,   /* a change needs the simulation to start again: it sizes pools or names a file */
+    SCENE_ROW_NAMES_FILE = 2, /* (text) the name of a file, beside the scene file */
+    SCENE_ROW_OPTIONAL = 4,   /* may be left out and has no default */
+} scene_row_flags;
 
-/* One key of the root, with everything under it. */
+typedef struct scene_keyword {
+    const char *name; /* NULL: behind the last */
+    uint32_t value;
+} scene_keyword;
+
+typedef struct scene_group scene_group;
+
+typedef struct scene_row {
+    const char *key;
+    scene_type type;
+    int flags;            /* scene_row_flags */
+    uint32_t offset;      /* of the value in the struct */
+    uint32_t components;  /* (number, whole) 1, or those of a vector */
+    uint32_t max_length;  /* (text, list of texts) in bytes */
+    double low, high;     /* (number, whole) range of each component */
+    const char *initial;  /* default, as YAML. "@path" copies the value of another key. NULL: none */
+    const char *help;     /* one line for the user */
+    const scene_keyword *keywords; /* (choice) */
+    const scene_group *group;      /* (group) its rows; (list) the rows of each entry, NULL: entries are texts */
+    uint32_t count_offset, min_count, max_count; /* (list) */
+    const char *used_where; /* (list) its entries are read only where a key beside it has a keyword, as "drive=keys". A
+                             * file must not have any elsewhere. NULL: they always are */
+} scene_row;
+
+struct scene_group {
+    const scene_row *rows;
+    uint32_t count;
+    uint32_t size; /* of the struct */
+};
+
 struct scene_section {
-    cyaml_schema_field_t field; /* a group or a list; offsets count from the start of the section's own struct.
-                                 * No key: the effect has no settings */
-    size_t size;                /* of that struct */
-    const scene_rule *rules;    /* of the key and of all keys under it */
-    size_t rule_count;
-    /* What the range of a single value cannot say; may be NULL. Calls scene_file_refuse. */
+    scene_group group; /* no rows: the effect has no settings */
+    /* What the range of a single value cannot say. Reports with scene_file_refuse. May be NULL. */
     bool (*check)(const scene_file *scene, char *error, size_t error_size);
-    /* Whether the entries of a list are read, by the path of its rule and the struct that it is in. A file must not
-     * have entries that are not. NULL: they always are. */
-    bool (*uses_list)(const char *rule, const void *owner);
 };
 
 /* Sections put together. A loaded scene is one block of memory: scene_file, then the struct of each section. */
 struct scene_format {
-    const scene_section *const *sections; /* ends with NULL */
-    cyaml_schema_value_t schema;          /* of the block */
-    cyaml_schema_field_t fields[];        /* of the root, one per key */
+    const scene_section *const *sections; /* behind the first; ends with NULL */
+    scene_group root;                     /* of the whole block */
+    scene_row rows[];
 };
+
+/* The section of tools/io; its struct is scene_file. */
+extern const scene_section scene_core_section;
 
 /* Needs free(); NULL without memory. `sections` must outlive it. */
 scene_format *scene_format_create(const scene_section *const *sections);
 
-/* The rule of a path, or NULL. */
-const scene_rule *scene_rule_find(const scene_format *format, const char *path);
+/* ---- walking a scene */
 
-/* The rule with an index, in the order of the file; NULL behind the last. */
-const scene_rule *scene_rule_at(const scene_format *format, size_t index);
+/* One row, and its value in a scene. */
+typedef struct scene_item {
+    const scene_row *row;
+    const scene_group *group; /* that the row is in */
+    char *owner;              /* struct of the group */
+    char *value;              /* in that */
+    char path[96];            /* "glass.0.wipers.1.sweep_s" */
+    char rule[96];            /* "glass[].wipers[].sweep_s" */
+} scene_item;
 
-/* How many entries a list of a loaded group has. */
-uint32_t scene_list_length(const cyaml_schema_field_t *list, const void *group);
+typedef enum scene_order {
+    SCENE_ORDER_ROWS,         /* as the rows stand */
+    SCENE_ORDER_GROUPS_FIRST, /* groups and lists come before the other rows beside them */
+} scene_order;
 
-/* The entries of a list of a loaded group. */
-char **scene_list_entries(const cyaml_schema_field_t *list, void *group);
+/* Calls `visit` for every row, for each entry of a list anew, until one call returns false; returns the last result.
+ * Leaves out what is in optional groups that were left out. */
+bool scene_walk(scene_file *scene, scene_order order, bool (*visit)(const scene_item *item, void *user), void *user);
 
-/* The keyword of a value, "" where none has it. */
-const char *scene_choice_keyword(const cyaml_strval_t *keywords, size_t count, uint32_t value);
+/* (list) */
+uint32_t scene_list_length(const scene_row *list, const void *owner);
+void scene_list_set_length(const scene_row *list, void *owner, uint32_t length);
+char **scene_list_entries(const scene_row *list, void *owner);
+size_t scene_list_entry_size(const scene_row *list);
+
+/* (list) Whether its entries are read, see scene_row.used_where. */
+bool scene_list_is_used(const scene_item *list);
+
+/* The name of a value, "" where none has it. */
+const char *scene_keyword_name(const scene_keyword *keywords, uint32_t value);
+
+/* Copies a key without its unit ("rate" of "rate_mm_h") and returns the unit for people, NULL if it has none. */
+const char *scene_key_unit(const char *key, char stem[64]);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* scene_settings.h - all settings of a loaded scene as a list, to be looked at and changed one by one: what a panel of
- * controls shows, and how what was tuned there becomes a scene file again.
+ * controls shows. scene_changes.h turns what was tuned there into a scene file again.
  *
  * Keys, ranges, defaults and descriptions are those of the schema, so a key that is new there is here too. */
 #ifndef VIRGA_IO_SCENE_SETTINGS_H
@@ -10,6 +10,8 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+#define SCENE_SETTING_ROOM 512 /* bytes that any value as YAML fits */
 
 typedef enum scene_setting_kind {
     SCENE_SETTING_NUMBER,       /* double[count] */
@@ -33,7 +35,7 @@ typedef struct scene_setting {
     const char *initial; /* default, as YAML; "@path" takes another's; NULL: none */
     bool restarts;       /* a change counts from the next start of the rain on */
     const char *help;    /* one line */
-    const void *words;   /* (choice) internal */
+    const struct scene_keyword *keywords; /* (choice) see scene_setting_word */
 } scene_setting;
 
 /* Writes one line about what is wrong, and returns false. */
@@ -61,16 +63,6 @@ bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t coun
 /* Applies "path=value" to a scene; '*' in place of a number stands for all entries of a list, of which there may be
  * none. `restarts` (may be NULL) is set where the rain has to start anew for it; else left. */
 bool scene_settings_assign(scene_file *scene, const char *assignment, bool *restarts, char *error, size_t error_size);
-
-/* What has to be overridden in `before` for it to become `now`: `*count` texts "path=value" in one piece of memory, to
- * be given to free(). Lists that have more or fewer entries (see scene_lists.h) come whole. NULL without memory. */
-char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count);
-
-/* Writes the scene of the file `source` with overrides (as scene_file_load takes them) as a scene file, which must come
- * out good: the source's keys, with what is overridden in them. Names of files are made absolute where the new file
- * lies in another folder. Comments are lost. */
-bool scene_settings_save(const char *source, const scene_section *const *sections, const char *const *overrides,
-                         size_t override_count, const char *path, char *error, size_t error_size);
 
 #ifdef __cplusplus
 }

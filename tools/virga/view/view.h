@@ -19,6 +19,7 @@
 extern "C" {
 #endif
 
+#include "scene_changes.h"
 #include "scene_lists.h"
 #include "scene_settings.h"
 #include "shot/shot.h"
