@@ -1,9 +1,9 @@
-// nodes.glsl - the grid that a pane's shape is given on, and the pane's frame between its nodes. The includer says in
-// NODES_BINDING where it is bound.
+// nodes.glsl - the nodes that give a pane's shape, and the pane's local frame between them. The includer defines
+// NODES_BINDING.
 //
-// Nodes are read as texels: those are fetched for eight lanes at once by software Vulkan, and a storage buffer word by
-// word and lane by lane. They are no storage buffer, either, of which a pass may see VIRGA_STORAGE_BUFFERS, and so
-// few that every device has a view for them.
+// Nodes are read as texels. Software Vulkan fetches texels for eight lanes at once, but reads a storage buffer lane by
+// lane. A texel buffer also does not count against VIRGA_STORAGE_BUFFERS, and there are so few nodes that a view of
+// them fits on every device.
 layout(set = 0, binding = NODES_BINDING) uniform usamplerBuffer nodes; // a virga_glass_node_gpu is three texels
 
 struct Frame {
@@ -25,7 +25,8 @@ Frame mix_frames(Frame a, Frame b, float t)
                  mix(a.normal, b.normal, t));
 }
 
-// Between the four nodes around a place, given as shares of the pane's width and height in [0; 1].
+// Interpolates between the four nodes around a point, which is given as fractions of the pane's width and height, [0;
+// 1].
 Frame frame_between(vec2 share)
 {
     const vec2 grid = share * float(VIRGA_GLASS_NODES - 1);

@@ -1,34 +1,35 @@
-// compact_buffers.glsl - ordered compaction: which slots are picked, and the list of them.
+// compact_buffers.glsl - ordered stream compaction: buffers. Slots are picked, and the numbers of the picked slots
+// become a list.
 //
-// Four passes, of which an effect writes what is its own around compact_find, compact_scan, compact_list and this file:
+// Four passes. An effect writes its own part of each around this file and the ones named below:
 //
-// find:  each slot's pick becomes a bit in shared memory (an OR does not care for order), 32 slots to a word
-// scan:  one workgroup turns the words' counts into places
-// list:  each picked slot's number goes to its place: a lane for each word of slots, or for each slot, which finds its
-//        place by counting the bits before its own
-// write: a dispatch as long as the list, so that no invocation works for a slot that was not picked
+//     mark     compact_mark.glsl: each slot that is picked sets a bit in shared memory; 32 slots share a word
+//     scan     compact_scan.glsl: one workgroup computes the prefix sum of the bits in the words
+//     compact  compact_write.glsl: each picked slot's number is written to its index in the list, by an invocation for
+//              each word of 32 slots, or for each slot
+//     use      the effect's own: an indirect dispatch as long as the list
 //
-// The list is in the order of slots, whatever order the device runs groups in. Slots are picked as one of two kinds,
-// and the list has all of the second kind first.
+// The list is in the order of the slots, in whatever order the device runs workgroups. A slot is picked as one of two
+// kinds. All entries of the second kind come first.
 //
-// The includer says in COMPACT_GROUP how many slots a workgroup has (a multiple of 32, and the local size of find, list
-// and write; that of scan is SCAN_LANES, 256 where nothing else is said), and in COMPACT_PICKS_BINDING and
-// COMPACT_LIST_BINDING where the two buffers are bound. The host gives the picks VIRGA_PICK_BYTES, records the first
-// three passes with virga_record_list and the last with virga_dispatch_indirect.
+// The includer defines COMPACT_GROUP, the slots of a workgroup: a multiple of 32, and the local size of every pass but
+// scan, whose local size is SCAN_LANES (256 by default). COMPACT_PICKS_BINDING and COMPACT_LIST_BINDING are the
+// bindings of the two buffers. The host gives the picks VIRGA_PICK_BYTES, records the first three passes with
+// virga_record_list, and the last with virga_dispatch_indirect.
 //
-// With COMPACT_LISTS there are so many lists in the buffer: their heads, then what they list. Which words of picks
-// belong to which is the includer's affair, and so is the recording; place_picks and list_word take the words.
+// With COMPACT_LISTS the list buffer holds that many lists: first their heads, then their entries. The includer decides
+// which words belong to which list and records the passes itself, with scan_words and write_word.
 #ifndef COMPACT_BUFFERS
 #define COMPACT_BUFFERS
 #include "shared/compact.h"
 
 #ifndef COMPACT_ACCESS
-#define COMPACT_ACCESS // readonly where a vertex shader reads the list, coherent where lanes see what others wrote
+#define COMPACT_ACCESS // readonly in vertex shaders; coherent where invocations read what others wrote
 #endif
 
 layout(std430, set = 0, binding = COMPACT_PICKS_BINDING) COMPACT_ACCESS buffer Picks
 {
-    uvec4 picks[]; // a word's bits of each kind; places of each kind
+    uvec4 picks[]; // x, y: bits of the first and the second kind; z, w: list index of each kind's first
 };
 layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer List
 {
@@ -37,7 +38,7 @@ layout(scalar, set = 0, binding = COMPACT_LIST_BINDING) COMPACT_ACCESS buffer Li
 #else
     virga_list_gpu list;
 #endif
-    uint listed[]; // slots
+    uint listed[]; // slot numbers
 };
 
 #define NOT_PICKED 0u

@@ -1,15 +1,15 @@
-// compact_mark.glsl - the finding part of ordered compaction, see compact_buffers.glsl.
+// compact_mark.glsl - ordered compaction, first pass: picks slots. See compact_buffers.glsl.
 #include "gpu/compact_buffers.glsl"
 
 #ifndef COMPACT_SETS
-#define COMPACT_SETS 1 // slots of an invocation: one in each of so many sets
+#define COMPACT_SETS 1 // an invocation handles one slot in each of this many sets
 #endif
-#define SET_WORDS (2 * GROUP_WORDS) // both kinds
+#define SET_WORDS (2 * GROUP_WORDS) // bits of both kinds
 
 shared uint group_bits[COMPACT_SETS * SET_WORDS];
 
-// Of the invocation's slot in each set; first[i] is the first workgroup of set i among those of all slots, and it has
-// groups[i] of them. For all invocations of a workgroup alike: there are barriers in it.
+// Picks the invocation's slot in each set as the kind given. Set i has groups[i] workgroups of slots, and first[i] is
+// the first of them among the workgroups of all slots. Has barriers: call it from all invocations of a workgroup.
 void mark_picks(uint kinds[COMPACT_SETS], uint first[COMPACT_SETS], uint groups[COMPACT_SETS])
 {
     const uint lane = gl_LocalInvocationIndex;

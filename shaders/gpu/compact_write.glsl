@@ -1,31 +1,32 @@
-// compact_write.glsl - the listing part of ordered compaction, see compact_buffers.glsl.
+// compact_write.glsl - ordered compaction, third pass: writes the list. See compact_buffers.glsl.
 #include "gpu/compact_buffers.glsl"
 
-// Writes a word's picks into the entries from `entry` on, each at its place where there is room; `slot` is that of its
-// first bit. A lane for a word: 32 lanes that read the same word cost software Vulkan four times as much.
-void list_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
+// Writes the picks of one word. The list's entries begin at `entry`; `slot` is the slot of the word's first bit. Picks
+// beyond the list's capacity are dropped. One invocation per word: where 32 invocations read the same word, software
+// Vulkan took four times as long.
+void write_word(uint word_index, uint slot, uint entry, virga_list_gpu head)
 {
     const uvec4 word = picks[word_index];
-    uvec2 place = word.zw;
+    uvec2 index = word.zw;
     for (uint bits = word.x | word.y; bits != 0u; bits &= bits - 1u) {
         const uint bit = findLSB(bits), second = (word.y >> bit) & 1u;
-        const uint own = second != 0u ? place.y : place.x;
-        if (own < (second != 0u ? head.second_kind : head.count))
-            listed[entry + own] = slot + bit;
-        place += uvec2(1u - second, second);
+        const uint own_index = second != 0u ? index.y : index.x;
+        if (own_index < (second != 0u ? head.second_kind : head.count))
+            listed[entry + own_index] = slot + bit;
+        index += uvec2(1u - second, second);
     }
 }
 
 #ifndef COMPACT_LISTS
-// Writes a slot into the list, at its place, if it was picked and there is room.
-void list_pick(uint slot_index)
+// Writes one slot into the list, if it is picked and there is room.
+void write_slot(uint slot_index)
 {
     const uvec4 word = picks[slot_index >> 5];
     const uint bit = 1u << (slot_index & 31u);
     const bool second = (word.y & bit) != 0u;
     const uint bits = second ? word.y : word.x;
-    const uint place = (second ? word.w : word.z) + bitCount(bits & (bit - 1u));
-    if ((bits & bit) != 0u && place < (second ? list.second_kind : list.count))
-        listed[place] = slot_index;
+    const uint index = (second ? word.w : word.z) + bitCount(bits & (bit - 1u));
+    if ((bits & bit) != 0u && index < (second ? list.second_kind : list.count))
+        listed[index] = slot_index;
 }
 #endif

@@ -1,9 +1,9 @@
-// group_scan.glsl - sums over the lanes before one's own, in a workgroup of SCAN_LANES.
+// group_scan.glsl - prefix sum over the invocations of one workgroup of SCAN_LANES.
 //
-// In three levels: a lane for each block of lanes adds up its numbers, one lane adds up the blocks, and every lane adds
-// two numbers. That is three barriers; the usual doubling of reach (Hillis and Steele 1986) has seventeen, and on
-// software Vulkan a barrier costs more than thirty additions. Few lanes look at many numbers: there each look is a loop
-// over lanes, and when every lane added up what lies before it a scan took 40 us longer.
+// In three levels: one invocation per block adds up the block, one invocation adds up the blocks, then each adds two
+// numbers. That takes three barriers. The usual doubling (Hillis and Steele 1986) takes seventeen, and on software
+// Vulkan a barrier costs more than thirty additions. Only few invocations read many numbers, because there each read is
+// a loop over the lanes: when every invocation added up what lies before it, a scan took 40 us longer.
 #ifndef SCAN_LANES
 #define SCAN_LANES 256u
 #endif
@@ -11,8 +11,8 @@
 
 shared uvec2 scan_sums[SCAN_LANES], scan_blocks[SCAN_LANES / SCAN_BLOCK + 1u];
 
-// What the lanes before this one have of two numbers; `all` gets what they all have. From all lanes alike: there are
-// barriers in it, and one may be called once in a shader.
+// Returns the sum of both numbers over the invocations before this one; `all` gets the sum over all. Has barriers: call
+// it from all invocations, and only once in a shader.
 uvec2 scan_group(uvec2 own, out uvec2 all)
 {
     const uint lane = gl_LocalInvocationIndex, blocks = SCAN_LANES / SCAN_BLOCK;

@@ -1,12 +1,13 @@
-// light.glsl - what water shows of the light around it. The includer has gpu/vectors.glsl and a block with a member
+// light.glsl - light around a drop: environment and lamps. The includer has gpu/vectors.glsl and a block with a member
 // `virga_view_gpu view`.
 
-#ifndef SH_FETCHED // else the includer has this function
+#ifndef SH_FETCHED // otherwise the includer defines this function
 vec3 sh_coefficient(uint i) { return vec3(view.sh[3u * i], view.sh[3u * i + 1u], view.sh[3u * i + 2u]); }
 #endif
 
-// The environment seen along d through a lobe with Legendre moments 1, g.x, g.y: each band is scaled by its moment
-// (Funk-Hecke). A drop's phase function as the lobe gives what the drop shows on average: nearly the whole environment.
+// The environment in direction d, seen through a lobe with the Legendre moments 1, g.x, g.y: each band of the spherical
+// harmonics is scaled by its moment (Funk-Hecke). With a drop's phase function as the lobe, this is what the drop shows
+// on average: nearly the whole environment.
 vec3 environment(vec3 d, vec2 g)
 {
     vec3 sum = sh_coefficient(0u) * 0.282095;
@@ -26,21 +27,22 @@ float phase(float cos_angle)
     return mix(view.phase[bin], view.phase[bin + 1], clamp(x - float(bin), 0.0, 1.0));
 }
 
-#define LAMP_RADIUS_M 0.1 // a lamp is no point: nearer to it, light is as there
+#define LAMP_RADIUS_M 0.1 // a lamp is not a point: its light does not grow any more below this distance
 
-// Point and spot lights: irradiance on a drop at p (relative to the camera) times its phase function. Looking along d,
-// light that comes straight from ahead is the forward direction: a lamp behind the water glitters most.
+// Point and spot lights: irradiance on a drop at p (relative to the camera) times its phase function. d is the viewing
+// direction; light from straight ahead is scattered forward, so a lamp behind the water glitters most.
 vec3 lamps(vec3 p, vec3 d)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < view.light_count; i++) {
-        const vec3 way = to_vec(view.lights[i].position) - p;
-        const float distance2 = max(dot(way, way), LAMP_RADIUS_M * LAMP_RADIUS_M);
-        const vec3 towards = way * inversesqrt(distance2);
+        const vec3 to_light = to_vec(view.lights[i].position) - p;
+        const float distance2 = max(dot(to_light, to_light), LAMP_RADIUS_M * LAMP_RADIUS_M);
+        const vec3 towards = to_light * inversesqrt(distance2);
         const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
         const float ends = clamp(1.0 - x * x, 0.0, 1.0);
         const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
-                                     view.lights[i].inv_cos_width, 0.0, 1.0);
+                                     view.lights[i].inv_cos_width,
+                                 0.0, 1.0);
         sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * phase(dot(towards, d)));
     }
     return sum * view.light_gain;

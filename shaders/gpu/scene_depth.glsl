@@ -1,15 +1,15 @@
-// scene_depth.glsl - the host's depth at a pixel. The includer has a block with a member `virga_view_gpu view`, and
-// says in SCENE_DEPTH_BINDING where the depth is bound.
+// scene_depth.glsl - the host's depth buffer at a pixel. The includer has a block with a member `virga_view_gpu view`
+// and defines SCENE_DEPTH_BINDING.
 layout(set = 0, binding = SCENE_DEPTH_BINDING) uniform sampler2D scene_depth;
 
 float buffer_depth(vec2 pixel) { return texelFetch(scene_depth, ivec2(pixel), 0).r; }
 
-// As view depth (m).
+// From a stored depth to view depth (m).
 float view_depth(float stored) { return view.depth_b / (view.depth_a + stored); }
 
-// 0 behind the scene, whether or not its depth is attached too, and rising over soft_m in front of it. The terms are
-// depth_a, depth_b, far_depth and soft_m of the view, from a vertex: in a fragment shader software Vulkan reads a
-// uniform buffer lane by lane.
+// Soft edge against the scene: 0 behind it, rising to 1 over soft_m in front of it. It also works where the target has
+// the depth attached. `terms` are depth_a, depth_b, far_depth and soft_m of the view, from a vertex: in a fragment
+// shader software Vulkan reads a uniform buffer lane by lane.
 float soft_edge(float distance, vec4 terms)
 {
     const float stored = buffer_depth(gl_FragCoord.xy);

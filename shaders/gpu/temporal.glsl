@@ -1,17 +1,17 @@
-// temporal.glsl - what a fragment tells temporal anti-aliasing and upscaling, in the forms of a shader that are
-// compiled with MOTION, REACTIVE or both (see shaders/meson.build). The includer has a block with a member
-// `virga_view_gpu view`. Locations are changed to the attachments of the target, see engine/gpu/pipelines.c.
+// temporal.glsl - outputs for temporal anti-aliasing and upscaling. A shader is compiled with MOTION, REACTIVE, both or
+// none (see shaders/meson.build). The includer has a block with a member `virga_view_gpu view`. The locations are
+// patched to the target's attachments, see engine/gpu/pipelines.c.
 
 #ifdef MOTION
-layout(location = 1) out vec4 motion_taken; // times motion_scale; alpha 1: in place of what is there, 0: not
+layout(location = 1) out vec4 motion_taken; // scaled by motion_scale; alpha 1 replaces the scene's vector, 0 keeps it
 
-// Two motions are never mixed: halfway between them lies what neither shows. Pixels that water covers for the most part
-// get its own, the others keep the scene's.
+// Two motion vectors are never mixed: a vector between them belongs to neither. A pixel that is mostly covered by water
+// gets the water's vector, any other keeps the scene's.
 #define WRITE_MOTION(px, coverage)                                                       \
     motion_taken = vec4((px) * vec2(view.motion_scale[0], view.motion_scale[1]), 0.0, \
                         (coverage) >= view.motion_coverage ? 1.0 : 0.0)
 
-// Of a surface, from its place in the previous frame's clip coordinates: x, y, w.
+// Motion of a surface, from its clip coordinates (x, y, w) in the previous frame.
 vec2 motion_from(vec3 before)
 {
     const vec2 size = vec2(view.viewport[2], view.viewport[3]), corner = vec2(view.viewport[0], view.viewport[1]);
@@ -27,8 +27,8 @@ vec2 motion_from(vec3 before)
 #ifdef REACTIVE
 layout(location = 2) out vec4 reactive_over; // premultiplied white
 
-// As if so many layers of the same coverage lay over one another: of layers with different coverages it gives the same
-// together as of their sum one by one.
+// As if `gain` layers of this coverage lay over each other. Layers that are blended one after the other then give the
+// same as their sum at once.
 #define WRITE_REACTIVE(coverage, gain) reactive_over = vec4(1.0 - pow(max(1.0 - (coverage), 1e-6), gain))
 #else
 #define WRITE_REACTIVE(coverage, gain)

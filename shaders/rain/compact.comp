@@ -13,5 +13,5 @@ void main()
 {
     const uint word = gl_GlobalInvocationID.x;
     if (word < list.words)
-        list_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
+        write_word(word, 32u * word, 0u, virga_list_gpu(list.group_count, list.count, list.second_kind, 0u, 0u, 0u));
 }

@@ -1,10 +1,10 @@
-// beads.glsl - film on cells: fresh it is a sheet, later it has broken into fine beads at hashed places.
+// beads.glsl - film on cells. Fresh film is a sheet; later it breaks into fine beads at random positions.
 layout(scalar, set = 0, binding = 2) readonly buffer Film { uint film[]; };     // nl
 layout(scalar, set = 0, binding = 3) readonly buffer Passed { uint passed[]; }; // tick of the last wetting; 0: never
 
-#define BEADS 2          // at most in a cell
+#define BEADS 2 // max in a cell
 
-// The share of a cell's film that is still a sheet, by the tick that it was wetted in.
+// The part of a cell's film that is still a sheet, by the tick in which it was wetted.
 float film_fresh(uint wetted)
 {
     const float age = float(look.tick - wetted) * look.tick_s + look.late_s;
@@ -12,7 +12,7 @@ float film_fresh(uint wetted)
     return look.film_break_s <= 0.0 || wetted == 0u ? 0.0 : fresh;
 }
 
-// Radii of a cell's beads, of the film that is no sheet; 0: it has not got so many.
+// Radii of a cell's beads, whose water is `broken_nl`; 0: no such bead.
 vec2 bead_radii(uint number, float broken_nl)
 {
     const float first = 0.55 + 0.45 * virga_unit(virga_hash3(look.pane.seed, 0x6265u, number));
@@ -20,7 +20,7 @@ vec2 bead_radii(uint number, float broken_nl)
     return min(radii, vec2(VIRGA_GLASS_BEAD_CELLS * look.pane.cell_m));
 }
 
-// Place of one of them in the cell (x, y), and its radius.
+// Position of bead i of a cell, and in z its radius.
 vec3 bead_of(ivec2 cell, uint number, uint i, float broken_nl)
 {
     const uint random = virga_hash3(look.pane.seed, 0x6265u, number);
@@ -28,8 +28,8 @@ vec3 bead_of(ivec2 cell, uint number, uint i, float broken_nl)
     return vec3((vec2(cell) + at) * look.pane.cell_m, bead_radii(number, broken_nl)[i]);
 }
 
-// How much of a bead is shape, the rest mist. One alone is seen from half a shape on, where its density reaches the
-// threshold, so half of it is mist until then.
+// The part of each bead that is shape; the rest is mist. A single bead shows as a shape from one half on, where its
+// density reaches the threshold, so below that half of it is mist.
 vec2 bead_shapes(vec2 radii)
 {
     return smoothstep(VIRGA_GLASS_BEAD_SEEN, 1.25, radii / max(look.texel_m[0], look.texel_m[1]));

@@ -1,6 +1,5 @@
-// corner_light.glsl - what a corner tells the pixels that show water by Snell, or its mist: directions and
-// light.
-// After gpu/light.glsl and corner.glsl.
+// corner_light.glsl - outputs of a vertex for pixels that show water by Snell, or mist: directions and light. Include
+// it after gpu/light.glsl and corner.glsl.
 #include "copies.glsl"
 #include "mode.glsl"
 
@@ -8,14 +7,14 @@ layout(location = 2) out vec3 along_u;
 layout(location = 3) out vec3 along_v;
 layout(location = 4) out vec3 mist_light;
 
-// Of the view, as those of corner.glsl.
-layout(location = 8) flat out vec4 tint_given; // and 1: the host's picture is there
-layout(location = 9) flat out vec4 clip_xy[2]; // view.clip_from_rel, column after column
+// Constants of the view, see corner.glsl.
+layout(location = 8) flat out vec4 tint_given; // a: 1 if the host's picture is given
+layout(location = 9) flat out vec4 clip_xy[2]; // view.clip_from_rel, column by column
 layout(location = 11) flat out vec4 clip_w;
 layout(location = 12) flat out uint view_texel;
-layout(location = 13) flat out vec2 gain_angle; // look.gain, and a pixel's angle
+layout(location = 13) flat out vec2 gain_angle; // x: look.gain, y: angle of a pixel
 
-// Water too small to show a shape: each drop is a lens that shows all of the world before the pane.
+// Light of mist: each drop is a lens that shows all of the world in front of the pane.
 vec3 shown_by_mist()
 {
     if (!HAS_PLATE)

@@ -1,35 +1,35 @@
-// density.glsl - density functions, as functions of x^2, the square of the distance over the ball's radius,
-// scaled so that all are 0.5 at x = 1; and back. x^2 is all that any of them needs but one.
+// density.glsl - density functions and their inverses. They are functions of x^2, the square of distance / radius of
+// the ball, scaled so that each is 0.5 at x = 1. All but one need only x^2.
 
-// Which one, and whether by Chen and Zhang's weights: constants of a pipeline, as software Vulkan runs all sides of
-// a branch.
+// The density function, and whether Chen and Zhang's weights are used, are constants of the pipeline, because software
+// Vulkan runs all sides of a branch.
 #ifdef DENSITY_SPECIAL
 layout(constant_id = 0) const uint MODE = 0u;
 #define DENSITY (MODE & 7u)
 #define WEIGHTED ((MODE & 8u) != 0u)
-#define FILM ((MODE & 16u) != 0u)      // tiles with film
+#define FILM ((MODE & 16u) != 0u)       // for tiles with film
 #define WITH_BEADS ((MODE & 64u) != 0u) // some film is in beads that have a shape
-#define WITH_MAP ((MODE & 32u) != 0u)  // the host wants the map
-#define PAPER ((MODE & 128u) != 0u)    // the paper's style, which shows densities
-#define HEIGHTS ((MODE & 160u) != 128u) // are wanted too: not the paper's style, or the host wants the map
-#define MASKED ((MODE & 512u) != 0u)   // (paper) there may be cells without glass
-#define FEW_STEPS ((MODE & 256u) != 0u) // of compression, not more than VIRGA_GLASS_FEW_STEPS
+#define WITH_MAP ((MODE & 32u) != 0u)   // the host reads the map
+#define PAPER ((MODE & 128u) != 0u)     // the paper's style, which shows densities only
+#define HEIGHTS ((MODE & 160u) != 128u) // heights are needed: not the paper's style, or the host reads the map
+#define MASKED ((MODE & 512u) != 0u)    // (paper) there may be cells without glass
+#define FEW_STEPS ((MODE & 256u) != 0u) // at most VIRGA_GLASS_FEW_STEPS steps of compression
 #else
 #define DENSITY look.density
 #endif
 
-// Where each ends, in radii. Murakami's is 0.5 at 1 - 1 / sqrt(3) of its own radius of influence, Wyvill's at
+// Where each function ends, in radii. Murakami's is 0.5 at 1 - 1 / sqrt(3) of its own radius of influence, Wyvill's at
 // sqrt(1 - sqrt(1/2)), Nishimura's at 1/2.
 float density_reach()
 {
     return DENSITY == DENSITY_MURAKAMI    ? 2.3660254
            : DENSITY == DENSITY_WYVILL    ? 1.8477591
            : DENSITY == DENSITY_NISHIMURA ? 2.0
-                                       : 2.0;
+                                          : 2.0;
 }
 
-// 1 up to two thirds of the reach, then smoothly to 0: a function that were cut off would show as an edge on its
-// neighbours.
+// Window: 1 up to two thirds of the reach, then smoothly to 0. Without it the end of a function would show as an edge
+// on neighbouring drops.
 float density_window(float x2, float reach)
 {
     const float t = clamp((x2 / (reach * reach) - 4.0 / 9.0) * (9.0 / 5.0), 0.0, 1.0);
@@ -38,7 +38,7 @@ float density_window(float x2, float reach)
 
 float density_at(float x2, float reach)
 {
-    const float y2 = x2 / (reach * reach); // over the radius of influence
+    const float y2 = x2 / (reach * reach); // distance / radius of influence, squared
     if (y2 >= 1.0)
         return 0.0;
     if (DENSITY == DENSITY_GOTO)
@@ -50,11 +50,11 @@ float density_at(float x2, float reach)
         return y < 1.0 / 3.0 ? 1.0 - 3.0 * y2 : 1.5 * (1.0 - y) * (1.0 - y); // equation 3
     }
     if (DENSITY == DENSITY_WYVILL)
-        return (1.0 - y2) * (1.0 - y2); // equation 4
+        return (1.0 - y2) * (1.0 - y2);                                   // equation 4
     return 1.0 + y2 * (-22.0 / 9.0 + y2 * (17.0 / 9.0 - 4.0 / 9.0 * y2)); // equation 5 with its missing term
 }
 
-// x^2 of a ball alone where it has the density v: the above turned around. Past the middle (v > 1) it is 0.
+// The inverse: x^2 at which a single ball has the density v; 0 for v > 1.
 float density_inverse(float v)
 {
     v = clamp(v, 1e-4, 1.0);
@@ -69,7 +69,8 @@ float density_inverse(float v)
     }
     if (DENSITY == DENSITY_WYVILL)
         return reach2 * (1.0 - sqrt(v));
-    // Newton's steps towards the root of the cubic, from the line through the middle and the edge, where it is exact.
+    // Newton's method for the root of the cubic. It starts on the line through the middle and the edge, where the line
+    // is exact.
     float y2 = 0.5 * (1.0 - v);
     for (int i = 0; i < 4; i++) {
         const float f = 1.0 - v + y2 * (-22.0 / 9.0 + y2 * (17.0 / 9.0 - 4.0 / 9.0 * y2));
@@ -80,13 +81,13 @@ float density_inverse(float v)
 }
 
 #ifdef DENSITY_SPECIAL
-// Goto et al. 2009, equation 2, so many times with a rising V0. A loop of known length: see Texel in
-// height.glsl.
-#define MOST_STEPS (FEW_STEPS ? VIRGA_GLASS_FEW_STEPS : 16u)
+// Compression: Goto et al. 2009, equation 2, repeated with a rising V0. The loop has a constant length; Texel in
+// height.glsl says why.
+#define MAX_STEPS (FEW_STEPS ? VIRGA_GLASS_FEW_STEPS : 16u)
 float compressed(float v)
 {
     float from = look.compress_from;
-    for (uint i = 0u; i < MOST_STEPS; i++) {
+    for (uint i = 0u; i < MAX_STEPS; i++) {
         v -= (i < look.compress_steps ? 1.0 - look.compress_k : 0.0) * max(v - from, 0.0);
         from += look.compress_step;
     }

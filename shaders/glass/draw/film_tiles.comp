@@ -1,4 +1,5 @@
-// film_tiles.comp - in blocks that have film with a shape: the tiles of its cells learn that they have it to show.
+// film_tiles.comp - marks the tiles that have film with a shape.
+// One workgroup per block of cells that has such film. Reads: film. Writes: the tiles' flags.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,7 +16,7 @@ bool has_shape(uint number)
     return film[number] != 0u && ((look.sheets != 0u && fresh > 0.0) || shapes.x + shapes.y > 0.0);
 }
 
-void mark(uvec2 cell)
+void mark_tiles(uvec2 cell)
 {
     const float reach_m = 1.6 * look.pane.cell_m;
     ivec2 first, last;
@@ -27,11 +28,12 @@ void mark(uvec2 cell)
 
 void main()
 {
-    const uint block = wet[2u * look.max_tiles + gl_WorkGroupID.x], side = VIRGA_GLASS_MIST_BLOCK * look.mist_cells;
+    const uint block = work_list[2u * look.max_tiles + gl_WorkGroupID.x],
+               side = VIRGA_GLASS_MIST_BLOCK * look.mist_cells;
     const uvec2 corner = uvec2(block & 0xffffu, block >> 16) * side;
     for (uint i = gl_LocalInvocationIndex; i < side * side; i += 64u) {
         const uvec2 cell = corner + uvec2(i % side, i / side);
         if (cell.x < look.pane.columns && cell.y < look.pane.rows && has_shape(cell.x + cell.y * look.pane.columns))
-            mark(cell);
+            mark_tiles(cell);
     }
 }

@@ -1,34 +1,33 @@
-// height_film.glsl - what film gives a tile of the height map: the sheet on its cells; beads with a shape,
-// which are added as balls like those of drops; and the mist's map. After the buffers, texels and add() of
-// height.glsl.
+// height_film.glsl - what film adds to a tile of the height map: the sheet on its cells, beads with a shape (added as
+// balls like those of drops), and the mist map. Include it after the buffers, texels and add() of height.glsl.
 
-// Thickness of the sheet on a cell. Without a branch: in one, software Vulkan reads lane by lane.
+// Thickness of the sheet on a cell. Without a branch: inside a branch software Vulkan reads lane by lane.
 float sheet_m(ivec2 cell)
 {
-    const ivec2 most = ivec2(look.pane.columns, look.pane.rows) - 1, near = clamp(cell, ivec2(0), most);
-    const uint number = uint(near.x) + uint(near.y) * look.pane.columns;
+    const ivec2 last = ivec2(look.pane.columns, look.pane.rows) - 1, clamped = clamp(cell, ivec2(0), last);
+    const uint number = uint(clamped.x) + uint(clamped.y) * look.pane.columns;
     const float nl = float(film[number]) * film_fresh(passed[number]);
-    return cell == near ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
+    return cell == clamped ? nl * 1e-12 / (look.pane.cell_m * look.pane.cell_m) : 0.0;
 }
 
-// Between the middles of four cells; of the nearest where cells are smaller than texels.
-float sheet_at(vec2 place)
+// Interpolated between the centers of four cells; the nearest cell where cells are smaller than texels.
+float sheet_at(vec2 point)
 {
     if (!FILM)
         return 0.0;
-    const bool wide = look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]);
-    const vec2 at = place / look.pane.cell_m - 0.5, low = wide ? floor(at) : floor(at + 0.5);
-    const vec2 t = wide ? at - low : vec2(0.0);
+    const bool interpolate = look.pane.cell_m >= max(look.texel_m[0], look.texel_m[1]);
+    const vec2 at = point / look.pane.cell_m - 0.5, low = interpolate ? floor(at) : floor(at + 0.5);
+    const vec2 t = interpolate ? at - low : vec2(0.0);
     const ivec2 cell = ivec2(low);
     return mix(mix(sheet_m(cell), sheet_m(cell + ivec2(1, 0)), t.x),
                mix(sheet_m(cell + ivec2(0, 1)), sheet_m(cell + ivec2(1, 1)), t.x), t.y);
 }
 
-// Beads with a shape of the tile's cells, and of those beside it.
+// Loads the beads with a shape, of the tile's cells and of those beside it.
 void load_beads(ivec2 tile)
 {
     const ivec2 corner = ivec2(floor(vec2(tile) * tile_m() / look.pane.cell_m)) - 1;
-    const ivec2 span = min(ivec2(floor(vec2(tile + 1) * tile_m() / look.pane.cell_m)) + 2 - corner, ivec2(MOST_CELLS));
+    const ivec2 span = min(ivec2(floor(vec2(tile + 1) * tile_m() / look.pane.cell_m)) + 2 - corner, ivec2(MAX_CELLS));
     const ivec2 size = ivec2(look.pane.columns, look.pane.rows);
     for (uint i = gl_LocalInvocationIndex; i < uint(span.x * span.y); i += LANES) {
         const ivec2 cell = corner + ivec2(int(i) % span.x, int(i) / span.x);
@@ -56,15 +55,15 @@ void add_beads(ivec2 tile)
     }
 }
 
-// (map) What the mist's map has there, as the draw of it filters it.
+// (If the host reads the map) the mist map there, filtered as the draw filters it.
 float film_mist(ivec2 texel)
 {
     if (!WITH_MAP)
         return 0.0;
-    const vec2 most = vec2(look.mist_columns, look.mist_rows) - 1.0;
+    const vec2 last_texel = vec2(look.mist_columns, look.mist_rows) - 1.0;
     const vec2 at = clamp((vec2(texel) + 0.5) * texel_m() / (look.pane.cell_m * float(look.mist_cells)) - 0.5,
-                          vec2(0.0), most);
-    const uvec2 low = uvec2(at), high = min(low + 1u, uvec2(most));
+                          vec2(0.0), last_texel);
+    const uvec2 low = uvec2(at), high = min(low + 1u, uvec2(last_texel));
     vec4 four;
     for (uint i = 0u; i < 4u; i++) {
         const uvec2 from = uvec2((i & 1u) != 0u ? high.x : low.x, (i & 2u) != 0u ? high.y : low.y);

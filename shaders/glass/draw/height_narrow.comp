@@ -1,5 +1,6 @@
-// height_narrow.comp - the height map, for software Vulkan with few lanes to a subgroup: a lane for each column
-// of a tile. The same bits.
+// height_narrow.comp - the height map, for software Vulkan with eight lanes or fewer in a subgroup. The same bits as
+// height.comp.
+// One workgroup per tile, one invocation per column. Reads and writes: see height.comp.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// height_shuffle.comp - the height map, balls handed around by shuffles, for software Vulkan with more lanes
-// to a subgroup than eight. The same bits.
+// height_shuffle.comp - the height map with balls passed on by subgroup shuffles, for software Vulkan with more than
+// eight lanes in a subgroup. The same bits as height.comp.
+// One workgroup per tile, one invocation per texel. Reads and writes: see height.comp.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,4 @@
-// mask.glsl - which texels of the height map are of glass. The includer says in MASKED whether there may be
-// others.
+// mask.glsl - which texels of the height map are glass. The includer defines MASKED: whether there may be others.
 layout(scalar, set = 0, binding = 4) readonly buffer Surface { uint surface[]; };
 
 bool is_glass(ivec2 texel)

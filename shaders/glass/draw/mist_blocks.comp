@@ -1,5 +1,5 @@
-// mist_blocks.comp - the list of the mist map's blocks that may have film, a lane for each block. All others are
-// empty.
+// mist_blocks.comp - lists the blocks of the mist map that may have film; all others are empty.
+// One invocation per block. Reads: flags of blocks of cells. Writes: the work list, dispatch and draw arguments.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,9 +9,13 @@
 #include "glass/film_blocks.glsl"
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
-layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; uint wet[]; };
+layout(scalar, set = 0, binding = 18) buffer Work
+{
+    virga_glass_work_gpu work;
+    uint work_list[];
+};
 
-// A texel is mist_cells x mist_cells cells, so a block is as many blocks of cells.
+// A texel of the mist map covers mist_cells x mist_cells cells, so its block covers as many blocks of cells.
 bool may_have_film(uvec2 block)
 {
     const uvec2 counts = film_block_counts(), first = block * look.mist_cells;
@@ -35,5 +39,5 @@ void main()
     }
     const uvec2 block = uvec2(i % columns, i / columns);
     if (i < columns * rows && may_have_film(block))
-        wet[3u * look.max_tiles + look.max_blocks + atomicAdd(work.mist_groups[0], 1u)] = block.x | block.y << 16;
+        work_list[3u * look.max_tiles + look.max_blocks + atomicAdd(work.mist_groups[0], 1u)] = block.x | block.y << 16;
 }

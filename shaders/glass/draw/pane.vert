@@ -1,4 +1,5 @@
-// pane.vert - corners of the tiles that have water to show.
+// pane.vert - vertices of the tiles that show water.
+// One invocation per vertex of a tile's quad. Reads: quads, nodes, the view. Writes: position, directions, light.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,4 +9,4 @@
 #include "corner_tile.glsl"
 #include "corner_light.glsl"
 
-void main() { light_corner(place_tile_corner(uint(gl_VertexIndex))); }
+void main() { light_corner(emit_tile_corner(uint(gl_VertexIndex))); }

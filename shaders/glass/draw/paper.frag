@@ -1,6 +1,7 @@
-// paper.frag - drops as Goto et al. 2009 show them (section 5.4): the plate, from a copy of 64 x 64 texels,
-// displaced by the
-// normal. Premultiplied.
+// paper.frag - drops as in the paper: the plate, from a copy of 64 x 64 texels, displaced by the normal. Premultiplied.
+// One invocation per pixel of a tile with water. Reads: densities, the plate's copies. Writes: radiance, motion,
+// reactive.
+// Paper: Goto et al. 2009, section 5.4.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,11 +19,11 @@ layout(location = 0) out vec4 radiance;
 void main()
 {
     const Water water = water_by_density();
-    const vec2 pixel = paper_pixel(gl_FragCoord.xy, water.slope, pane_ways);
+    const vec2 pixel = paper_pixel(gl_FragCoord.xy, water.slope, pane_directions);
 #ifdef TEMPORAL
-    const mat2 change = mat2(dFdx(pixel), dFdy(pixel)); // while all pixels of a quad are there
+    const mat2 change = mat2(dFdx(pixel), dFdy(pixel)); // before the discard: derivatives need all pixels of a quad
 #endif
-    if (water.cover + water.mist <= 0.0 || behind_scene())
+    if (water.cover + water.mist <= 0.0 || is_behind_scene())
         discard;
     const vec2 mirrored = view_box.xy + paper_uv(pixel) * view_box.zw;
     const vec3 light = HAS_PLATE ? copy_at(mirrored / plate_size(), VIRGA_GLASS_COPY_PAPER)

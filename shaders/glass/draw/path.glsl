@@ -1,25 +1,25 @@
-// path.glsl - rays from the eye through pane and water: where they come from.
+// path.glsl - rays from the eye through pane and water: where the light comes from.
 
-#define WATER    1.333
-#define OWN_M    0.001 // what is nearer to the pane lies in it: a frame
-#define EDGE_STEPS 8  // halvings of the way to an edge
+#define WATER 1.333
+#define FRAME_M 0.001 // what is nearer to the pane is part of it: a frame
+#define EDGE_STEPS 8  // bisection steps towards an edge
 
-// A ray that has passed, or been thrown back.
+// A ray that was refracted, or reflected back.
 struct Path {
-    vec3 normal;    // of the water, outward
-    vec3 out_of;    // direction it leaves the pane in, unit length; also the reflected one's where all is
-    vec3 mirrored;  // direction that the water reflects from
-    float reflects; // share of the light
-    bool total;     // none passes
-    float lost;     // (total) how far it is from passing: 0 nearly, 1 at all
-    vec3 from;      // place that it leaves the pane at, relative to the camera
-    bool ahead;     // before the camera
-    bool hidden;    // what it meets is hidden on the picture, by what lies on the eye's side of the pane
-    vec2 pixel;     // of the picture, that it meets; (hidden) that is shown instead
-    float pixels;   // of the picture, that one of ours shows
+    vec3 normal;    // of the water's surface, outward
+    vec3 out_of;    // unit direction in which it leaves the pane; the reflected direction if `total`
+    vec3 mirrored;  // direction whose light the surface reflects
+    float reflects; // reflected part of the light
+    bool total;     // total reflection
+    float lost;     // (total) 0: nearly refracted, 1: far from it
+    vec3 from;      // point where it leaves the pane, relative to the camera
+    bool ahead;     // it exits in front of the camera
+    bool hidden;    // what it meets is hidden on the picture by something on the eye's side of the pane
+    vec2 pixel;     // the pixel that it meets; (hidden) the pixel that is shown instead
+    float pixels;   // how many pixels of the picture one pixel shows
 };
 
-// Unpolarised light that meets a surface at the angles with these cosines, from an index `n1` into `n2` (Fresnel).
+// Fresnel reflectance of unpolarised light, from an index n1 into n2, at angles with these cosines.
 float fresnel(float cos1, float cos2, float n1, float n2)
 {
     const float s = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
@@ -27,23 +27,21 @@ float fresnel(float cos1, float cos2, float n1, float n2)
     return 0.5 * (s * s + p * p);
 }
 
-// Distance of the scene along the pixel's own ray, or 0 for far away.
+// Distance of the scene along the pixel's own ray; 0: far away.
 float scene_distance(vec3 d)
 {
     const float stored = HAS_DEPTH ? buffer_depth(gl_FragCoord.xy) : view.far_depth;
     if (stored == view.far_depth)
         return 0.0;
     const vec3 ahead = to_vec(view.ahead);
-    // `ahead` has the length 1 along the camera's axis, and what lens shift adds across it.
+    // `ahead` has the length 1 along the camera's axis, plus what lens shift adds across it.
     const vec3 axis = normalize(cross(to_vec(view.right), to_vec(view.up)));
     return view_depth(stored) * abs(dot(ahead, axis)) / max(abs(dot(d, axis)), 1e-4);
 }
 
-// From behind the pane: air, glass, water, air. The flat faces are parallel, so the ray is in the water as if there
-// were no
-// glass, only that the glass has shifted it. One that is thrown back goes on as the last that passes would, along the
-// surface:
-// what it shows is `lost` by how far it is beyond that.
+// From behind the pane: air, glass, water, air. The flat faces are parallel, so the direction in the water is as if
+// there were no glass; the glass only shifts the ray. A ray that is totally reflected continues in the direction of the
+// last one that is not, along the surface; `lost` says how far it is beyond that.
 void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
 {
     const vec3 in_water = refract(d, -flat_normal, 1.0 / WATER);
@@ -54,14 +52,14 @@ void pass_outward(inout Path path, vec3 d, vec3 flat_normal)
     path.lost = clamp(-6.0 * k, 0.0, 1.0);
     path.out_of = normalize(WATER * in_water + (cos_out - WATER * cos_in) * n);
     path.reflects = path.total ? 0.0 : fresnel(cos_in, cos_out, WATER, 1.0);
-    path.mirrored = reflect(d, n); // the glass between bends it little, and what it shows is faint
+    path.mirrored = reflect(d, n); // the glass between has little effect, and this reflection is faint
 }
 
-// From before the pane: air, water, glass, air.
+// From the front of the pane: air, water, glass, air.
 void pass_inward(inout Path path, vec3 d, vec3 flat_normal)
 {
     vec3 n = path.normal;
-    n = dot(n, d) < -0.02 ? n : normalize(n - d * (dot(n, d) + 0.02)); // the far side of a steep drop is not seen
+    n = dot(n, d) < -0.02 ? n : normalize(n - d * (dot(n, d) + 0.02)); // the far side of a steep drop is not visible
     const vec3 in_water = refract(d, n, 1.0 / WATER);
     path.reflects = fresnel(-dot(d, n), -dot(in_water, n), 1.0, WATER);
     path.mirrored = reflect(d, n);
@@ -72,7 +70,7 @@ void pass_inward(inout Path path, vec3 d, vec3 flat_normal)
     path.reflects = path.total ? 0.0 : path.reflects;
 }
 
-// Snell, in the direction only.
+// How far the glass shifts a ray sideways.
 vec3 glass_shift(vec3 d, vec3 flat_normal)
 {
     const vec3 n = dot(d, flat_normal) > 0.0 ? flat_normal : -flat_normal;
@@ -80,68 +78,71 @@ vec3 glass_shift(vec3 d, vec3 flat_normal)
     return look.thickness_m * (in_glass / max(dot(in_glass, n), 0.1) - d / max(dot(d, n), 0.1));
 }
 
-// What lies on the eye's side of the pane, taken as flat, or in it: pillars, a dashboard, the pane's frame, who sits
-// there. A ray that has passed the pane can not meet them.
+// What is on the eye's side of the pane (taken as flat) or in it: pillars, a dashboard, the pane's frame, passengers. A
+// ray that has left the pane can not meet them.
 struct Inside {
-    vec3 facing; // the way out through the pane, along the picture's right, its up and the camera's axis
-    float reach; // m along it from the eye
-    vec3 depth;  // depth_a, depth_b and far_depth of the view: read once, as software Vulkan does it lane by lane
+    vec3 facing; // direction out through the pane, in the camera's right, up and ahead
+    float reach; // distance of the pane from the eye along it, m
+    // depth_a, depth_b and far_depth of the view: read once, because software Vulkan reads them lane by lane
+    vec3 depth;
 };
 
 Inside inside_of_pane(vec3 d)
 {
     const vec3 normal = cross(along_u, along_v), out_of = normal * sign(dot(d, normal));
     return Inside(vec3(dot(to_vec(view.right), out_of), dot(to_vec(view.up), out_of), dot(to_vec(view.ahead), out_of)),
-                  dot(position, out_of) + OWN_M, vec3(view.depth_a, view.depth_b, view.far_depth));
+                  dot(position, out_of) + FRAME_M, vec3(view.depth_a, view.depth_b, view.far_depth));
 }
 
-// How far out through the pane the ray through a pixel comes with each metre of view depth.
-float way_out(Inside inside, vec2 pixel)
+// How far the ray through a pixel comes out through the pane per metre of view depth.
+float exit_rate(Inside inside, vec2 pixel)
 {
     return dot(inside.facing, vec3((pixel - view_box.xy) / view_box.zw * 2.0 - 1.0, 1.0));
 }
 
-// Whether that is what the picture has at a pixel.
-bool is_inside(Inside inside, vec2 pixel, float way_out)
+// Whether the picture shows something on the eye's side at a pixel.
+bool hides_exit(Inside inside, vec2 pixel, float exit_rate)
 {
     const float stored = buffer_depth(min(pixel, view_box.xy + view_box.zw - 1.0));
-    return stored != inside.depth.z && inside.depth.y / (inside.depth.x + stored) * way_out < inside.reach;
+    return stored != inside.depth.z && inside.depth.y / (inside.depth.x + stored) * exit_rate < inside.reach;
 }
 
-// The picture has nothing of what lies behind that. What is beside it is shown there: on the way from this pixel, which
-// shows what is beyond the pane, to that where the ray would be, it is mirrored at the edge.
-void show_beside(inout Path path, Inside inside)
+// The picture does not contain what is hidden there, so what is beside it is shown instead. Along the line from this
+// pixel, which shows something beyond the pane, to the pixel of the exit, the picture is mirrored at the edge of what
+// hides it.
+void mirror_at_edge(inout Path path, Inside inside)
 {
-    const vec2 here = gl_FragCoord.xy, there = nearest_in(path.pixel), way = there - here;
-    const float out_here = way_out(inside, here), out_there = way_out(inside, there);
+    const vec2 here = gl_FragCoord.xy, exit_pixel = nearest_in(path.pixel), path_px = exit_pixel - here;
+    const float out_here = exit_rate(inside, here), out_there = exit_rate(inside, exit_pixel);
     float open = 0.0, closed = 1.0;
     for (int i = 0; i < EDGE_STEPS; i++) {
         const float middle = 0.5 * (open + closed);
-        const bool hidden = is_inside(inside, here + middle * way, mix(out_here, out_there, middle));
+        const bool hidden = hides_exit(inside, here + middle * path_px, mix(out_here, out_there, middle));
         open = hidden ? open : middle;
         closed = hidden ? middle : closed;
     }
-    const float far = length(way), edge = open * far, beyond = far - edge;
-    // Not so wide, nor so near to the edge, that anything of what is inside comes in: a copy's texels reach half as far
-    // again.
-    const float most = max(min(MIRRORED * view_box.w, edge), 1e-3), back = most * beyond / (most + beyond);
+    const float length_px = length(path_px), edge = open * length_px, beyond = length_px - edge;
+    // Neither so wide nor so close to the edge that what is inside gets into the look-up: a copy's texels reach half as
+    // far again.
+    const float max_back = max(min(MIRRORED * view_box.w, edge), 1e-3), back = max_back * beyond / (max_back + beyond);
     path.pixels = min(max(path.pixels, 0.5 * back), edge / 1.5);
-    path.pixel = here + way * (max(edge - max(back, 1.5 * path.pixels), 0.0) / max(far, 1e-3));
+    path.pixel = here + path_px * (max(edge - max(back, 1.5 * path.pixels), 0.0) / max(length_px, 1e-3));
 }
 
-void find_pixel(inout Path path, vec3 d, float distance)
+void project_exit(inout Path path, vec3 d, float distance)
 {
-    const vec3 place_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
-    path.ahead = on_picture(distance > 0.0 ? vec4(place_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
+    const vec3 met_at = path.from + path.out_of * max(distance - length(path.from), 0.0);
+    path.ahead = on_picture(distance > 0.0 ? vec4(met_at, 1.0) : vec4(path.out_of, 0.0), path.pixel);
     const Inside inside = inside_of_pane(d);
-    const vec2 there = nearest_in(path.pixel);
-    path.hidden = path.ahead && is_inside(inside, there, way_out(inside, there));
+    const vec2 exit_pixel = nearest_in(path.pixel);
+    path.hidden = path.ahead && hides_exit(inside, exit_pixel, exit_rate(inside, exit_pixel));
     if (path.hidden)
-        show_beside(path, inside);
+        mirror_at_edge(path, inside);
 }
 
-// On a surface that is not glass: the place on it that is seen through water so high, displaced along the surface.
-void find_under(inout Path path, vec3 d, vec3 flat_normal, float height)
+// On a surface that is not glass: the point of the surface that is seen through water of this height, displaced along
+// the surface.
+void look_under(inout Path path, vec3 d, vec3 flat_normal, float height)
 {
     vec3 n = path.normal;
     n = dot(n, d) < -0.02 ? n : normalize(n - d * (dot(n, d) + 0.02));
@@ -155,7 +156,7 @@ void find_under(inout Path path, vec3 d, vec3 flat_normal, float height)
     path.ahead = on_picture(vec4(path.from + under, 1.0), path.pixel);
 }
 
-// From the side that the pane is seen from.
+// From whichever side the pane is seen.
 void pass_through(inout Path path, vec3 d, vec3 flat_normal)
 {
     if (SIDE == VIRGA_GLASS_DRAW_BEHIND)
@@ -168,7 +169,7 @@ void pass_through(inout Path path, vec3 d, vec3 flat_normal)
         pass_inward(path, d, flat_normal);
 }
 
-// On what is not glass: `opaque` as the pipeline or the settings say.
+// `opaque`: the surface is not glass, by the pipeline or the settings.
 Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
 {
     const vec3 flat_normal = cross(along_u, along_v);
@@ -178,16 +179,16 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     path.hidden = false;
     path.pixels = 1.0;
     if (opaque) {
-        find_under(path, d, flat_normal, water.height);
+        look_under(path, d, flat_normal, water.height);
         return path;
     }
-    // Rays of neighbouring pixels spread by (n - 1) x the change of the slope from one to the next.
+    // Rays of neighbouring pixels diverge by (n - 1) times the change of slope from one pixel to the next.
     path.pixels += (WATER - 1.0) * water.bend * pixel_m / gain_angle.y;
     if (HAS_DEPTH)
         path.from += glass_shift(d, flat_normal);
     pass_through(path, d, flat_normal);
     if (HAS_DEPTH)
-        find_pixel(path, d, scene_distance(d));
+        project_exit(path, d, scene_distance(d));
     else
         path.ahead = on_picture(vec4(path.out_of, 0.0), path.pixel);
     return path;

@@ -1,28 +1,27 @@
-// plate.glsl - the plate behind the pane, looked up sharp, or in smaller copies where a drop shows much of
-// it in little.
+// plate.glsl - look-ups of the plate behind the pane: sharp, or in smaller copies where a drop shows much of it in few
+// pixels.
 #include "copies.glsl"
 
 layout(set = 0, binding = 16) uniform sampler2D scene_color;
 
 vec2 plate_size() { return vec2(textureSize(scene_color, 0)); }
 
-// The mean over about so many pixels a side around a place of the picture.
+// The mean over about `pixels` x `pixels` pixels of the picture.
 vec3 plate_at(vec2 pixel, float pixels)
 {
     const vec2 uv = pixel / plate_size();
     const float copied = max(max(plate_size().x, plate_size().y) / float(VIRGA_GLASS_COPY), 1.0);
     const float level = log2(max(pixels / copied, 1e-3));
-    // One copy, the nearest: drops are too small to show where one gives way to the next.
+    // Only the nearest copy: drops are too small to show the border between two levels.
     const float sharp = copied > 1.0 ? clamp(-level / log2(copied), 0.0, 1.0) : level < 0.0 ? 1.0 : 0.0;
     const int nearest = clamp(int(level + 0.5), 0, VIRGA_GLASS_COPY_LEVELS - 1);
     return mix(copy_at(uv, nearest), textureLod(scene_color, uv, 0.0).rgb, sharp);
 }
 
 #ifndef PAPER
-#define MIRRORED 0.2 // of the picture, along its borders: what is shown beyond them
+#define MIRRORED 0.2 // part of the picture along its borders that is shown beyond them
 
-// Where a place relative to the camera (w = 1), or a direction (w = 0), is on the picture; false: not before the
-// camera.
+// Projects a point relative to the camera (w = 1) or a direction (w = 0) to a pixel. False: behind the camera.
 bool on_picture(vec4 where, out vec2 pixel)
 {
     const vec4 low = clip_xy[0], high = clip_xy[1];
@@ -32,22 +31,23 @@ bool on_picture(vec4 where, out vec2 pixel)
     return clip.z > 1e-5;
 }
 
-// The place itself, or beyond the picture's borders one within them: mirrored, and drawn together towards the border.
+// The pixel itself, or for one beyond the picture's borders a pixel within: mirrored, and compressed towards the
+// border.
 vec2 nearest_in(vec2 pixel)
 {
     const vec2 uv = (pixel - view_box.xy) / view_box.zw, within = clamp(uv, 0.0, 1.0), beyond = uv - within;
     return view_box.xy + (within - MIRRORED * beyond / (MIRRORED + abs(beyond))) * view_box.zw;
 }
 
-// What lies there: the picture; beyond its borders what is within them, the wider spread the farther out; and from half
-// a picture beyond them on, more and more, the environment.
-vec3 seen(bool ahead, vec2 pixel, vec3 direction, float pixels)
+// The light there: the picture; beyond its borders the mirrored picture, more blurred the farther out; and from half a
+// picture beyond the borders on, more and more the environment.
+vec3 scene_light(bool ahead, vec2 pixel, vec3 direction, float pixels)
 {
     const vec3 around = environment(direction, vec2(1.0));
     if (tint_given.w == 0.0 || !ahead)
         return around;
     const vec2 beyond = max(abs((pixel - view_box.xy) / view_box.zw - 0.5) - 0.5, vec2(0.0));
-    const float wide = max(pixels, 0.5 * length(beyond * view_box.zw));
-    return mix(plate_at(nearest_in(pixel), wide), around, smoothstep(0.5, 1.5, length(beyond)));
+    const float blur_px = max(pixels, 0.5 * length(beyond * view_box.zw));
+    return mix(plate_at(nearest_in(pixel), blur_px), around, smoothstep(0.5, 1.5, length(beyond)));
 }
 #endif

@@ -1,6 +1,7 @@
-// plate_copy.comp - the plate as 256 x 256 texels, each the mean of its part: by as many whole pixels as it has. A
-// workgroup has a row of them, so that a processor reads a few rows of the plate from end to end: squares, which jump
-// from row to row of it, took half as long again.
+// plate_copy.comp - copies the plate to 256 x 256 texels, each the mean of the pixels of its part. A workgroup has one
+// row of texels: so a CPU reads a few rows of the plate from end to end. Square workgroups, which jump from row to row,
+// took half as long again.
+// One invocation per texel. Reads: the plate. Writes: the largest copy.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

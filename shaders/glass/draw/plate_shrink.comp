@@ -1,6 +1,6 @@
-// plate_shrink.comp - from the plate's largest copy all smaller ones, by halves, in one pass: a workgroup has 64 x
-// 64 texels
-// of it. They lie side by side to the right: 128 at the top, below it 64, 32, 16, 8 and 4.
+// plate_shrink.comp - all smaller copies of the plate, each half as wide, in one pass. They lie to the right of the
+// largest: 128 at the top, below it 64, 32, 16, 8 and 4.
+// One workgroup per 64 x 64 texels of the largest copy. Reads: the largest copy. Writes: the smaller ones.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// refraction.frag - where drops have the plate looked up, for a compositor: pixels to the right and down,
-// and coverage.
+// refraction.frag - where drops look up the plate, for a host's compositor: the offset in pixels (to the right and
+// down) and coverage.
+// One invocation per pixel of a tile with water. Reads: the relief map or densities. Writes: offsets and coverage.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,17 +18,17 @@ layout(location = 0) out vec4 offset_cover;
 void main()
 {
     Water water;
-    if (IN_PAPER) // a constant
+    if (IN_PAPER) // constant of the pipeline
         water = water_by_density();
     else
         water = water_here();
-    const float pixel_m = max(length(dFdx(place)), length(dFdy(place)));
-    if (water.cover <= 0.0 || behind_scene())
+    const float pixel_m = max(length(dFdx(pane_position)), length(dFdy(pane_position)));
+    if (water.cover <= 0.0 || is_behind_scene())
         discard;
     const vec3 d = normalize(position);
     vec2 pixel = gl_FragCoord.xy;
     if (IN_PAPER)
-        pixel = paper_pixel(pixel, water.slope, ways_on_picture(along_u, along_v));
+        pixel = paper_pixel(pixel, water.slope, directions_on_picture(along_u, along_v));
     else if (look.opaque == 0u || dot(d, cross(along_u, along_v)) < 0.0) {
         const Path path = path_through(d, water, pixel_m, look.opaque != 0u);
         pixel = path.ahead && !path.total ? path.pixel : pixel;

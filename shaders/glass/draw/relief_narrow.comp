@@ -1,5 +1,6 @@
-// relief_narrow.comp - what the draws read of the height map, for software Vulkan with eight lanes to a
-// subgroup: a lane for each column of a tile. The same bits.
+// relief_narrow.comp - the relief map, for software Vulkan with eight lanes in a subgroup. The same bits as
+// relief.comp.
+// One workgroup per tile, one invocation per column. Reads: the height map. Writes: the relief map.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

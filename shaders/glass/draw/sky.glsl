@@ -1,8 +1,8 @@
-// sky.glsl - for gpu/light.glsl: the environment's coefficients, fetched as texels of the view. Four words are
-// one fetch then; from a uniform buffer software Vulkan reads each word lane by lane in a fragment shader. They are too
-// many to come from corners.
+// sky.glsl - for gpu/light.glsl: the environment's coefficients, fetched as texels of the view. One fetch reads four
+// words; in a fragment shader software Vulkan reads each word of a uniform buffer lane by lane. They are too many for
+// flat inputs.
 #define SH_FETCHED
-layout(location = 12) flat in uint view_texel; // the view's first
+layout(location = 12) flat in uint view_texel; // first texel of the view
 layout(set = 0, binding = 28) uniform usamplerBuffer view_texels;
 
 vec3 sh_coefficient(uint i)

@@ -1,4 +1,4 @@
-// surface.glsl - what a pixel of the pane shows of the water there: coverage, slopes and curvature.
+// surface.glsl - the water at a pixel of the pane: coverage, slopes and curvature.
 #define SCENE_DEPTH_BINDING 15
 #include "gpu/scene_depth.glsl"
 #include "gpu/view.glsl"
@@ -6,21 +6,21 @@
 #include "mode.glsl"
 #define HAS_DEPTH ((DRAW_MODE & VIRGA_GLASS_DRAW_DEPTH) != 0u)
 #define HAS_LAMPS ((DRAW_MODE & VIRGA_GLASS_DRAW_LAMPS) != 0u)
-#define BY_HAND ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
+#define FILTER_IN_SHADER ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
 #define SIDE (DRAW_MODE & VIRGA_GLASS_DRAW_SIDE)
 
-// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, per metre. Alpha: above 0 the
-// share that water too small for a shape covers; below 0, in drops, the largest change of the slope (1/m), or on what
-// is not glass the height (m).
+// Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, per metre. Alpha: if positive,
+// the mist (the part covered by water that is too small for a shape); if negative, in drops, minus the largest change
+// of the slope (1/m), or on a surface that is not glass minus the height (m).
 layout(set = 0, binding = 12) uniform sampler2D relief_map;
 
-layout(location = 0) in vec2 place;
+layout(location = 0) in vec2 pane_position;
 layout(location = 1) in vec3 position;
 layout(location = 5) flat in vec4 map_grid; // these as in corner.glsl
 layout(location = 6) flat in vec4 view_box;
-layout(location = 7) flat in vec2 shown_by;
+layout(location = 7) flat in vec2 threshold_shift;
 #ifdef PAPER
-layout(location = 2) in vec4 pane_ways;
+layout(location = 2) in vec4 pane_directions;
 #else
 layout(location = 2) in vec3 along_u;
 layout(location = 3) in vec3 along_v;
@@ -33,30 +33,31 @@ layout(location = 13) flat in vec2 gain_angle;
 
 struct Water {
     float cover;  // of the pixel by drops and film that have a shape
-    float mist;   // and by water too small for one
+    float mist;   // by water too small for a shape
     float height; // m
     float density;
-    vec2 slope;   // of the height, or (paper) of the density, per metre
-    float bend;   // largest change of the slope, 1/m
+    vec2 slope; // of the height; (paper) of the density; per metre
+    float bend; // largest change of the slope, 1/m
 };
 
 vec2 last_texel() { return map_grid.zw; }
 
-// The pixel's place among the middles of texels.
-vec2 texels_here() { return clamp(place / map_grid.xy - 0.5, vec2(0.0), last_texel()); }
+// The pixel's position in texels, from the center of the first.
+vec2 texels_here() { return clamp(pane_position / map_grid.xy - 0.5, vec2(0.0), last_texel()); }
 
-// Not every device filters four whole floats.
+// Not every device filters textures of four 32-bit floats.
 vec4 relief_here()
 {
     const vec2 texels = texels_here(), low = floor(texels), t = texels - low;
-    if (!BY_HAND)
+    if (!FILTER_IN_SHADER)
         return textureLod(relief_map, (texels + 0.5) / vec2(textureSize(relief_map, 0)), 0.0);
-    const ivec2 at = ivec2(low), next = min(at + 1, ivec2(last_texel()));
-    return mix(mix(texelFetch(relief_map, at, 0), texelFetch(relief_map, ivec2(next.x, at.y), 0), t.x),
-               mix(texelFetch(relief_map, ivec2(at.x, next.y), 0), texelFetch(relief_map, next, 0), t.x), t.y);
+    const ivec2 at = ivec2(low), next_texel = min(at + 1, ivec2(last_texel()));
+    return mix(mix(texelFetch(relief_map, at, 0), texelFetch(relief_map, ivec2(next_texel.x, at.y), 0), t.x),
+               mix(texelFetch(relief_map, ivec2(at.x, next_texel.y), 0), texelFetch(relief_map, next_texel, 0), t.x),
+               t.y);
 }
 
-bool behind_scene()
+bool is_behind_scene()
 {
     if (!HAS_DEPTH)
         return false;
@@ -64,10 +65,10 @@ bool behind_scene()
     return stored != view.far_depth && view_depth(stored) < 0.9999 / gl_FragCoord.w;
 }
 
-// Over one pixel the rim goes from nothing to all.
+// The rim is one pixel wide: antialiased by the density's change per pixel.
 float cover_of(float density)
 {
-    return clamp((density - shown_by.x) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
+    return clamp((density - threshold_shift.x) / max(fwidth(density), 1e-4) + 0.5, 0.0, 1.0);
 }
 
 Water water_here()

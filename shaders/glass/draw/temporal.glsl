@@ -1,11 +1,10 @@
-// temporal.glsl - the motion of what drops show, for the forms with motion vectors or a reactive mask. After
-// plate.glsl and, but for the paper's style, path.glsl.
+// temporal.glsl - motion of what drops show, for variants with motion vectors or a reactive mask. Include it after
+// plate.glsl and, except in the paper's style, path.glsl.
 //
-// A drop shows the place q of the picture at the pixel p. Between p and its neighbours q changes by J, some tens of
-// pixels a pixel in a drop that shows all of the street. What is at q now was at q' in the previous frame's picture,
-// where the water that is at p now was at p0, and showed q0. There what is at q now was not at p0, but at
-// p0 + J^-1 (q' - q0). So a picture in a drop moves with the pane, and against it only by a small part of what the
-// scene does.
+// At the pixel p a drop shows the pixel q of the picture. Between p and its neighbours q changes by J, some tens of
+// pixels per pixel in a drop that shows a whole street. What is at q now was at q' in the previous frame's picture; the
+// water that is at p now was at p0 there, and showed q0. So what is at q now was not at p0 there, but at p0 + J^-1 (q'
+// - q0). The picture in a drop moves with the pane, and relative to it only by a small part of the scene's motion.
 #include "gpu/temporal.glsl"
 
 #if defined(MOTION) || defined(REACTIVE)
@@ -25,7 +24,7 @@ bool in_viewport(vec2 pixel)
     return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.viewport[2], view.viewport[3])));
 }
 
-// Where what is at a place of the picture was in the previous frame's: as the host says, or as what stands still does.
+// Where what a pixel shows was in the previous frame's picture: by the host's motion vectors, or as a still scene.
 vec2 scene_before(vec2 pixel)
 {
     const bool inside = in_viewport(pixel);
@@ -36,29 +35,30 @@ vec2 scene_before(vec2 pixel)
     }
     const float stored = HAS_DEPTH && inside ? buffer_depth(pixel) : view.far_depth;
     const vec3 ray = pixel_ray(pixel);
-    const vec4 place_at = stored == view.far_depth ? vec4(ray, 0.0) : vec4(ray * view_depth(stored), 1.0);
-    return pixel_of(to_mat(view.previous_clip_from_rel) * place_at);
+    const vec4 met_at = stored == view.far_depth ? vec4(ray, 0.0) : vec4(ray * view_depth(stored), 1.0);
+    return pixel_of(to_mat(view.previous_clip_from_rel) * met_at);
 }
 
 // Where the water of this pixel was.
 vec2 water_before() { return pixel_of(to_mat(look.previous_from_here) * vec4(position, 1.0)); }
 
-// How far the picture in the water moves against the water, looking back a frame: J^-1 (q' - q0). Where J is singular
-// the drop focuses, and shows of one place a patch: that stays. Next to it a vector is at most four times the scene's.
+// Motion of the picture in the water relative to the water, one frame back: J^-1 (q' - q0). Where J is singular the
+// drop focuses, and shows one point as a patch, which stays. Near that, the vector is limited to four times the
+// scene's.
 vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
 {
     const vec2 flow = scene_was - shown_was;
-    const float turn = determinant(change), most = 4.0 * length(flow);
-    if (abs(turn) < 0.05)
+    const float det = determinant(change), max_px = 4.0 * length(flow);
+    if (abs(det) < 0.05)
         return vec2(0.0);
     const vec2 moved = inverse(change) * flow;
-    const float far = length(moved);
-    return far > most ? moved * (most / max(far, 1e-6)) : moved;
+    const float length_px = length(moved);
+    return length_px > max_px ? moved * (max_px / max(length_px, 1e-6)) : moved;
 }
 
 #ifndef PAPER
-// What the pane's water showed at this place of it in the previous frame, by Snell: with the eye where it was. The
-// scene is taken to be as far away as now.
+// What this water showed in the previous frame, by Snell, with the eye where it was. The scene's distance is taken as
+// now.
 vec2 shown_before(Path path, vec3 d)
 {
     const vec3 flat_normal = cross(along_u, along_v), d_before = normalize(position - to_vec(look.eye_before));
@@ -69,22 +69,22 @@ vec2 shown_before(Path path, vec3 d)
     return pixel_of(to_mat(look.previous_from_here) * (distance > 0.0 ? vec4(met, 1.0) : vec4(before.out_of, 0.0)));
 }
 
-// Whether what shows at a pixel is what is seen through the water, and that is not fixed to the pane itself.
-bool moves_inside(Path path, Water water)
+// Whether a pixel shows the scene through the water, and not something fixed to the pane.
+bool shows_scene(Path path, Water water)
 {
     const bool opaque = SIDE == VIRGA_GLASS_DRAW_OPAQUE;
     return !opaque && path.ahead && !path.hidden && !path.total && path.reflects < 0.5 && water.cover >= water.mist;
 }
 #endif
 
-// `inside` from motion_in_water. The mask: water that moves against what is behind it leaves pixels, or comes into
-// them, whose history is of the other; and what moves in drops is known only about as well as they are. Where all keeps
-// still its history is as good as any.
+// `inside`: from motion_in_water. The reactive mask: water that moves relative to the background uncovers and covers
+// pixels whose history belongs to the other, and the motion inside drops is only approximate. Where nothing moves,
+// history is valid.
 void write_temporal(vec2 inside, float cover)
 {
-    const vec2 own = water_before() + inside - gl_FragCoord.xy;
-    WRITE_MOTION(clamp(own, vec2(-16384.0), vec2(16384.0)), cover);
+    const vec2 own_motion = water_before() + inside - gl_FragCoord.xy;
+    WRITE_MOTION(clamp(own_motion, vec2(-16384.0), vec2(16384.0)), cover);
     const vec2 behind = scene_before(gl_FragCoord.xy) - gl_FragCoord.xy;
-    WRITE_REACTIVE(cover * clamp(2.0 * max(length(inside), length(own - behind)), 0.0, 1.0), 1.0);
+    WRITE_REACTIVE(cover * clamp(2.0 * max(length(inside), length(own_motion - behind)), 0.0, 1.0), 1.0);
 }
 #endif

@@ -1,6 +1,7 @@
-// tile_list.comp - which tiles there is anything to do in, and where each one's list of balls begins. Numbers and
-// places are given in any order: nothing depends on it. Where all entries do not fit, tiles with more than an equal
-// share of the places are left out whole, so that what is seen does not depend on who came first either.
+// tile_list.comp - lists the tiles that need work, and gives each tile its range in the buffer of entries. The order is
+// not defined, and no result depends on it. If the entries of all tiles do not fit, tiles with more than an equal share
+// are left out as a whole, so that the picture does not depend on the order either.
+// One invocation per tile. Reads: the tiles' counts and flags. Writes: work lists, dispatch sizes, the tiles' ranges.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -24,8 +25,8 @@ void size_dispatch(bool with_film, uint count)
     }
 }
 
-// One lane for all of the workgroup.
-void take_places()
+// Called by one invocation for the workgroup.
+void allocate()
 {
     first_entry = atomicAdd(work.used, entries);
     first_listed[0] = atomicAdd(work.tiles, listed[0]);
@@ -46,27 +47,27 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         entries = cut = listed[0] = listed[1] = 0u;
     barrier();
-    const uint count = look.tile_columns * look.tile_rows, i = gl_GlobalInvocationID.x, there = min(i, count - 1u);
-    const uint held = written[there % look.tile_columns + there / look.tile_columns * look.written_columns];
-    const uint balls_there = tiles[there].count, film = tiles[there].film;
-    const bool fits = work.entries <= look.max_entries || balls_there <= look.max_entries / count;
-    const uint own = i < count && fits ? balls_there : 0u;
-    // A tile without water that had none before is as it was.
-    const bool wet_tile = i < count && (balls_there | film | held | look.whole_map) != 0u;
+    const uint count = look.tile_columns * look.tile_rows, i = gl_GlobalInvocationID.x, clamped = min(i, count - 1u);
+    const uint before_map = written[clamped % look.tile_columns + clamped / look.tile_columns * look.written_columns];
+    const uint ball_count = tiles[clamped].count, film = tiles[clamped].film;
+    const bool fits = work.entries <= look.max_entries || ball_count <= look.max_entries / count;
+    const uint entry_count = i < count && fits ? ball_count : 0u;
+    // A tile that has no water and had none before is unchanged.
+    const bool needed = i < count && (ball_count | film | before_map | look.whole_map) != 0u;
     uint entry = 0u, number = 0u;
-    if (wet_tile) {
-        entry = atomicAdd(entries, own);
+    if (needed) {
+        entry = atomicAdd(entries, entry_count);
         number = atomicAdd(listed[film], 1u);
         if (!fits)
-            atomicAdd(cut, balls_there);
+            atomicAdd(cut, ball_count);
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u)
-        take_places();
+        allocate();
     barrier();
-    if (wet_tile) {
-        wet[number + first_listed[film] + film * look.max_tiles] = i;
+    if (needed) {
+        work_list[number + first_listed[film] + film * look.max_tiles] = i;
         tiles[i].first = entry + first_entry;
-        tiles[i].count = own;
+        tiles[i].count = entry_count;
     }
 }

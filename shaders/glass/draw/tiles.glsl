@@ -1,26 +1,30 @@
-// tiles.glsl - balls, the tiles of the map that they reach, and how much there is to do.
-// In any order: what they come to is added up in whole numbers.
+// tiles.glsl - balls, the tiles of the height map that they reach, and the work lists. Lists are in any order, because
+// their entries are summed as integers.
 layout(scalar, set = 0, binding = 6) buffer Balls { virga_glass_ball_gpu balls[]; };
 layout(scalar, set = 0, binding = 7) buffer Tiles { virga_glass_tile_gpu tiles[]; };
-layout(scalar, set = 0, binding = 18) buffer Work { virga_glass_work_gpu work; uint wet[]; };
+layout(scalar, set = 0, binding = 18) buffer Work
+{
+    virga_glass_work_gpu work;
+    uint work_list[];
+};
 
 #define TILE VIRGA_GLASS_TILE
 
 vec2 tile_m() { return texel_m() * float(TILE); }
 
-// First and last tile that what lies within `reach_m` of a place reaches; none where the last lies before the first.
+// The first and the last tile within `reach_m` of a point. There are none if the last is before the first.
 void tiles_around(vec2 middle, float reach_m, out ivec2 first, out ivec2 last)
 {
-    const ivec2 most = ivec2(look.tile_columns, look.tile_rows) - 1;
+    const ivec2 last_tile = ivec2(look.tile_columns, look.tile_rows) - 1;
     first = max(ivec2(floor(clamp((middle - reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), ivec2(0));
-    last = min(ivec2(floor(clamp((middle + reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), most);
+    last = min(ivec2(floor(clamp((middle + reach_m) / tile_m(), vec2(-1.0), vec2(1e4)))), last_tile);
 }
 
 uint tile_number(uvec2 tile) { return tile.x + tile.y * look.tile_columns; }
 
-// Those of a ball, along u and along v: the first | how many << 16. Found out once, and kept with the ball: the pass
-// that sizes tiles' lists and the one that fills them have to agree, and two compilations of one formula may round
-// apart.
+// The tiles of a ball, along u and along v: the first | their count << 16. Computed once and kept with the ball: the
+// pass that sizes the tiles' lists and the one that fills them must agree, and two compilations of a formula may round
+// differently.
 uvec2 tiles_reached(vec2 middle, float reach_m)
 {
     ivec2 first, last;
@@ -28,7 +32,7 @@ uvec2 tiles_reached(vec2 middle, float reach_m)
     return uvec2(first) | uvec2(max(last - first + 1, ivec2(0))) << 16;
 }
 
-// A ball's reach: mist is spread over a texel.
+// A ball's reach. Mist is spread over one texel.
 float ball_reach(float radius_m, float density_reach)
 {
     return max(radius_m * density_reach, max(look.texel_m[0], look.texel_m[1]));

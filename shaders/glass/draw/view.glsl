@@ -1,4 +1,4 @@
-// view.glsl - what the passes that make and draw the height map share: the view, the settings, and little helpers.
+// view.glsl - what all passes of the height map and of the draws share: the view, the settings, and small helpers.
 #define VIRGA_GLSL
 #include "shared/compact.h"
 #include "shared/glass_picture_gpu.h"
@@ -20,9 +20,9 @@ layout(scalar, set = 0, binding = 0) uniform Picture
 
 vec2 texel_m() { return vec2(look.texel_m[0], look.texel_m[1]); }
 
-// Below half a texel's radius a drop has no shape, only a share of a texel that it covers; from one texel on it is
-// all shape.
+// How much of a drop is drawn as a shape: none below a radius of half a texel, where a drop only covers a part of a
+// texel (mist), and all from one texel on.
 float shape_share(float radius_m) { return smoothstep(0.5, 1.0, radius_m / max(look.texel_m[0], look.texel_m[1])); }
 
-// Radius of the base of a cap with so much water: water = drop_nl_of_m3 a^3.
+// Radius of the base of a spherical cap with this volume: drop_nl_of_m3 a^3.
 float cap_radius(float water_nl) { return pow(max(water_nl, 0.0) / look.drop_nl_of_m3, 1.0 / 3.0); }

@@ -1,4 +1,5 @@
-// active_compact.comp - the list of them.
+// active_compact.comp - list of active slots, third pass: writes their indices in the live list, particles first.
+// One invocation per live slot. Reads: picks. Writes: the active list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,4 +11,4 @@
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 
-void main() { list_pick(gl_GlobalInvocationID.x); }
+void main() { write_slot(gl_GlobalInvocationID.x); }

@@ -1,4 +1,6 @@
-// active_scan.comp - places that something happens to: as begin_tick.comp picked them from the list, particles first.
+// active_scan.comp - list of active slots, second pass (begin_tick.comp is the first): prefix sum, and the sizes of the
+// dispatches that follow.
+// One workgroup. Reads: picks, the host's impacts. Writes: picks, the list's head, state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -30,7 +32,7 @@ void main()
     const uint all = landing_count() + found.x + found.y + tick.blade_count * VIRGA_GLASS_BINS;
     state.seed_groups = groups_of(all);
     state.settle_groups = groups_of(max(all, state.alive));
-    for (uint i = 0u; i < VIRGA_GLASS_ROUNDS; i++) { // the round after a drop's last writes down where it came to
+    for (uint i = 0u; i < VIRGA_GLASS_ROUNDS; i++) { // one round more than moves: the last one records
         state.round_groups[3u * i] = i <= state.most_rounds ? state.awake_groups[0] : 0u;
         state.round_groups[3u * i + 1u] = state.round_groups[3u * i + 2u] = 1u;
     }

@@ -1,6 +1,8 @@
-// begin_tick.comp - a tick begins: drops dry, forces act on those that they may move, and each of these gets the way
-// that it
-// may go.
+// begin_tick.comp - begins a tick: drops evaporate, forces accelerate those that can move, and each of them gets the
+// distance that it may move in this tick.
+// One invocation per live slot. Reads: the live list, cells, blades. Writes: drops, picks (active slots; second kind:
+// particles), state.
+// Paper: Goto et al. 2009, section 4.1.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,103 +22,103 @@
 #undef listed
 #undef List
 
-shared uint evaporated, most_nl;
+shared uint evaporated, max_nl;
 
-// Water that a drop loses: tails shrink (Goto et al., 4.1), all dry.
+// Water that a drop loses: tails shrink (section 4.1), all drops evaporate.
 uint loss(uint water, uint kind, uint random, float a)
 {
     const float rate_nl_s =
         3.14159265 * a * a * ((kind & VIRGA_GLASS_TAIL) != 0u ? tick.shrink_nl_s : tick.evaporation_m_s * 1e12);
-    return min(round_by_chance(rate_nl_s * tick.tick_s, virga_hash3(random, tick.tick, 1u)), water);
+    return min(round_randomly(rate_nl_s * tick.tick_s, virga_hash3(random, tick.tick, 1u)), water);
 }
 
-// No force on the pane can set a drop in motion that is so small: most are, and need not look at their place.
+// Whether a drop is so small that no force on this pane can move it. Most are; they need not read their cell.
 bool is_stuck(float mass, float a)
 {
-    const float pulled = mass * tick.most_pull + tick.air_drag * a * a * tick.most_air * tick.most_air;
-    return pulled < tick.hold * a * LEAST_HOLD * (1.0 - tick.path_ease);
+    const float strongest = mass * tick.most_pull + tick.air_drag * a * a * tick.most_air * tick.most_air;
+    return strongest < tick.hold * a * MIN_HOLD * (1.0 - tick.path_ease);
 }
 
-void let_move(uint place, uint kind, uint water, float mass, float a)
+void integrate_motion(uint slot, uint kind, uint water, float mass, float a)
 {
-    const vec2 at = to_vec2(drops[place].position), before = to_vec2(drops[place].velocity);
+    const vec2 at = to_vec2(drops[slot].position), before = to_vec2(drops[slot].velocity);
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP;
-    const uint cell = on_mesh ? drops[place].cell
+    const uint cell = on_mesh ? drops[slot].cell
                               : cell_number(clamp(cell_at(at), ivec2(0), ivec2(tick.pane.columns, tick.pane.rows) - 1));
-    const uint word = surface[cell];
-    vec2 velocity = next_velocity(before, pull(at, mass, a, word), holding(a, cell, word), mass, a);
-    const float most = 0.9 * float(tick.cells_per_tick) * tick.pane.cell_m / tick.tick_s;
-    velocity *= min(1.0, most / max(length(velocity), 1e-12));
-    drops[place].velocity = to_array(velocity);
+    const uint packed_cell = surface[cell];
+    vec2 velocity =
+        next_velocity(before, force_on_drop(at, mass, a, packed_cell), retention_force(a, cell, packed_cell), mass, a);
+    const float max_speed = 0.9 * float(tick.cells_per_tick) * tick.pane.cell_m / tick.tick_s;
+    velocity *= min(1.0, max_speed / max(length(velocity), 1e-12));
+    drops[slot].velocity = to_array(velocity);
     if (on_mesh) {
-        const float ahead_m = drops[place].ahead_m + length(velocity) * tick.tick_s;
-        drops[place].ahead_m = ahead_m;
+        const float ahead_m = drops[slot].ahead_m + length(velocity) * tick.tick_s;
+        drops[slot].ahead_m = ahead_m;
         if (ahead_m >= tick.pane.cell_m)
             atomicMax(state.most_rounds, uint(ahead_m / tick.pane.cell_m + 0.01));
     } else
-        drops[place].position = to_array(at + velocity * tick.tick_s);
+        drops[slot].position = to_array(at + velocity * tick.tick_s);
 }
 
-// A blade comes within reach of it in this tick, even if it runs as far as it can.
-bool near_blade(uint place)
+// Whether a blade comes near the drop in this tick, even if the drop moves as far as it can.
+bool near_blade(uint slot)
 {
     const float reach = float(tick.cells_per_tick) * tick.pane.cell_m + 0.004;
-    const vec2 at = to_vec2(drops[place].position);
+    const vec2 at = to_vec2(drops[slot].position);
     for (uint i = 0u; i < tick.blade_count; i++)
-        if (touched(i, at, at, reach))
+        if (is_swept(i, at, at, reach))
             return true;
     return false;
 }
 
-// Whether something happens to it in this tick.
-uint begin_tick(uint place, inout uint water, inout uint lost)
+// Returns the pick: whether the drop is active in this tick.
+uint update_drop(uint slot, inout uint water, inout uint lost)
 {
-    uint kind = drops[place].kind;
-    water = drops[place].water_nl;
+    uint kind = drops[slot].kind;
+    water = drops[slot].water_nl;
     const bool on_mesh = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_DROP, ran = (kind & VIRGA_GLASS_RUNNING) != 0u;
     const float a = base_radius(water), mass = float(water) * KG_OF_NL;
-    drops[place].age_s += tick.tick_s;
+    drops[slot].age_s += tick.tick_s;
     const bool changed = (kind & VIRGA_GLASS_CHANGED) != 0u;
-    if (ran || !on_mesh || changed) // a merger may have shifted it
-        drops[place].before = drops[place].position;
+    if (ran || !on_mesh || changed) // a merge may have shifted it
+        drops[slot].before = drops[slot].position;
     if (ran || !on_mesh || (kind & (VIRGA_GLASS_CHANGED | VIRGA_GLASS_LOOKS)) != 0u) {
         kind = (kind & (VIRGA_GLASS_KIND | VIRGA_GLASS_TAIL)) | (changed ? VIRGA_GLASS_LOOKS : 0u);
-        drops[place].kind = kind;
+        drops[slot].kind = kind;
     }
-    lost = loss(water, kind, drops[place].random, a);
+    lost = loss(water, kind, drops[slot].random, a);
     if (lost != 0u)
-        drops[place].water_nl = water - lost;
+        drops[slot].water_nl = water - lost;
     if (lost == water) {
-        drops[place].kind = VIRGA_GLASS_FREE;
+        drops[slot].kind = VIRGA_GLASS_FREE;
         if (on_mesh)
-            occupants[drops[place].cell] = 0u;
+            occupants[drops[slot].cell] = 0u;
         return NOT_PICKED;
     }
-    const bool moves =
-        !on_mesh || ran || any(notEqual(to_vec2(drops[place].velocity), vec2(0.0))) || !is_stuck(mass, a);
+    const bool moves = !on_mesh || ran || any(notEqual(to_vec2(drops[slot].velocity), vec2(0.0))) || !is_stuck(mass, a);
     if (moves)
-        let_move(place, kind, water, mass, a);
-    if (ran && to_vec2(drops[place].velocity) == vec2(0.0))
-        drops[place].kind = kind | VIRGA_GLASS_CHANGED; // stopped
-    const bool wakes = changed || (moves && drops[place].ahead_m >= tick.pane.cell_m) || near_blade(place);
-    return !on_mesh ? SECOND_KIND : wakes ? FIRST_KIND : NOT_PICKED;
+        integrate_motion(slot, kind, water, mass, a);
+    if (ran && to_vec2(drops[slot].velocity) == vec2(0.0))
+        drops[slot].kind = kind | VIRGA_GLASS_CHANGED; // stopped
+    const bool is_active = changed || (moves && drops[slot].ahead_m >= tick.pane.cell_m) || near_blade(slot);
+    return !on_mesh ? SECOND_KIND : is_active ? FIRST_KIND : NOT_PICKED;
 }
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        evaporated = most_nl = 0u;
-    const uint place = alive_place();
+        evaporated = max_nl = 0u;
+    const uint slot = live_slot();
     uint water = 0u, lost = 0u, pick = NOT_PICKED;
-    if (place != NOWHERE)
-        pick = begin_tick(place, water, lost);
-    mark_pick(pick); // with barriers
+    if (slot != NONE)
+        pick = update_drop(slot, water, lost);
+    mark_pick(pick); // has barriers
     if (lost != 0u)
         atomicAdd(evaporated, lost);
-    atomicMax(most_nl, water);
+    atomicMax(max_nl, water);
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         count(VIRGA_GLASS_EVAPORATED, evaporated);
-        atomicMax(state.most_nl, most_nl);
+        atomicMax(state.most_nl, max_nl);
     }
 }

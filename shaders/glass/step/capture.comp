@@ -1,5 +1,6 @@
-// capture.comp - drops that were found merge with their captor, unless that is taken in itself: then they wait a tick,
-// and look again.
+// capture.comp - drops that were marked merge with their captor. If the captor is captured itself, they wait for the
+// next tick.
+// One invocation per live slot. Reads: captors. Writes: drops, occupants, passed.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,21 +11,21 @@
 
 void main()
 {
-    const uint place = alive_place();
-    if (place == NOWHERE)
+    const uint slot = live_slot();
+    if (slot == NONE)
         return;
-    const uint captor = drops[place].captor;
-    if (captor == NOWHERE)
+    const uint captor = drops[slot].captor;
+    if (captor == NONE)
         return;
-    if (drops[captor].captor != NOWHERE) {
-        drops[place].kind |= VIRGA_GLASS_CHANGED;
+    if (drops[captor].captor != NONE) {
+        drops[slot].kind |= VIRGA_GLASS_CHANGED;
         return;
     }
-    const virga_glass_drop_gpu drop = drops[place];
+    const virga_glass_drop_gpu drop = drops[slot];
     if (kind_of(drop) != VIRGA_GLASS_DROP)
         return;
-    give_to(drop.captor, drop);
-    end_drop(place);
+    transfer_water(drop.captor, drop);
+    clear_slot(slot);
     occupants[drop.cell] = 0u;
     passed[drop.cell] = tick.tick;
     count(VIRGA_GLASS_MERGED, 1u);

@@ -1,4 +1,6 @@
-// end_tick.comp - a tick ends: what merged is counted in, drops are drawn where they are now, claims are cleared.
+// end_tick.comp - ends a tick: merged water and momentum are added to the drops, running drops are moved towards their
+// cells, claims are cleared.
+// One invocation per live slot or seed. Reads: seeds, ranks. Writes: drops, claims.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,9 +9,9 @@
 #define FEW
 #include "live.glsl"
 
-// Mass and momentum add up (section 4.1), and the middle is that of all the water. Only the place that is drawn: the
-// cell stays, as its neighbour may be taken.
-void take_in(inout virga_glass_drop_gpu drop)
+// Mass and momentum are added (Goto et al. 2009, section 4.1). The drop moves to the center of mass of all the water,
+// but keeps its cell, since the cell beside it may be occupied.
+void apply_merges(inout virga_glass_drop_gpu drop)
 {
     if (drop.merged_nl == 0u)
         return;
@@ -27,38 +29,38 @@ void take_in(inout virga_glass_drop_gpu drop)
     drop.merged_momentum = drop.merged_nl_10um = int[2](0, 0);
 }
 
-// Cells lie on a grid, but water does not: a drop is drawn on its way to the middle of its cell, as far as it has
+// Cells lie on a grid, but water does not: a running drop approaches the middle of its cell by the distance that it has
 // moved.
-void draw_nearer(inout virga_glass_drop_gpu drop)
+void approach_cell(inout virga_glass_drop_gpu drop)
 {
-    const float way = length(to_vec2(drop.velocity)) * tick.tick_s;
+    const float distance = length(to_vec2(drop.velocity)) * tick.tick_s;
     if ((drop.kind & VIRGA_GLASS_RUNNING) == 0u)
         return;
     const vec2 at = to_vec2(drop.position);
-    drop.position = to_array(mix(at, cell_middle(drop.cell), 1.0 - exp(-way / (1.5 * tick.pane.cell_m))));
+    drop.position = to_array(mix(at, cell_middle(drop.cell), 1.0 - exp(-distance / (1.5 * tick.pane.cell_m))));
 }
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    if (i < seed_count() && seeds[i].cell != NOWHERE && seeds[i].water_nl != 0u) {
-        claims[seeds[i].cell] = NOWHERE;
+    if (i < seed_count() && seeds[i].cell != NONE && seeds[i].water_nl != 0u) {
+        claims[seeds[i].cell] = NONE;
         if (ranks[i] < state.free)
-            take_in(drops[listed[state.alive + ranks[i]]]);
+            apply_merges(drops[listed[state.alive + ranks[i]]]);
     }
-    const uint place = alive_place();
-    if (place == NOWHERE)
+    const uint slot = live_slot();
+    if (slot == NONE)
         return;
-    const uint target = drops[place].target;
-    if (target != NOWHERE && target != OUTSIDE)
-        claims[cell_count() + target] = NOWHERE; // of leaving particles
-    if (target != NOWHERE || drops[place].captor != NOWHERE)
-        drops[place].target = drops[place].captor = NOWHERE;
-    if (drops[place].merged_nl == 0u && (drops[place].kind & VIRGA_GLASS_RUNNING) == 0u)
+    const uint target = drops[slot].target;
+    if (target != NONE && target != OUTSIDE)
+        claims[cell_count() + target] = NONE; // claims of particles that became drops
+    if (target != NONE || drops[slot].captor != NONE)
+        drops[slot].target = drops[slot].captor = NONE;
+    if (drops[slot].merged_nl == 0u && (drops[slot].kind & VIRGA_GLASS_RUNNING) == 0u)
         return;
-    virga_glass_drop_gpu drop = drops[place];
-    take_in(drop);
+    virga_glass_drop_gpu drop = drops[slot];
+    apply_merges(drop);
     if (kind_of(drop) == VIRGA_GLASS_DROP)
-        draw_nearer(drop);
-    drops[place] = drop;
+        approach_cell(drop);
+    drops[slot] = drop;
 }

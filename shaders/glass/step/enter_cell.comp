@@ -1,4 +1,7 @@
-// enter_cell.comp - claims of a round are settled: one drop to a cell.
+// enter_cell.comp - round of movement, second half: resolves the claims. One drop enters a cell, the others merge. See
+// rounds.glsl.
+// One invocation per active slot. Reads: claims, occupants. Writes: drops, claims of the round before (cleared),
+// passed.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,26 +13,26 @@
 
 void main()
 {
-    const uint place = awake_place();
-    if (place == NOWHERE)
+    const uint slot = active_slot();
+    if (slot == NONE)
         return;
-    const uint before = drops[place].captor;
-    if (before < OUTSIDE && (drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_PARTICLE)
-        claims[claim_of(before, round_index + 1u)] = NOWHERE;
-    const uint target = drops[place].target;
-    if (target >= OUTSIDE || (drops[place].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP)
+    const uint old_target = drops[slot].captor;
+    if (old_target < OUTSIDE && (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_PARTICLE)
+        claims[claim_of(old_target, round_index + 1u)] = NONE;
+    const uint target = drops[slot].target;
+    if (target >= OUTSIDE || (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP)
         return;
-    passed[drops[place].cell] = tick.tick; // several may write the same into a cell
+    passed[drops[slot].cell] = tick.tick; // several invocations may write the same value
     passed[target] = tick.tick;
     const uint occupant = occupants[target];
-    const bool stays = occupant != 0u && drops[occupant - 1u].target == NOWHERE;
+    const bool occupied = occupant != 0u && drops[occupant - 1u].target == NONE;
     const uint first = claims[claim_of(target, round_index)];
-    if (!stays && first == place) {
-        drops[place].from_cell = drops[place].cell;
-        drops[place].cell = target;
+    if (!occupied && first == slot) {
+        drops[slot].from_cell = drops[slot].cell;
+        drops[slot].cell = target;
         return;
     }
-    give_to(stays ? occupant - 1u : first, drops[place]);
-    end_drop(place);
+    transfer_water(occupied ? occupant - 1u : first, drops[slot]);
+    clear_slot(slot);
     count(VIRGA_GLASS_MERGED, 1u);
 }

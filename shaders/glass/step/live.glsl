@@ -1,6 +1,6 @@
-// live.glsl - a pass over the places in use, or over those of them that something happens to in this tick.
-// The includer of a pass over the latter, or over seeds, has FEW: they are few, and idle lanes cost software Vulkan as
-// much as busy ones, so those go by small workgroups.
+// live.glsl - invocations over the live slots, or over the active ones: those whose drop may move, merge or meet a
+// blade in this tick. The includer defines FEW for a pass over active slots or seeds. These are few, and idle lanes
+// cost software Vulkan as much as busy ones, so such passes have small workgroups.
 #include "shared/compact.h"
 #ifdef FEW
 layout(local_size_x = VIRGA_GLASS_FEW_GROUP) in;
@@ -13,14 +13,14 @@ layout(scalar, set = 0, binding = 4) readonly buffer List
     uint listed[];
 };
 
-layout(scalar, set = 0, binding = 16) readonly buffer Awake
+layout(scalar, set = 0, binding = 16) readonly buffer Active
 {
-    virga_list_gpu awake_list;
-    uint awake_entries[]; // of the list: particles first
+    virga_list_gpu active_list;
+    uint active_entries[]; // indices into `listed`; particles come first
 };
 
-// The invocation's place, or NOWHERE.
-uint alive_place() { return gl_GlobalInvocationID.x < state.alive ? listed[gl_GlobalInvocationID.x] : NOWHERE; }
+// The slot of this invocation, or NONE.
+uint live_slot() { return gl_GlobalInvocationID.x < state.alive ? listed[gl_GlobalInvocationID.x] : NONE; }
 
-uint place_of_awake(uint i) { return listed[awake_entries[i]]; }
-uint awake_place() { return gl_GlobalInvocationID.x < state.awake ? place_of_awake(gl_GlobalInvocationID.x) : NOWHERE; }
+uint slot_of_active(uint i) { return listed[active_entries[i]]; }
+uint active_slot() { return gl_GlobalInvocationID.x < state.awake ? slot_of_active(gl_GlobalInvocationID.x) : NONE; }

@@ -1,4 +1,5 @@
-// live_compact.comp - the list of places.
+// live_compact.comp - live list, third pass: writes the slots.
+// One invocation per slot. Reads: picks. Writes: the live list.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,4 +9,4 @@
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 
-void main() { list_pick(gl_GlobalInvocationID.x); }
+void main() { write_slot(gl_GlobalInvocationID.x); }

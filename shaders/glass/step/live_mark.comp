@@ -1,4 +1,5 @@
-// live_mark.comp - tells places in use from free ones.
+// live_mark.comp - live list, first pass: marks live and free slots. See gpu/compact_buffers.glsl.
+// One invocation per slot. Reads: drops. Writes: picks (second kind: live, first kind: free).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// live_scan.comp - gives them their places in the list, and sizes the tick's dispatches.
+// live_scan.comp - live list, second pass: prefix sum, and the sizes of the tick's dispatches.
+// One workgroup. Reads: picks. Writes: picks, the list's head, state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

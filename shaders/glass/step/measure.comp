@@ -1,14 +1,16 @@
-// measure.comp - water on the pane, by where it is: a workgroup adds up some blocks of cells that may have film, and as
-// many places as it has lanes.
+// measure.comp - sums the water on the pane, by what holds it. A workgroup sums some blocks of cells that may have
+// film, and as many slots as it has invocations.
+// One invocation per cell of a block, and per live slot. Reads: drops, film, bins. Writes: state, flags of blocks
+// without film (cleared).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "pane.glsl"
 #include "live.glsl"
 
-#define BLOCK VIRGA_GLASS_FILM_BLOCK // as many cells as a workgroup has lanes
+#define BLOCK VIRGA_GLASS_FILM_BLOCK // cells of a block: as many as a workgroup has invocations
 
-shared uint water[3], counts[3], film_there[VIRGA_GLASS_MEASURED]; // 1: some cell of the block has
+shared uint water[3], counts[3], has_film[VIRGA_GLASS_MEASURED]; // 1: a cell of the block has film
 
 void add(uint index, uint amount)
 {
@@ -17,36 +19,36 @@ void add(uint index, uint amount)
         atomicAdd(state.measured[index].high, 1u);
 }
 
-// The workgroup's block with this number; NOWHERE: it has not so many. Reads without a branch here and below: in one,
-// software Vulkan reads lane by lane.
+// The k-th block of this workgroup, or NONE. It is read without a branch, here and below: inside a branch software
+// Vulkan reads lane by lane.
 uint block_of(uint k)
 {
     const uvec2 counts = film_block_counts();
-    const uint turn = gl_WorkGroupID.x * VIRGA_GLASS_MEASURED + k, all = counts.x * counts.y;
-    const uint block = film_blocks[all + min(turn, all - 1u)];
-    return turn < state.film_blocks ? block : NOWHERE;
+    const uint index = gl_WorkGroupID.x * VIRGA_GLASS_MEASURED + k, all = counts.x * counts.y;
+    const uint block = film_blocks[all + min(index, all - 1u)];
+    return index < state.film_blocks ? block : NONE;
 }
 
-// Film of the lane's cell of a block.
-uint film_here(uint block)
+// Film on this invocation's cell of a block.
+uint film_of_lane(uint block)
 {
     const uvec2 counts = film_block_counts(), last = uvec2(tick.pane.columns, tick.pane.rows) - 1u;
-    const uint there = block != NOWHERE ? block : 0u;
-    const uvec2 corner = uvec2(there % counts.x, there / counts.x) * BLOCK;
+    const uint valid_block = block != NONE ? block : 0u;
+    const uvec2 corner = uvec2(valid_block % counts.x, valid_block / counts.x) * BLOCK;
     const uvec2 cell = corner + uvec2(gl_LocalInvocationIndex % BLOCK, gl_LocalInvocationIndex / BLOCK);
-    const uvec2 near = min(cell, last);
-    const uint here = film[near.x + near.y * tick.pane.columns];
-    return cell == near && block != NOWHERE ? here : 0u;
+    const uvec2 clamped = min(cell, last);
+    const uint here = film[clamped.x + clamped.y * tick.pane.columns];
+    return cell == clamped && block != NONE ? here : 0u;
 }
 
-void add_place(uint place)
+void add_drop(uint slot)
 {
-    const uint kind = drops[place].kind;
+    const uint kind = drops[slot].kind;
     if (kind == VIRGA_GLASS_FREE)
         return;
-    const uint which = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE ? 1u : 0u;
-    atomicAdd(water[which], drops[place].water_nl + drops[place].merged_nl);
-    atomicAdd(counts[which], 1u);
+    const uint type = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE ? 1u : 0u;
+    atomicAdd(water[type], drops[slot].water_nl + drops[slot].merged_nl);
+    atomicAdd(counts[type], 1u);
     if ((kind & VIRGA_GLASS_HELD) != 0u)
         atomicAdd(counts[2], 1u);
 }
@@ -57,13 +59,13 @@ void main()
     if (lane < 3u)
         water[lane] = counts[lane] = 0u;
     if (lane < VIRGA_GLASS_MEASURED)
-        film_there[lane] = 0u;
+        has_film[lane] = 0u;
     barrier();
     uint sum = 0u;
     for (uint k = 0u; k < VIRGA_GLASS_MEASURED; k++) {
-        const uint here = film_here(block_of(k));
+        const uint here = film_of_lane(block_of(k));
         if (here != 0u)
-            film_there[k] = 1u;
+            has_film[k] = 1u;
         sum += here;
     }
     if (sum != 0u)
@@ -71,11 +73,11 @@ void main()
     if (i < VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS)
         atomicAdd(water[2], state.bins_nl[i]);
     if (i < state.shown)
-        add_place(listed[i]);
+        add_drop(listed[i]);
     barrier();
     if (lane < VIRGA_GLASS_MEASURED) {
         const uint block = block_of(lane);
-        if (film_there[lane] == 0u && block != NOWHERE)
+        if (has_film[lane] == 0u && block != NONE)
             film_blocks[block] = 0u;
     }
     if (lane < 3u && water[lane] != 0u)

@@ -1,4 +1,6 @@
-// spawn_claim.comp - drops land; then all that want a cell claim it, the first seed wins.
+// spawn_claim.comp - creates the seeds of drops that land, then all seeds claim their cells; the seed with the lowest
+// number wins.
+// One invocation per seed. Reads: the host's impacts, occupants, blades. Writes: seeds, claims, film.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,11 +19,11 @@ layout(scalar, set = 0, binding = 14) readonly buffer Impacts
 
 virga_glass_seed_gpu no_seed()
 {
-    return virga_glass_seed_gpu(float[2](0.0, 0.0), float[2](0.0, 0.0), 0u, 0u, 0u, NOWHERE, 0u, VIRGA_GLASS_DROP);
+    return virga_glass_seed_gpu(float[2](0.0, 0.0), float[2](0.0, 0.0), 0u, 0u, 0u, NONE, 0u, VIRGA_GLASS_DROP);
 }
 
-// One of the rate: anywhere on the pane, but the less likely the more the pane turns away from the rain there.
-virga_glass_seed_gpu arrival(uint i)
+// A drop of the rain rate: anywhere on the pane, with less probability where the pane turns away from the rain.
+virga_glass_seed_gpu rain_drop(uint i)
 {
     const uint hash = virga_hash3(tick.pane.seed, tick.tick, i);
     virga_glass_seed_gpu seed = no_seed();
@@ -30,17 +32,17 @@ virga_glass_seed_gpu arrival(uint i)
     const float cosine = -dot(to_vec(tick.fall), normalize(frame_at(at).normal));
     if (cosine <= virga_unit(virga_hash2(hash, 3u)) * tick.fall_cosine)
         return seed;
-    // A class of sizes by its number, and within it some more or less water, with the class's mean.
+    // A random size class, and within it some more or less water, with the mean of the class.
     const float d = tick.sizes_m[uint(virga_unit(virga_hash2(hash, 4u)) * float(VIRGA_GLASS_SIZES))];
     const float water = 0.5235988e12 * d * d * d * (0.8 + 0.4 * virga_unit(virga_hash2(hash, 5u)));
     seed.position = to_array(at);
-    seed.water_nl = round_by_chance(water, virga_hash2(hash, 6u));
+    seed.water_nl = round_randomly(water, virga_hash2(hash, 6u));
     seed.id = hash;
     return seed;
 }
 
-// One of the host's: those of this tick.
-virga_glass_seed_gpu impact(uint i)
+// A drop of the host's list, if it lands in this tick.
+virga_glass_seed_gpu host_drop(uint i)
 {
     virga_glass_seed_gpu seed = no_seed();
     if (i >= state.impacts || impacts[i].tick != tick.tick)
@@ -51,16 +53,17 @@ virga_glass_seed_gpu impact(uint i)
     return seed;
 }
 
-bool on_blade(vec2 at)
+bool is_on_blade(vec2 at)
 {
     for (uint i = 0u; i < tick.blade_count; i++)
-        if (touched(i, at, at, 0.0))
+        if (is_swept(i, at, at, 0.0))
             return true;
     return false;
 }
 
-// Where it comes to: what misses the pane never was, what falls on a blade is gone, what is fine becomes film.
-void land(inout virga_glass_seed_gpu seed)
+// Decides what becomes of it: a drop that misses the pane is ignored, one that lands on a blade is wiped off, a fine
+// one becomes film.
+void land_drop(inout virga_glass_seed_gpu seed)
 {
     const ivec2 cell = cell_at(to_vec2(seed.position));
     if (seed.water_nl == 0u || !has_glass(to_vec2(seed.position))) {
@@ -70,10 +73,10 @@ void land(inout virga_glass_seed_gpu seed)
     count(VIRGA_GLASS_LANDED, seed.water_nl);
     count(VIRGA_GLASS_ARRIVED, 1u);
     seed.cell = cell_number(cell);
-    if (on_blade(to_vec2(seed.position)) || on_blade(cell_middle(seed.cell))) {
+    if (is_on_blade(to_vec2(seed.position)) || is_on_blade(cell_middle(seed.cell))) {
         count(VIRGA_GLASS_WIPED, seed.water_nl);
         seed.water_nl = 0u;
-    } else if (float(seed.water_nl) < tick.mist_nl) { // fine drops from the start: no fresh film
+    } else if (float(seed.water_nl) < tick.mist_nl) { // no fresh film: these are fine drops from the start
         atomicAdd(film[seed.cell], seed.water_nl);
         mark_film(seed.cell);
         seed.water_nl = 0u;
@@ -86,14 +89,14 @@ void main()
     if (i >= seed_count())
         return;
     if (i < landing_count()) {
-        virga_glass_seed_gpu seed = i < tick.arrivals ? arrival(i) : impact(i - tick.arrivals);
-        land(seed);
+        virga_glass_seed_gpu seed = i < tick.arrivals ? rain_drop(i) : host_drop(i - tick.arrivals);
+        land_drop(seed);
         seeds[i] = seed;
-    } else if (seeds[i].water_nl != 0u && seeds[i].cell != NOWHERE && on_blade(cell_middle(seeds[i].cell))) {
-        atomicAdd(film[seeds[i].cell], seeds[i].water_nl); // left behind where a blade has come to since
+    } else if (seeds[i].water_nl != 0u && seeds[i].cell != NONE && is_on_blade(cell_middle(seeds[i].cell))) {
+        atomicAdd(film[seeds[i].cell], seeds[i].water_nl); // it was left behind where a blade has come to since
         mark_film(seeds[i].cell);
         seeds[i].water_nl = 0u;
     }
-    if (seeds[i].water_nl != 0u && seeds[i].cell != NOWHERE)
+    if (seeds[i].water_nl != 0u && seeds[i].cell != NONE)
         atomicMin(claims[seeds[i].cell], i);
 }

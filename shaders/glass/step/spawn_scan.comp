@@ -1,5 +1,7 @@
-// spawn_scan.comp - ranks of those that get a place of their own, in the order of seeds, and how far the next tick has
-// to look for places in use. One workgroup; each lane takes a run.
+// spawn_scan.comp - prefix sum over the slots that seeds need, in the order of seeds; and the number of slots that the
+// next tick has to scan.
+// One workgroup, in which each invocation takes a run of seeds. Reads: seeds, claims, occupants. Writes: ranks, the
+// live list (new slots), state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,24 +17,25 @@ layout(scalar, set = 0, binding = 4) buffer List
     uint listed[];
 };
 
-// Places that a seed needs: one for the first on an empty cell, and one for each particle.
-uint need(uint i)
+// Slots that a seed needs: one for the winner of an empty cell, and one for each particle.
+uint slots_needed(uint i)
 {
     if (seeds[i].water_nl == 0u)
         return 0u;
-    if (seeds[i].cell == NOWHERE)
+    if (seeds[i].cell == NONE)
         return seeds[i].count;
     return claims[seeds[i].cell] == i && occupants[seeds[i].cell] == 0u ? 1u : 0u;
 }
 
-// Places from the first on among which are all in use at the tick's end, `placed` of them new.
-uint reach(uint placed)
+// The number of slots, from the first on, that contain all slots in use at the end of the tick. `spawned`: how many of
+// these are new.
+uint slots_to_scan(uint spawned)
 {
     const uint listed_groups = state.census_groups[0] * VIRGA_GLASS_GROUP;
-    if (placed > state.free_listed)
-        return listed_groups + placed - state.free_listed;
+    if (spawned > state.free_listed)
+        return listed_groups + spawned - state.free_listed;
     const uint last = state.alive > 0u ? listed[state.alive - 1u] + 1u : 0u;
-    return max(last, placed > 0u ? listed[state.alive + placed - 1u] + 1u : 0u);
+    return max(last, spawned > 0u ? listed[state.alive + spawned - 1u] + 1u : 0u);
 }
 
 uint[3] groups_of(uint invocations)
@@ -47,24 +50,24 @@ void main()
     const uint begin = min(lane * run, all), end = min(begin + run, all);
     uint sum = 0u;
     for (uint i = begin; i < end; i++)
-        sum += need(i);
+        sum += slots_needed(i);
     uvec2 total;
     uint rank = scan_group(uvec2(sum, 0u), total).x;
     for (uint i = begin; i < end; i++) {
-        const uint needed = need(i);
-        const uint occupant = seeds[i].water_nl == 0u || seeds[i].cell == NOWHERE ? 0u : occupants[seeds[i].cell];
+        const uint needed = slots_needed(i);
+        const uint occupant = seeds[i].water_nl == 0u || seeds[i].cell == NONE ? 0u : occupants[seeds[i].cell];
         ranks[i] = occupant != 0u ? JOINS | (occupant - 1u) : needed != 0u ? rank : NO_RANK;
         rank += needed;
     }
-    const uint placed = min(total.x, state.free), beyond = state.census_groups[0] * VIRGA_GLASS_GROUP;
-    for (uint i = state.free_listed + lane; i < placed; i += VIRGA_GLASS_GROUP)
+    const uint spawned = min(total.x, state.free), beyond = state.census_groups[0] * VIRGA_GLASS_GROUP;
+    for (uint i = state.free_listed + lane; i < spawned; i += VIRGA_GLASS_GROUP)
         listed[state.alive + i] = beyond + i - state.free_listed;
-    barrier(); // all have read how far the list went
+    barrier(); // until all have read how far the list went
     if (lane == 0u) {
-        const uint to = reach(placed);
-        state.placed = placed;
-        state.shown = state.alive + placed; // free places are taken from the list's first free one on
+        const uint scanned = slots_to_scan(spawned);
+        state.placed = spawned;
+        state.shown = state.alive + spawned; // the first free slots of the list are used
         state.shown_groups = groups_of(state.shown);
-        state.census_groups = groups_of(to);
+        state.census_groups = groups_of(scanned);
     }
 }

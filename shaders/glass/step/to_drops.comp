@@ -1,4 +1,7 @@
-// to_drops.comp - of the particles that claimed a cell one becomes a drop, or joins the one that is there.
+// to_drops.comp - of the particles that claimed a cell, the winner becomes a drop, or merges with the drop that is
+// there.
+// One invocation per particle. Reads: claims. Writes: drops, occupants.
+// Paper: Goto et al. 2009, section 4.5.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,21 +15,21 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= state.awake_particles)
         return;
-    const uint place = place_of_awake(gl_GlobalInvocationID.x);
-    const virga_glass_drop_gpu drop = drops[place];
-    if (kind_of(drop) != VIRGA_GLASS_PARTICLE || drop.target == NOWHERE || claims[cell_count() + drop.target] != place)
+    const uint slot = slot_of_active(gl_GlobalInvocationID.x);
+    const virga_glass_drop_gpu drop = drops[slot];
+    if (kind_of(drop) != VIRGA_GLASS_PARTICLE || drop.target == NONE || claims[cell_count() + drop.target] != slot)
         return;
     const uint occupant = occupants[drop.target];
     count(VIRGA_GLASS_TO_DROPS, 1u);
     if (occupant != 0u) {
-        give_to(occupant - 1u, drop);
-        end_drop(place);
+        transfer_water(occupant - 1u, drop);
+        clear_slot(slot);
         count(VIRGA_GLASS_MERGED, 1u);
         return;
     }
-    occupants[drop.target] = place + 1u;
-    drops[place].cell = drops[place].from_cell = drop.target;
-    drops[place].ahead_m = 0.0;
-    drops[place].tail_m = 0.0;
-    drops[place].kind = VIRGA_GLASS_DROP | VIRGA_GLASS_CHANGED;
+    occupants[drop.target] = slot + 1u;
+    drops[slot].cell = drops[slot].from_cell = drop.target;
+    drops[slot].ahead_m = 0.0;
+    drops[slot].tail_m = 0.0;
+    drops[slot].kind = VIRGA_GLASS_DROP | VIRGA_GLASS_CHANGED;
 }

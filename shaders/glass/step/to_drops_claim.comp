@@ -1,6 +1,7 @@
-// to_drops_claim.comp - particles that left the bands beside the blades become drops again (Goto et al. 2009,
-// section 4.5),
-// each in the cell that it claims, but not while a large drop is near (section 4.6). What is over the edge is gone.
+// to_drops_claim.comp - particles that left the bands beside the blades become drops again. Here each claims the cell
+// at its position, unless a large drop is near (section 4.6). Particles over the edge are removed.
+// One invocation per particle. Reads: positions, blades, occupants. Writes: drops, claims, the grid (cleared).
+// Paper: Goto et al. 2009, sections 4.5 and 4.6.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +12,7 @@
 #include "blades.glsl"
 #include "particles.glsl"
 
-bool held_back(ivec2 cell)
+bool near_large_drop(ivec2 cell)
 {
     const int reach = int(tick.hold_back_cells);
     for (int y = -reach; y <= reach; y++)
@@ -31,25 +32,25 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= state.awake_particles)
         return;
-    const uint place = place_of_awake(i);
-    const vec2 at = moved[moved_at(i, 0u)]; // after an even number of rounds
-    grid[drops[place].cell] = 0u; // by all that hang on this head: a tick begins with an empty grid
-    drops[place].position = to_array(at);
+    const uint slot = slot_of_active(i);
+    const vec2 at = moved[moved_at(i, 0u)]; // the array that the last of an even number of rounds wrote
+    grid[drops[slot].cell] = 0u; // every particle of the list clears its head: a tick begins with an empty grid
+    drops[slot].position = to_array(at);
     const ivec2 cell = cell_at(at);
-    const bool beside = in_band(at);
+    const bool in_a_band = is_in_band(at);
     if (!has_glass(at)) {
-        const bool wiped = beside || (drops[place].kind & VIRGA_GLASS_PUSHED) != 0u;
-        count(wiped ? VIRGA_GLASS_WIPED : VIRGA_GLASS_RUN_OFF, drops[place].water_nl + drops[place].merged_nl);
-        drops[place].kind = VIRGA_GLASS_FREE;
-        drops[place].water_nl = drops[place].merged_nl = 0u;
-        drops[place].merged_momentum = drops[place].merged_nl_10um = int[2](0, 0);
+        const bool wiped = in_a_band || (drops[slot].kind & VIRGA_GLASS_PUSHED) != 0u;
+        count(wiped ? VIRGA_GLASS_WIPED : VIRGA_GLASS_RUN_OFF, drops[slot].water_nl + drops[slot].merged_nl);
+        drops[slot].kind = VIRGA_GLASS_FREE;
+        drops[slot].water_nl = drops[slot].merged_nl = 0u;
+        drops[slot].merged_momentum = drops[slot].merged_nl_10um = int[2](0, 0);
         return;
     }
-    if (beside)
+    if (in_a_band)
         return;
-    drops[place].kind |= VIRGA_GLASS_HELD; // until it wins its cell
-    if (held_back(cell))
+    drops[slot].kind |= VIRGA_GLASS_HELD; // until it wins a cell
+    if (near_large_drop(cell))
         return;
-    drops[place].target = cell_number(cell);
-    atomicMin(claims[cell_count() + cell_number(cell)], place);
+    drops[slot].target = cell_number(cell);
+    atomicMin(claims[cell_count() + cell_number(cell)], slot);
 }

@@ -18,7 +18,7 @@ void main()
     const bool first_tick = tick.tick_in_step == 0u;
     const uint before = first_tick ? 0u : head.count;
     const uint dropped_before = first_tick ? 0u : head.dropped;
-    const uint found = place_picks(0u, list.group_count[0] * GROUP_WORDS, 0xffffffffu).x;
+    const uint found = scan_words(0u, list.group_count[0] * GROUP_WORDS, 0xffffffffu).x;
     if (gl_LocalInvocationIndex != 0u)
         return;
     list.first = before;

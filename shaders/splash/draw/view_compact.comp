@@ -15,5 +15,5 @@ void main()
     const uint word = gl_GlobalInvocationID.x, kind = word < words_of(SPRITES).count ? SPRITES : SHEETS;
     const Words words = words_of(kind);
     if (word < words.first + words.count)
-        list_word(word, 32u * (word - words.first), words.entry, lists[kind]);
+        write_word(word, 32u * (word - words.first), words.entry, lists[kind]);
 }

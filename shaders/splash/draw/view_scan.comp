@@ -49,14 +49,14 @@ void main()
 {
     const uint kind = gl_WorkGroupID.x, all = words_of(SPRITES).count + words_of(SHEETS).count;
     const Words words = words_of(kind);
-    const uvec2 found = place_picks(words.first, words.count, words.most);
+    const uvec2 found = scan_words(words.first, words.count, words.most);
     const virga_list_gpu head = list_head(found, words.most);
     const bool listed_here = all <= LITTLE;
     const uvec2 own = listed_here ? lane_words(words.first, words.count) : uvec2(0u);
     memoryBarrierBuffer();
     barrier();
     for (uint i = own.x; i < own.y; i++)
-        list_word(i, 32u * (i - words.first), words.entry, head);
+        write_word(i, 32u * (i - words.first), words.entry, head);
     if (gl_LocalInvocationIndex != 0u)
         return;
     lists[kind].count = head.count;
