@@ -1,4 +1,4 @@
-// tick.glsl - what every pass and draw of rain knows of the newest tick.
+// tick.glsl - data of the newest tick, for all passes and draws of rain.
 #define VIRGA_GLSL
 #include "shared/rain_gpu.h"
 #include "shared/random.h"
@@ -7,7 +7,7 @@
 #include "shared/surface.glsl"
 #include "gpu/vectors.glsl"
 
-// Small tables are uniforms: software Vulkan reads them without a loop over lanes.
+// Small tables are in a uniform buffer: software Vulkan reads it without a loop over lanes.
 layout(scalar, set = 0, binding = 0) uniform Tick
 {
     virga_tick_gpu tick;

@@ -1,35 +1,36 @@
-// order.glsl - the order that streaks are drawn in: by where they are on the picture, and not by slot.
+// order.glsl - the order in which streaks are drawn: by their position on the picture, not by slot.
 //
-// Slots lie anywhere. Who fills a picture tile by tile, as software Vulkan and GPUs of phones do, would find a tile's
-// triangles all over memory and wait for each of them: 25,000 streaks at random took a third longer than in order. In
-// finer areas than these nothing is gained.
+// Slots are anywhere. A device that fills the picture tile by tile, such as software Vulkan and mobile GPUs, would find
+// the triangles of a tile all over memory and wait for each: 25,000 streaks in random order took a third longer. Areas
+// smaller than these gain nothing.
 //
-// It is a counting sort, the same whatever order the device runs workgroups in:
+// It is a counting sort, with the same result in whatever order the device runs workgroups:
 //
-// write: tells each streak's bucket: its area, and where some streaks are lines (see streak.glsl), whether it is one
-// count: each workgroup of streaks counts those of each bucket; a streak's rank is how many of its workgroup and bucket
-//        come before it
-// scan:  a lane for each bucket turns counts into places
-// order: each streak's indices go to their place, six or, of a line, two; the draws' arguments
+//     streak_write   gives each streak its bucket: its area and, where some streaks are lines (see streak.glsl),
+//                    whether it is a line
+//     order_count    counts the streaks of each bucket in a workgroup; a streak's rank is the number of those before it
+//     order_scan     prefix sum of the counts, one invocation per bucket
+//     order_indices  writes the indices of each streak, six or, for a line, two; and the draws' arguments
 //
-// Wide streaks, which are few and first in the list, are drawn as they are listed; after them all lines, then all else.
+// Wide streaks are few and come first in the list. They are drawn in the order of the list; then all lines, then all
+// other streaks.
 #include "shared/rain_limits.h"
 
 #define BUCKETS uint(VIRGA_RAIN_BUCKETS)
-#define AREAS_ACROSS 16u
-#define NOT_DRAWN 0xffffffffu // in place of a bucket: a streak that covers nothing
+#define AREA_COLUMNS 16u
+#define NOT_DRAWN 0xffffffffu // instead of a bucket: a streak that covers nothing
 
 layout(scalar, set = 0, binding = 21) buffer Order
 {
-    uint order[]; // up to six indices a streak, then each bucket's streaks, then counts
+    uint order[]; // up to six indices per streak, then the count of each bucket, then counts by workgroup
 };
 
-// Lines have the lower half of the buckets, so that areas are twice as high.
-uint areas_down() { return look.lines != 0u ? 8u : 16u; }
+// Lines have the lower half of the buckets, so areas are twice as high.
+uint area_rows() { return look.lines != 0u ? 8u : 16u; }
 uint first_bucket_of_quads() { return look.lines != 0u ? BUCKETS / 2u : 0u; }
 
-// Of streaks of a bucket, all in all.
-uint total_at(uint bucket) { return 6u * look.max_streaks + bucket; }
+// Index of a bucket's total count.
+uint total_index(uint bucket) { return 6u * look.max_streaks + bucket; }
 
-// Of streaks of a bucket in a workgroup; after the scan: where they begin among thin streaks.
-uint count_at(uint bucket, uint group) { return total_at(BUCKETS) + group * BUCKETS + bucket; }
+// Index of a bucket's count in a workgroup; after the scan: the index of its first streak there among thin streaks.
+uint count_index(uint bucket, uint group) { return total_index(BUCKETS) + group * BUCKETS + bucket; }

@@ -1,5 +1,6 @@
-// order_count.comp - how many streaks of a workgroup are in each bucket, and each one's rank among those of its
-// own: a bit for each streak, and its rank is the bits before its own.
+// order_count.comp - counts the streaks of each bucket in a workgroup, and gives each its rank in its bucket: the
+// number of bits before its own, with a bit per streak. See order.glsl.
+// One invocation per streak. Reads: streaks. Writes: ranks, counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -20,9 +21,9 @@ void main()
     const uint index = gl_GlobalInvocationID.x, lane = gl_LocalInvocationIndex;
     const uint word = lane >> 5, bit = 1u << (lane & 31u);
     const bool thin = index >= list.second_kind && index < list.count;
-    const uint mark = thin ? streaks[index].order : NOT_DRAWN;
-    const bool counted = mark != NOT_DRAWN;
-    const uint bucket = counted ? mark : 0u;
+    const uint bucket_or_none = thin ? streaks[index].order : NOT_DRAWN;
+    const bool counted = bucket_or_none != NOT_DRAWN;
+    const uint bucket = counted ? bucket_or_none : 0u;
     for (uint i = 0u; i < BUCKET_WORDS; i++)
         in_bucket[i * BUCKETS + lane] = 0u;
     counts[lane] = 0u;
@@ -30,19 +31,19 @@ void main()
     if (counted)
         atomicOr(in_bucket[word * BUCKETS + bucket], bit);
     barrier();
-    uint rank = 0u, all = 0u;
+    uint rank = 0u, bucket_count = 0u;
     for (uint i = 0u; i < BUCKET_WORDS; i++) {
         const uint bits = in_bucket[i * BUCKETS + bucket];
         rank += bitCount(i < word ? bits : i == word ? bits & (bit - 1u) : 0u);
-        all += bitCount(bits);
+        bucket_count += bitCount(bits);
     }
     if (counted) {
         streaks[index].order = bucket * VIRGA_RAIN_GROUP + rank;
         if (rank == 0u)
-            counts[bucket] = all;
+            counts[bucket] = bucket_count;
     }
     barrier();
-    order[count_at(lane, gl_WorkGroupID.x)] = counts[lane];
+    order[count_index(lane, gl_WorkGroupID.x)] = counts[lane];
     if (counts[lane] > 0u)
-        atomicAdd(order[total_at(lane)], counts[lane]);
+        atomicAdd(order[total_index(lane)], counts[lane]);
 }

@@ -1,4 +1,5 @@
-// streak_mark.comp - marks the slots whose drops a view may see.
+// streak_mark.comp - streaks, mark: picks the slots whose drops a view may see. Second kind: wide streaks.
+// One invocation per slot. Reads: slots, drops. Writes: picks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,8 +10,9 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-// Both ends beyond the same side of the picture (in clip coordinates, where the sides are planes), by more than `m`.
-bool outside(vec4 head, vec4 tail, vec2 m)
+// Whether both ends are beyond the same side of the picture, by more than `m`. In clip coordinates, where the sides are
+// planes.
+bool is_outside(vec4 head, vec4 tail, vec2 m)
 {
     const vec2 high = min(head.xy - head.w, tail.xy - tail.w), low = min(-head.xy - head.w, -tail.xy - tail.w);
     return max(head.w, tail.w) < NEAR_W || any(greaterThan(high, m)) || any(greaterThan(low, m));
@@ -33,16 +35,17 @@ uint kind_of_streak(uint slot_index)
     const float depth = 0.5 * (max(head.w, NEAR_W) + max(tail.w, NEAR_W)), blur = blur_px(depth);
     // As far as streak_write.comp may lengthen it.
     const vec4 beyond = (0.5 * look.parts - 0.5) * (head - tail);
-    // Half of the drop and a pixel, as seen at the end that is farther away.
+    // Half of the drop and a pixel, seen at the end that is farther away.
     const vec2 margin = (width_px + blur + 2.0) * max(head.w, tail.w) / vec2(view.viewport[2], view.viewport[3]);
-    // As streak_write.comp has it, where the way is seen: along its fall a drop hardly moves and covers more.
+    // As in streak_write.comp, by the visible length of the path: seen along its fall, a drop hardly moves and covers
+    // more.
     const float head_w = max(head.w, NEAR_W), tail_w = max(tail.w, NEAR_W);
     const vec2 moved = (head.xy / head_w - tail.xy / tail_w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
-    const float way_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
+    const float path_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
     const float body_px = diameter / (depth * view.pixel_angle);
-    const bool seen = !outside(head + beyond, tail - beyond, margin) && diameter >= look.bodies_min_m &&
-                      weight * streak_coverage(body_px, body_px, look.parts * way_px, blur) > LEAST_COVERAGE;
-    return !seen ? NOT_PICKED : width_px > max(WIDE_PX, blur) ? SECOND_KIND : FIRST_KIND;
+    const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.bodies_min_m &&
+                         weight * streak_coverage(body_px, body_px, look.parts * path_px, blur) > MIN_COVERAGE;
+    return !visible ? NOT_PICKED : width_px > max(WIDE_PX, blur) ? SECOND_KIND : FIRST_KIND;
 }
 
 void main()

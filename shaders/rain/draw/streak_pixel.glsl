@@ -1,4 +1,4 @@
-// streak_pixel.glsl - what thin and wide streaks do alike at a pixel.
+// streak_pixel.glsl - what thin and wide streaks have in common at a pixel.
 #include "shared/rain_limits.h"
 #include "streak_form.glsl"
 #include "gpu/scene_depth.glsl"
@@ -7,9 +7,9 @@
 layout(location = 4) noperspective in vec2 motion;
 #endif
 
-// Light varies as the drop oscillates: a cosine of turns, as near as a cubic comes (1.1 % of its height).
+// The light varies as the drop oscillates: a cosine of `turns`, as a cubic approximation (error 1.1 % of its height).
 float streak_wave(float turns, float size)
 {
-    const float saw = 4.0 * abs(fract(turns) - 0.5) - 1.0;
-    return 1.0 + size * saw * (1.5 - 0.5 * saw * saw);
+    const float triangle = 4.0 * abs(fract(turns) - 0.5) - 1.0;
+    return 1.0 + size * triangle * (1.5 - 0.5 * triangle * triangle);
 }

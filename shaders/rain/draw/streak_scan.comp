@@ -1,5 +1,6 @@
-// streak_scan.comp - gives the marked slots their places among the streaks, writes the draw of wide streaks (that of
-// others is not known before order_indices.comp), and sets back what order_count.comp counts.
+// streak_scan.comp - streaks, scan: prefix sum of the picks, and the draw of wide streaks (the others are known after
+// order_indices.comp). Clears the counts of order_count.comp.
+// One workgroup. Reads: picks. Writes: picks, the list's head, draw arguments, counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +15,7 @@ layout(scalar, set = 0, binding = 6) writeonly buffer Prepared { virga_prepared_
 
 void main()
 {
-    order[total_at(gl_LocalInvocationIndex)] = 0u;
+    order[total_index(gl_LocalInvocationIndex)] = 0u;
     const uvec2 found = scan_picks(tick.groups, look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;

@@ -1,4 +1,6 @@
-// streak_thin.vert - corners of a streak that is too thin to show the inside of its drop: one colour for all of it.
+// streak_thin.vert - vertices of thin streaks: narrower than WIDE_PX, so the inside of the drop does not show and the
+// streak has one colour.
+// One invocation per vertex. Reads: streaks. Writes: position, colour and shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,9 +9,10 @@
 #include "streak.glsl"
 #include "gpu/streak_profile.glsl"
 
-layout(location = 0) noperspective out vec3 place; // see streak_begun; turns; view depth
+// x: see streak_begun; y: turns of the wave; z: view depth
+layout(location = 0) noperspective out vec3 along_turns_depth;
 layout(location = 1) flat out vec4 light_alpha;
-layout(location = 2) flat out vec3 shape; // half width; see streak_ends; size of the wave
+layout(location = 2) flat out vec3 shape; // x: half width; y: see streak_ends; z: size of the wave
 layout(location = 3) flat out vec3 middle_line;
 layout(location = 5) flat out vec4 depth_terms;
 
@@ -17,10 +20,11 @@ void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
-    place = vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_turns(streak), streak.distance);
-    // Averaged over the width: half each where it is narrow, by u^2 where it is wide (see streak_wide.frag).
-    const float wide = clamp(streak.half_width - 0.75, 0.0, 1.0);
-    light_alpha = vec4(mix(streak.centre, streak.rim, wide / 3.0 + (1.0 - wide) * 0.5), streak.alpha);
+    along_turns_depth =
+        vec3(streak_begun(streak.along, streak.way_px, streak.body_px), streak_turns(streak), streak.distance);
+    // The mean over the width: half of each colour if narrow, by u^2 if wide (see streak_wide.frag).
+    const float width_blend = clamp(streak.half_width - 0.75, 0.0, 1.0);
+    light_alpha = vec4(mix(streak.centre, streak.rim, width_blend / 3.0 + (1.0 - width_blend) * 0.5), streak.alpha);
     shape = vec3(streak.half_width, streak_ends(streak.way_px, streak.body_px), streak.wave_size);
     middle_line = streak.middle_line;
     if (HAS_DEPTH)

@@ -1,4 +1,6 @@
-// streak_wide.frag - coverage and light at a pixel of a streak that shows the inside of its drop, premultiplied.
+// streak_wide.frag - coverage and light of a wide streak at a pixel, premultiplied. The streak shows the inside of its
+// drop.
+// One invocation per pixel of a wide streak. Reads: the scene's depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,15 +9,15 @@
 #include "streak_pixel.glsl"
 #include "gpu/streak_profile.glsl"
 
-layout(location = 0) noperspective in vec4 place;
+layout(location = 0) noperspective in vec4 streak_position;
 layout(location = 1) flat in vec4 centre_alpha;
 layout(location = 2) flat in vec4 rim_wave;
 layout(location = 3) flat in vec3 shape;
 layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
 layout(location = 0) out vec4 radiance;
 
-// What a drop shows at (u, v) of its disc: the ray is bent by 2 (i - t), sin i = r, towards the other side, so the
-// world stands on its head in it; at the rim, Schlick's Fresnel reflects what is beside.
+// What a drop shows at (u, v) of its disc: the ray is deflected by 2 (i - t), sin i = r, towards the other side, so the
+// world appears upside down. At the rim, Schlick's Fresnel term reflects the surroundings.
 vec3 through_drop(vec2 uv, vec3 d)
 {
     const float r = min(length(uv), 0.999);
@@ -29,8 +31,8 @@ vec3 through_drop(vec2 uv, vec3 d)
     return mix(refraction, reflection, fresnel);
 }
 
-// What passes a pixel of a streak shows all of the drop's height there; above and below its middle the world is bent by
-// as much to either side, so the middle stands for the mean.
+// The light at a pixel is the mean over the height of the drop that passes it. Above and below the middle the
+// deflections are opposite and equal, so the middle stands for the mean.
 vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 {
     const vec2 side = vec2(-direction.y, direction.x);
@@ -40,26 +42,26 @@ vec3 wide_light(float u, float along, vec2 direction, vec3 d)
 
 void main()
 {
-    // Before any pixel is discarded: behind that, derivatives are undefined.
-    const vec2 across = vec2(dFdx(place.x), dFdy(place.x));
-    const float half_width = shape.x, body = shape.y, way = shape.z;
-    const float u = min(abs(place.x) / half_width, 1.0);
-    float alpha = centre_alpha.a * streak_profile(abs(place.x), half_width) *
-                  streak_length(streak_begun(place.y, way, body), streak_ends(way, body));
+    // Before any discard: derivatives are undefined after it.
+    const vec2 across = vec2(dFdx(streak_position.x), dFdy(streak_position.x));
+    const float half_width = shape.x, body_px = shape.y, path_px = shape.z;
+    const float u = min(abs(streak_position.x) / half_width, 1.0);
+    float alpha = centre_alpha.a * streak_profile(abs(streak_position.x), half_width) *
+                  streak_length(streak_begun(streak_position.y, path_px, body_px), streak_ends(path_px, body_px));
     if (HAS_DEPTH)
-        alpha *= soft_edge(place.w, depth_terms);
+        alpha *= soft_edge(streak_position.w, depth_terms);
     if (alpha <= 0.0)
         discard;
 
-    const float wide = clamp(half_width - 0.75, 0.0, 1.0);
-    vec3 light = mix(centre_alpha.rgb, rim_wave.rgb, wide * u * u + (1.0 - wide) * 0.5);
+    const float width_blend = clamp(half_width - 0.75, 0.0, 1.0);
+    vec3 light = mix(centre_alpha.rgb, rim_wave.rgb, width_blend * u * u + (1.0 - width_blend) * 0.5);
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
-    const float along = body > 0.0 ? clamp((place.y - 0.5 * way) / (0.5 * body), -1.0, 1.0) : 0.0;
+    const float along = body_px > 0.0 ? clamp((streak_position.y - 0.5 * path_px) / (0.5 * body_px), -1.0, 1.0) : 0.0;
     const vec3 lamps = max(centre_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
-    const float show = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
-    light = mix(light, wide_light(place.x / half_width, along, direction, d) + lamps, show);
-    radiance = vec4(light * streak_wave(place.z, rim_wave.w) * alpha, alpha);
+    const float lens_blend = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
+    light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamps, lens_blend);
+    radiance = vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha);
     WRITE_MOTION(motion, alpha);
     WRITE_REACTIVE(alpha, view.reactive_gain);
 }

@@ -1,4 +1,5 @@
-// streak_wide.vert - corners of a streak that is wide enough to show the inside of its drop.
+// streak_wide.vert - vertices of wide streaks: at least WIDE_PX, so the inside of the drop shows.
+// One invocation per vertex. Reads: streaks. Writes: position, colours and shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -6,17 +7,18 @@
 #include "view.glsl"
 #include "streak.glsl"
 
-layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; turns; view depth
+// x: px from the center line; y: px from the tail; z: turns of the wave; w: view depth
+layout(location = 0) noperspective out vec4 streak_position;
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
-layout(location = 3) flat out vec3 shape;    // half width; length of the drop; way (px)
+layout(location = 3) flat out vec3 shape;    // x: half width; y: length of the drop; z: length of the path (px)
 layout(location = 5) flat out vec4 depth_terms;
 
 void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
-    place = vec4(streak.across, streak.along, streak_turns(streak), streak.distance);
+    streak_position = vec4(streak.across, streak.along, streak_turns(streak), streak.distance);
     centre_alpha = vec4(streak.centre, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
     shape = vec3(streak.half_width, streak.body_px, streak.way_px);

@@ -1,4 +1,5 @@
-// hit_count.comp - how many drops of each of these slots met the pane.
+// hit_count.comp - counts the drops of each listed slot that hit the pane.
+// One invocation per listed slot. Reads: the list, drops, occlusion maps. Writes: counts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,10 +17,10 @@ void main()
     if (i >= list.count)
         return;
     const Slot slot = slot_at(listed[i]);
-    Walk walk = walk_of(slot);
+    Traversal traversal = start_traversal(slot);
     Hit hit;
     uint found = 0u;
-    while (next_hit(slot, walk, hit))
-        found += under_sky(slot, hit) ? 1u : 0u;
-    hit_places[i] = found;
+    while (next_hit(slot, traversal, hit))
+        found += is_under_sky(slot, hit) ? 1u : 0u;
+    hit_offsets[i] = found;
 }

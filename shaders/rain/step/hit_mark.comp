@@ -1,4 +1,5 @@
-// hit_mark.comp - marks the slots of which a drop may have met the pane in the newest step.
+// hit_mark.comp - hits, mark: picks the slots of which a drop may have hit the pane in the newest step.
+// One invocation per slot. Reads: slots, drops, the pane. Writes: picks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,4 +10,4 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-void main() { mark_pick(walk_of(slot_at(gl_GlobalInvocationID.x)).left ? FIRST_KIND : NOT_PICKED); }
+void main() { mark_pick(start_traversal(slot_at(gl_GlobalInvocationID.x)).has_next ? FIRST_KIND : NOT_PICKED); }

@@ -1,4 +1,6 @@
-// hit_offsets.comp - gives the hits of each slot their places, in order, and writes the head. One workgroup.
+// hit_offsets.comp - prefix sum of the counts: the index of each slot's first hit, in the order of slots; and the head
+// of the impacts.
+// One workgroup. Reads: counts. Writes: offsets, the head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,13 +19,13 @@ void main()
     const uint begin = min(lane * run, list.count), end = min(begin + run, list.count);
     uint sum = 0u;
     for (uint i = begin; i < end; i++)
-        sum += hit_places[i];
+        sum += hit_offsets[i];
     uvec2 all;
-    uint place = scan_group(uvec2(sum, 0u), all).x;
+    uint offset = scan_group(uvec2(sum, 0u), all).x;
     for (uint i = begin; i < end; i++) {
-        const uint own = hit_places[i];
-        hit_places[i] = place;
-        place += own;
+        const uint count_here = hit_offsets[i];
+        hit_offsets[i] = offset;
+        offset += count_here;
     }
     if (lane != 0u)
         return;

@@ -1,4 +1,5 @@
-// hit_scan.comp - gives slots of which drops may have met the pane their places in a list.
+// hit_scan.comp - hits, scan: prefix sum of the picks.
+// One workgroup. Reads: picks. Writes: picks, the list's head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

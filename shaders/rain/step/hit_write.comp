@@ -1,4 +1,5 @@
-// hit_write.comp - writes the drops that met the pane.
+// hit_write.comp - writes the drops that hit the pane, as impacts.
+// One invocation per listed slot. Reads: the list, drops, offsets. Writes: impacts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +11,7 @@
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
 
-// Water of one of a slot's drops, rounded so that sums are right on average.
+// Water of one of the slot's drops, rounded at random so that sums are right on average.
 uint water_of(Slot slot, uint number)
 {
     const float mm = classes[slot.size_class].diameter_m * 1e3;
@@ -21,7 +22,7 @@ uint water_of(Slot slot, uint number)
 virga_impact_gpu impact_of(Slot slot, Hit hit)
 {
     virga_impact_gpu impact;
-    impact.position = float[3](hit.place.x, hit.place.y, 0.0);
+    impact.position = float[3](hit.pane_position.x, hit.pane_position.y, 0.0);
     impact.time_s = hit.share * pane.step_s;
     impact.velocity = float[3](slot.velocity.x, slot.velocity.y, slot.velocity.z);
     impact.diameter_m = classes[slot.size_class].diameter_m;
@@ -34,13 +35,13 @@ virga_impact_gpu impact_of(Slot slot, Hit hit)
     return impact;
 }
 
-// What was counted and is not found again, as floats may come out otherwise in another shader: no water, where an old
-// drop would lie.
+// A hit that was counted but not found again, because floats may differ between shaders: an impact without water, where
+// an old drop would be left otherwise.
 virga_impact_gpu no_drop(Slot slot)
 {
     Hit hit;
     hit.share = 0.0;
-    hit.place = vec2(0.0);
+    hit.pane_position = vec2(0.0);
     hit.number = 0u;
     virga_impact_gpu impact = impact_of(slot, hit);
     impact.water_nl = 0u;
@@ -52,16 +53,16 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= list.count)
         return;
-    // Up to where those of the next begin: most slots have none, and are done at once.
+    // Up to the first hit of the next slot. Most slots have none, and are done at once.
     const uint all = hit_head.count + hit_head.dropped;
-    const uint end = min(i + 1u < list.count ? hit_places[i + 1u] : all, VIRGA_RAIN_MAX_HITS);
+    const uint end = min(i + 1u < list.count ? hit_offsets[i + 1u] : all, VIRGA_RAIN_MAX_HITS);
     const Slot slot = slot_at(listed[i]);
-    Walk walk = walk_of(slot);
+    Traversal traversal = start_traversal(slot);
     Hit hit;
-    uint place = hit_places[i];
-    while (place < end && next_hit(slot, walk, hit))
-        if (under_sky(slot, hit))
-            hits[place++] = impact_of(slot, hit);
-    for (; place < end; place++)
-        hits[place] = no_drop(slot);
+    uint index = hit_offsets[i];
+    while (index < end && next_hit(slot, traversal, hit))
+        if (is_under_sky(slot, hit))
+            hits[index++] = impact_of(slot, hit);
+    for (; index < end; index++)
+        hits[index] = no_drop(slot);
 }

@@ -1,5 +1,5 @@
-// impact_mark.comp - marks which of the listed slots have drops that met a surface in this tick. What is marked from
-// here on is the list's entries.
+// impact_mark.comp - impacts, second list, mark: picks the entries of the first list whose drop did hit a surface.
+// One invocation per entry. Reads: the list, drops, occlusion maps. Writes: picks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +13,6 @@ layout(local_size_x = VIRGA_RAIN_GROUP) in;
 void main()
 {
     const uint entry = gl_GlobalInvocationID.x;
-    const bool met = find_hit(listed[min(entry, list.count - 1u)]).met;
+    const bool met = test_drop(listed[min(entry, list.count - 1u)]).met;
     mark_pick(entry < list.count && met ? FIRST_KIND : NOT_PICKED);
 }

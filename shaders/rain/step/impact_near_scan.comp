@@ -1,4 +1,5 @@
-// impact_near_scan.comp - gives those slots their places in a list.
+// impact_near_scan.comp - impacts, first list, scan: prefix sum of the picks.
+// One workgroup. Reads: picks. Writes: picks, the list's head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

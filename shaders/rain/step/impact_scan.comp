@@ -1,4 +1,6 @@
-// impact_scan.comp - gives this tick's impacts their places behind those of the ticks before.
+// impact_scan.comp - impacts, second list, scan: prefix sum of the picks, behind the impacts of the step's earlier
+// ticks; and the head.
+// One workgroup. Reads: picks. Writes: picks, the head of the impacts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// impact_write.comp - writes the impacts of the list's entries that were marked.
+// impact_write.comp - writes the impacts of the picked entries.
+// One invocation per entry of the first list. Reads: picks, drops, occlusion maps. Writes: impacts.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +15,7 @@ layout(scalar, set = 0, binding = 4) buffer Impacts
     virga_impact_gpu impacts[];
 };
 
-// Water of the drops in nanolitres, rounded up as often as the fraction says, so that sums are right on average.
+// Water of the drops (nl), rounded at random so that sums are right on average.
 uint water_of(float diameter_m, float weight, uint id)
 {
     const float mm = diameter_m * 1e3;
@@ -22,8 +23,8 @@ uint water_of(float diameter_m, float weight, uint id)
     return uint(min(floor(nl + virga_unit(virga_hash3(tick.seed, id, tick.tick))), 4294967040.0));
 }
 
-// Slope of the host's depth where there is no normal: differences to the flatter neighbours.
-vec3 depth_normal(Shelter surface)
+// Normal from a host's depth map, which has no normals: from the smaller of the differences to the neighbours.
+vec3 depth_normal(Cover surface)
 {
     const virga_map_gpu map = maps[min(surface.map, VIRGA_RAIN_MAX_MAPS - 1u)];
     const float here = texelFetch(occlusion_depth, surface.texel, 0).r;
@@ -52,16 +53,16 @@ void main()
     const uvec4 word = picks[entry >> 5];
     if ((word.x & bit) == 0u)
         return;
-    Hit hit = find_hit(listed[entry]);
-    hit.weight = max(hit.weight, 1e-6); // above 0 where it was found
-    const uint place = list.first + word.z + bitCount(word.x & (bit - 1u));
+    Hit hit = test_drop(listed[entry]);
+    hit.weight = max(hit.weight, 1e-6); // it is above 0, or it would not be picked
+    const uint index = list.first + word.z + bitCount(word.x & (bit - 1u));
     const float diameter = classes[hit.size_class].diameter_m;
     const uint water = water_of(diameter, hit.weight, hit.id);
     add_water(water);
-    if (place >= tick.max_impacts)
+    if (index >= tick.max_impacts)
         return;
-    const uint surface = tick.host_depth != 0u ? tick.default_material
-                                               : texelFetch(occlusion_surface, hit.surface.texel, 0).r;
+    const uint surface =
+        tick.host_depth != 0u ? tick.default_material : texelFetch(occlusion_surface, hit.surface.texel, 0).r;
     vec3 normal = tick.host_depth != 0u ? depth_normal(hit.surface) : unpack_normal(surface);
     normal = dot(normal, hit.velocity) > 0.0 ? -normal : normal;
     virga_impact_gpu impact;
@@ -75,5 +76,5 @@ void main()
     impact.material = surface & 255u;
     impact.water_nl = water;
     impact.tick = tick.tick;
-    impacts[place] = impact;
+    impacts[index] = impact;
 }

@@ -1,20 +1,22 @@
-// move.comp - where each slot's drop is at the end of a tick.
+// move.comp - moves the drops: where each slot's drop is at the end of a tick.
+// One invocation per slot. Reads: slots, travel of the classes, sways. Writes: drops.
 //
-// A slot's lattice moves with its class: lattice coordinate = place + travel. The box around the camera shows one cell
-// of it, so each slot has one drop there. Layers of the lattice (above each other) are shifted sideways by a hash, and
-// columns of a layer once more, or every drop would land where the one before it did. All in integers: wrapping is
-// overflow, the same place gives the same bits however far from the start, and the camera never enters but in the
-// choice of the cell.
+// A slot is a point of a lattice that moves with its class: lattice coordinate = slot.place + travel. The box around
+// the camera contains one cell of the lattice, so each slot has one drop there. The lattice's layers (above each other)
+// are shifted sideways by a hash, and the columns of a layer again; else every drop would land where the one before it
+// landed. Everything is in integers: wrapping around is overflow, a position has the same bits however far from the
+// start, and the camera only selects the cell.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "rain/field.glsl"
 
 layout(local_size_x = VIRGA_RAIN_GROUP) in;
-// Each a virga_drop_gpu, written as a vector: members by themselves take a third longer on software Vulkan.
+// Each is a virga_drop_gpu, written as a vector: separate members take a third longer on software Vulkan.
 layout(scalar, set = 0, binding = 3) writeonly buffer Drops { uvec4 drops[]; };
 
-// virga_travel_gpu of each class, as pairs: small tables are read several times faster from a uniform buffer.
+// virga_travel_gpu of each class, as pairs: software Vulkan reads small tables several times faster from a uniform
+// buffer.
 layout(std140, set = 0, binding = 14) uniform Travels { uvec4 travels[2 * VIRGA_RAIN_CLASSES]; };
 
 // 64-bit values as (low, high).
@@ -27,7 +29,7 @@ uvec2 add64(uvec2 a, uvec2 b)
 
 uvec2 shift64(uvec2 a, uint bits) { return bits == 0u ? a : uvec2(a.x << bits, (a.y << bits) | (a.x >> (32u - bits))); }
 
-// One round of multiply-xorshift: enough to scatter layers, of which a few thousand pass in an hour.
+// One round of multiply-xorshift: good enough for layers, of which a few thousand pass in an hour.
 uint scatter(uint h, uint word)
 {
     h = (h ^ word) * 0xed5ad4bbu;
@@ -36,11 +38,11 @@ uint scatter(uint h, uint word)
     return h ^ (h >> 16);
 }
 
-// Along one axis, from the lower side of the box: the lattice coordinate less the camera's; .y tells the cell.
-uvec2 from_camera(uint place, uint low, uint high, uint shift)
+// The lattice coordinate relative to the camera along one axis, from the lower side of the box; .y is the cell.
+uvec2 from_camera(uint slot_coordinate, uint low, uint high, uint shift)
 {
     const uvec2 moved = shift64(uvec2(low, high), shift);
-    return add64(uvec2(moved.x, moved.y), add64(uvec2(place, 0u), uvec2(0x80000000u, 0u)));
+    return add64(uvec2(moved.x, moved.y), add64(uvec2(slot_coordinate, 0u), uvec2(0x80000000u, 0u)));
 }
 
 void main()
