@@ -9,6 +9,9 @@
 #include "plate_fixture.h"
 #include "temporal_picture.h"
 
+/* Layers in the order in which they are added behind the first, which is the rain's. */
+enum { OFFLINE_SPLASH = HOST_LAYER + 1, OFFLINE_PANE };
+
 typedef struct offline {
     fixture f;
     world_gpu gpu; /* the fixture's device */
@@ -45,8 +48,10 @@ static inline void offline_open_through(offline *o, uint32_t seed, PFN_vkGetInst
     REQUIRE(virga_context_create(&def, &o->context) == VIRGA_OK);
     o->scene = world_scene(o->context, seed);
     REQUIRE(host_target_create(&o->f.device, WORLD_WIDTH, WORLD_HEIGHT, &o->images, o->f.error, sizeof o->f.error));
-    REQUIRE(host_target_add_splash(&o->f.device, &o->images, o->f.error, sizeof o->f.error));
-    REQUIRE(host_target_add_glass(&o->f.device, &o->images, o->f.error, sizeof o->f.error));
+    host_output added;
+    for (const char *const *name = (const char *const[]){"splashes", "pane", NULL}; *name; name++)
+        REQUIRE(host_target_add_layer(&o->f.device, &o->images, *name, false, &added, o->f.error, sizeof o->f.error));
+    REQUIRE(host_target_add_behind(&o->f.device, &o->images, o->f.error, sizeof o->f.error));
     virga_target_def layer = virga_default_target_def();
     host_target_describe_layer(&o->images, &layer);
     REQUIRE(virga_target_create(o->context, &layer, &o->layer) == VIRGA_OK);
@@ -117,7 +122,7 @@ static inline void offline_run(offline *o, world_bits *bits)
 
 static inline void offline_layers(offline *o, VkCommandBuffer cmd)
 {
-    host_target_begin_splash(&o->images, cmd);
+    host_target_begin_output(&o->images, cmd, (host_output)OFFLINE_SPLASH);
     REQUIRE(virga_splash_draw(virga_scene_splash(o->scene), cmd, o->layer) == VIRGA_OK);
     host_target_end_layer(&o->images, cmd);
     host_target_begin_layer(&o->images, cmd);
@@ -135,7 +140,7 @@ static inline void offline_pane(offline *o, VkCommandBuffer cmd, virga_view view
     host_target_end_layer(&o->images, cmd);
     view.color = host_target_behind(&o->images);
     REQUIRE(virga_glass_prepare(glass, cmd, &view, &pane.pose, virga_glass_time(glass)) == VIRGA_OK);
-    host_target_begin_glass(&o->images, cmd);
+    host_target_begin_output(&o->images, cmd, (host_output)OFFLINE_PANE);
     REQUIRE(virga_glass_draw(glass, cmd, o->layer) == VIRGA_OK);
     host_target_end_layer(&o->images, cmd);
 }
@@ -167,12 +172,12 @@ static inline void offline_record(offline *o, VkCommandBuffer cmd, const float j
 /* Layers over the plate, with a share of 1 in `count`. */
 static inline void offline_add(offline *o, uint32_t count, float *rgb)
 {
-    static const host_output over[3] = {HOST_SPLASH, HOST_LAYER, HOST_GLASS};
+    static const int over[3] = {OFFLINE_SPLASH, HOST_LAYER, OFFLINE_PANE};
     const float *plate = host_target_floats(&o->f.device, &o->images, HOST_COLOR);
     for (size_t i = 0; i < WORLD_PIXELS; i++) {
         float sum[3] = {plate[4 * i], plate[4 * i + 1], plate[4 * i + 2]};
         for (int k = 0; k < 3; k++) {
-            const float *layer = host_target_floats(&o->f.device, &o->images, over[k]) + 4 * i;
+            const float *layer = host_target_floats(&o->f.device, &o->images, (host_output)over[k]) + 4 * i;
             for (int c = 0; c < 3; c++)
                 sum[c] = layer[c] + (1 - layer[3]) * sum[c];
             o->covered[k] += (layer[3] > 0.01f) / (double)WORLD_PIXELS / count;
@@ -194,7 +199,7 @@ static inline void offline_draw(offline *o, const float (*jitters_px)[2], uint32
         VkCommandBuffer cmd = offline_begin(o);
         offline_record(o, cmd, jitters_px[k]);
         host_target_copy_out(&o->images, cmd,
-                             1u << HOST_COLOR | 1u << HOST_SPLASH | 1u << HOST_LAYER | 1u << HOST_GLASS);
+                             1u << HOST_COLOR | 1u << OFFLINE_SPLASH | 1u << HOST_LAYER | 1u << OFFLINE_PANE);
         offline_submit(o);
         offline_add(o, count, rgb);
     }

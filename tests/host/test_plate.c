@@ -121,7 +121,7 @@ static bool begin_rain(scene *s, VkCommandBuffer cmd)
            virga_rain_step(s->rain, cmd, &info) == VIRGA_OK;
 }
 
-/* The layer of splashes, where there is one, is filled with 0.25 in the first sub-frame and twice that in the next. */
+/* A second layer, where there is one, is filled with 0.25 in the first sub-frame and twice that in the next. */
 static bool draw(scene *s, uint32_t samples)
 {
     host_device *device = &s->base.device;
@@ -138,8 +138,8 @@ static bool draw(scene *s, uint32_t samples)
         if (s->rain && !begin_rain(s, cmd))
             return false;
         host_renderer_plate(s->renderer, cmd, &s->target, &now, &before);
-        if (s->target.images[HOST_SPLASH].image) {
-            host_target_begin_splash(&s->target, cmd);
+        if (s->target.layer_count > 1) {
+            host_target_begin_output(&s->target, cmd, HOST_LAYER + 1);
             fill_layer(cmd, 0.25f * (float)(i + 1));
             host_target_end_layer(&s->target, cmd);
         }
@@ -258,7 +258,7 @@ static void sky_pixel(void **state)
     assert_float_equal(s->picture.color[pixel * 4], 1.0, 1e-3);
     assert_float_equal(s->picture.color[pixel * 4 + 3], 1.0, 0.0);
     assert_float_equal(s->picture.velocity[pixel * 2], 0.0, 1e-3); /* the camera moves, but does not turn */
-    assert_float_equal(s->picture.layer[pixel * 4 + 3], 0.0, 0.0);
+    assert_float_equal(s->picture.layers[0][pixel * 4 + 3], 0.0, 0.0);
 }
 
 /* A lamp adds what the inverse square law says: I cos / d^2 times albedo / pi, and a little gloss. */
@@ -299,15 +299,17 @@ static void sub_frames(void **state)
 static void splash_layer(void **state)
 {
     scene *s = *state;
+    host_output second;
     assert_true(draw(s, 2));
     const size_t pixel = at(4, HEIGHT - 3) * 4;
     const float plate = s->picture.color[pixel];
-    assert_float_equal(s->picture.splash[pixel], 0.0, 0.0);
-    assert_true(host_target_add_splash(&s->base.device, &s->target, s->base.error, sizeof s->base.error));
+    assert_float_equal(s->picture.layers[1][pixel], 0.0, 0.0);
+    assert_true(host_target_add_layer(&s->base.device, &s->target, "second", false, &second, s->base.error,
+                                      sizeof s->base.error));
     assert_true(draw(s, 2));
     for (size_t c = 0; c < 4; c++) {
-        assert_float_equal(s->picture.splash[pixel + c], 0.375, 1e-6);
-        assert_float_equal(s->picture.layer[pixel + c], 0.0, 0.0);
+        assert_float_equal(s->picture.layers[1][pixel + c], 0.375, 1e-6);
+        assert_float_equal(s->picture.layers[0][pixel + c], 0.0, 0.0);
     }
     assert_float_equal(s->picture.color[pixel], plate, 1e-6);
 }

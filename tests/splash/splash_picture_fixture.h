@@ -12,9 +12,10 @@
 #include "camera.h"
 #include "target.h"
 
-#define GRAVITY     9.80665
-#define FOV_DEG     40.0
-#define HALF_OF_ONE 0x3c00u /* 1 as a half float in the low bits */
+#define GRAVITY      9.80665
+#define FOV_DEG      40.0
+#define SECOND_LAYER ((host_output)(HOST_LAYER + 1))
+#define HALF_OF_ONE  0x3c00u /* 1 as a half float in the low bits */
 
 enum { SIDE = 128, FEW_SPRITES = 64, BLOB_PLACES = 4 };
 
@@ -38,7 +39,9 @@ static inline void add_picture(shot *s, uint32_t side)
 {
     char *error = s->f.gpu.error;
     REQUIRE(host_target_create(&s->f.gpu.device, side, side, &s->picture, error, sizeof s->f.gpu.error));
-    REQUIRE(host_target_add_splash(&s->f.gpu.device, &s->picture, error, sizeof s->f.gpu.error));
+    host_output second;
+    REQUIRE(
+        host_target_add_layer(&s->f.gpu.device, &s->picture, "second", false, &second, error, sizeof s->f.gpu.error));
     s->layer_def = virga_default_target_def();
     host_target_describe_layer(&s->picture, &s->layer_def);
     REQUIRE(virga_target_create(s->f.context, &s->layer_def, &s->layer) == VIRGA_OK);
@@ -194,10 +197,7 @@ static inline virga_result record_layer(const shot *s, VkCommandBuffer cmd, host
 {
     if (s->tested.pass)
         return record_tested(s, cmd);
-    if (output == HOST_LAYER)
-        host_target_begin_layer(&s->picture, cmd);
-    else
-        host_target_begin_splash(&s->picture, cmd);
+    host_target_begin_output(&s->picture, cmd, output);
     const virga_result result = virga_splash_draw(s->f.splash, cmd, s->layer);
     host_target_end_layer(&s->picture, cmd);
     return result;
@@ -205,7 +205,7 @@ static inline virga_result record_layer(const shot *s, VkCommandBuffer cmd, host
 
 static const float *finish_frame(shot *s, VkCommandBuffer cmd)
 {
-    host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER | 1u << HOST_SPLASH);
+    host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER | 1u << SECOND_LAYER);
     splash_fixture_submit(&s->f);
     host_buffer_invalidate(&s->f.gpu.device, &s->sprites);
     host_buffer_invalidate(&s->f.gpu.device, &s->prepared);
@@ -217,7 +217,7 @@ static inline void record_empty(const shot *s, VkCommandBuffer cmd)
 {
     host_target_begin_layer(&s->picture, cmd);
     host_target_end_layer(&s->picture, cmd);
-    host_target_begin_splash(&s->picture, cmd);
+    host_target_begin_output(&s->picture, cmd, SECOND_LAYER);
     host_target_end_layer(&s->picture, cmd);
 }
 

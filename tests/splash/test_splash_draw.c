@@ -194,11 +194,11 @@ static void two_views_of_a_frame_both_come_out_right(void **state)
     for (int view = 0; view < 2; view++) {
         aim_of_view(&s, view);
         REQUIRE(prepare(&s, cmd) == VIRGA_OK);
-        REQUIRE(record_layer(&s, cmd, view ? HOST_SPLASH : HOST_LAYER) == VIRGA_OK);
+        REQUIRE(record_layer(&s, cmd, view ? SECOND_LAYER : HOST_LAYER) == VIRGA_OK);
     }
     finish_frame(&s, cmd);
     for (int view = 0; view < 2; view++) {
-        const host_output output = view ? HOST_SPLASH : HOST_LAYER;
+        const host_output output = view ? SECOND_LAYER : HOST_LAYER;
         assert_memory_equal(host_target_floats(&s.f.gpu.device, &s.picture, output), alone[view], pixel_count(&s) * 16);
         free(alone[view]);
     }
@@ -218,11 +218,11 @@ static void more_views_than_there_is_room_for_are_refused(void **state)
         record_plate(&s, cmd);
         for (int view = 0; view < VIRGA_SPLASH_MAX_VIEWS; view++)
             assert_int_equal(prepare(&s, cmd), VIRGA_OK);
-        assert_int_equal(record_layer(&s, cmd, HOST_SPLASH), VIRGA_OK);
+        assert_int_equal(record_layer(&s, cmd, SECOND_LAYER), VIRGA_OK);
         assert_int_equal(prepare(&s, cmd), VIRGA_ERROR_INVALID);
         assert_int_equal(record_layer(&s, cmd, HOST_LAYER), VIRGA_NOT_READY);
         assert_nothing(&s, finish_frame(&s, cmd));
-        assert_true(sum_of(&s, host_target_floats(&s.f.gpu.device, &s.picture, HOST_SPLASH), 3) > 1);
+        assert_true(sum_of(&s, host_target_floats(&s.f.gpu.device, &s.picture, SECOND_LAYER), 3) > 1);
     }
     close_shot(&s);
 }

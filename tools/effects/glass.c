@@ -2,9 +2,11 @@
 #include "glass.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "effect.h"
+#include "glass/panes.h"
 #include "scene_rows.h"
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
@@ -251,6 +253,204 @@ double scene_wiper_angle_deg(const scene_wiper *wiper, double time_s)
     return before->angle_deg + share * (after->angle_deg - before->angle_deg);
 }
 
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+#define MAX_CATCHING 8u /* panes that catch the rain's own drops, see virga_rain_def.max_panes */
+
+static bool is_used(const scene_file *scene)
+{
+    return scene_glass_of(scene)->pane_count > 0;
+}
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    glass_state *g = state;
+    const scene_glass *from = scene_glass_of(s->scene);
+    g->defs = calloc(from->pane_count + 1, sizeof *g->defs);
+    g->panes = calloc(from->pane_count + 1, sizeof *g->panes);
+    g->placed = calloc(from->pane_count + 1, sizeof *g->placed);
+    if (!g->defs || !g->panes || !g->placed)
+        return host_fail(error, error_size, "no memory for panes");
+    for (uint32_t i = 0; i < from->pane_count; i++) {
+        const scene_pane *pane = &from->panes[i];
+        virga_glass_def *to = &g->defs[i];
+        *to = virga_default_glass_def();
+        to->width_m = (float)pane->width_m;
+        to->height_m = (float)pane->height_m;
+        to->cell_m = (float)pane->cell_m;
+        to->max_drops = pane->max_drops;
+        to->affinity_m = (float)pane->affinity_m;
+        to->max_texels = pane->max_texels;
+        to->height_map = s->options.debug_maps;
+    }
+    def->panes = g->defs;
+    def->pane_count = from->pane_count;
+    def->rain.max_panes = from->pane_count < MAX_CATCHING ? from->pane_count : MAX_CATCHING;
+    return true;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    glass_state *g = state;
+    const scene_glass *from = scene_glass_of(s->scene);
+    for (; g->count < from->pane_count; g->count++) {
+        glass_pane *pane = &g->panes[g->count];
+        pane->from = &from->panes[g->count];
+        pane->glass = virga_scene_glass(s->simulation, g->count);
+        if (!glass_create_shape(s, pane, g->count, error, error_size) || !glass_create_mesh(s, pane, error, error_size))
+            return false;
+    }
+    return true;
+}
+
+static void close_state(shot *s, void *state)
+{
+    glass_state *g = state;
+    for (uint32_t i = 0; g->panes && i < scene_glass_of(s->scene)->pane_count; i++) {
+        host_buffer_destroy(&s->device, &g->panes[i].read.buffer);
+        host_mesh_destroy(&s->device, &g->panes[i].mesh);
+        free(g->panes[i].positions);
+    }
+    free(g->defs);
+    free(g->panes);
+    free(g->placed);
+}
+
+static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
+                       char *error, size_t error_size)
+{
+    glass_state *g = state;
+    (void)camera, (void)error, (void)error_size;
+    for (uint32_t i = 0; i < g->count; i++) {
+        glass_place(s, g->panes[i].from, time_s, &g->placed[i]);
+        g->panes[i].now = g->placed[i];
+    }
+    frame->panes = g->placed;
+    return true;
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size)
+{
+    const glass_state *g = state;
+    for (uint32_t i = 0; i < g->count; i++)
+        if (!glass_move_mesh(s, &g->panes[i], cmd, camera_s, error, error_size))
+            return false;
+    return true;
+}
+
+static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    const glass_state *g = state;
+    for (uint32_t i = 0; i < g->count; i++) {
+        virga_glass_pose pose;
+        const glass_pane *pane = &g->panes[i];
+        glass_pose_moving(s, pane->from, at->camera_s, &pose);
+        const double time_s = virga_glass_time(pane->glass) - at->late_s;
+        if (!shot_ok(s, virga_glass_prepare(pane->glass, cmd, at->jittered, &pose, time_s), "preparing a pane", error,
+                     error_size))
+            return false;
+    }
+    return true;
+}
+
+/* All panes, distant ones first. */
+static virga_result draw_panes(const glass_state *g, VkCommandBuffer cmd, const virga_target *target,
+                               virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < g->count && result >= 0; i++)
+        result = draw(g->panes[i].glass, cmd, target);
+    return result;
+}
+
+static virga_result draw_drops(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw_panes(state, cmd, target, virga_glass_draw);
+}
+
+static virga_result draw_refraction(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    return draw_panes(state, cmd, target, virga_glass_draw_refraction);
+}
+
+static const tool_layer layers[] = {
+    {.name = "glass",
+     .channels = {"glass.R", "glass.G", "glass.B", "glass.A"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "drops on panes and what they show, premultiplied",
+     .draw = draw_drops,
+     .order = 30,
+     .view_title = "Layer: panes",
+     .view_help = "drops on panes and what they show, over squares"},
+    /* Whole floats: half of them would step by half a pixel from 512 on. */
+    {.name = "refraction",
+     .channels = {"refraction.X", "refraction.Y"},
+     .type = EXR_SAMPLE_FLOAT,
+     .help = "where drops show the plate from, pixels right and down",
+     .draw = draw_refraction,
+     .order = 31,
+     .is_data = true,
+     .view_title = "Layer: refraction",
+     .view_help = "where drops show the scene from: red right, green down"},
+};
+
+/* ---- statistics ----------------------------------------------------------------------------------------------- */
+
+/* The budget of a pane: landed = drops + particles + film + wiped + run_off + evaporated, to the last nanolitre. */
+static void write_pane(const glass_pane *pane, jsonl *stats)
+{
+    virga_glass_stats g;
+    virga_glass_stats_get(pane->glass, &g);
+    jsonl_begin_object(stats, NULL);
+    jsonl_string(stats, "name", pane->from->name);
+    jsonl_uint64(stats, "drops", g.drops);
+    jsonl_uint64(stats, "particles", g.particles);
+    jsonl_uint64(stats, "held", g.held);
+    jsonl_uint64(stats, "arrived", g.arrived);
+    jsonl_uint64(stats, "merged", g.merged);
+    jsonl_uint64(stats, "to_particles", g.to_particles);
+    jsonl_uint64(stats, "to_drops", g.to_drops);
+    jsonl_uint64(stats, "crowded", g.crowded);
+    jsonl_uint64(stats, "balls", g.balls);
+    jsonl_uint64(stats, "balls_cut", g.balls_cut);
+    jsonl_begin_object(stats, "water_ul");
+    jsonl_number(stats, "landed", (double)g.landed_nl * 1e-3);
+    jsonl_number(stats, "drops", (double)g.drops_nl * 1e-3);
+    jsonl_number(stats, "particles", (double)g.particles_nl * 1e-3);
+    jsonl_number(stats, "film", (double)g.film_nl * 1e-3);
+    jsonl_number(stats, "wiped", (double)g.wiped_nl * 1e-3);
+    jsonl_number(stats, "run_off", (double)g.run_off_nl * 1e-3);
+    jsonl_number(stats, "evaporated", (double)g.evaporated_nl * 1e-3);
+    jsonl_end(stats);
+    jsonl_end(stats);
+}
+
+static void write_stats(shot *s, void *state, jsonl *stats)
+{
+    const glass_state *g = state;
+    (void)s;
+    if (!g->count)
+        return;
+    jsonl_begin_array(stats, "glass");
+    for (uint32_t i = 0; i < g->count; i++)
+        write_pane(&g->panes[i], stats);
+    jsonl_end(stats);
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_glass *glass = scene_glass_of(scene);
+    for (uint32_t i = 0; i < glass->pane_count; i++) {
+        const scene_pane *pane = &glass->panes[i];
+        printf("  glass        %s: %s, %g x %g m, %s, %s style, %u wiper%s%s\n", pane->name,
+               scene_pane_shape_name(pane->shape), pane->width_m, pane->height_m, scene_pane_kind_name(pane->kind),
+               scene_pane_style_name(pane->style), pane->wiper_count, pane->wiper_count == 1 ? "" : "s",
+               pane->follow == SCENE_PANE_CAMERA ? ", with the camera" : "");
+    }
+}
+
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
 scene_glass *scene_glass_of(const scene_file *scene)
@@ -261,4 +461,31 @@ scene_glass *scene_glass_of(const scene_file *scene)
 const tool_effect glass_effect = {
     .name = "glass",
     .scene = {.group = SCENE_GROUP(scene_glass, glass_section), .check = check_panes},
+    .is_used = is_used,
+    .missing = "panes; expected a list of them, glass",
+    .check = glass_check,
+    .check_files = glass_check_files,
+    .print = print,
+    .state_size = sizeof(glass_state),
+    .define = define,
+    .open = open_state,
+    .close = close_state,
+    .apply = glass_apply,
+    .fill_frame = fill_frame,
+    .layers = layers,
+    .layer_count = sizeof layers / sizeof layers[0],
+    .shows_behind = true,
+    .before_plate = before_plate,
+    .prepare = prepare,
+    .points = &glass_points,
+    .write_stats = write_stats,
+    .title = "Panes",
+    .print_entry = glass_print_entry,
+    .lists_restart = true,
+    .main_setting = glass_main_setting,
+    .views = glass_views,
+    .view_count = GLASS_VIEWS,
+    .counts = glass_counts,
+    .count_count = GLASS_COUNTS,
+    .fill_budget = glass_fill_budget,
 };

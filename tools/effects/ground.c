@@ -2,7 +2,16 @@
 #include "ground.h"
 
 #include "effect.h"
+#include "ground/ground_state.h"
+#include "png.h"
 #include "scene_rows.h"
+#include "suggest.h"
+#include "words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
 
@@ -61,6 +70,329 @@ static bool check_material_map(const scene_file *scene, char *error, size_t erro
     return true;
 }
 
+/* ---- materials ------------------------------------------------------------------------------------------------ */
+
+#define MATERIAL_OF_MESH 255 /* in a map of materials: the mesh's own */
+
+static bool check_material(const scene_file *scene, const char *key, const char *name, char *error, size_t error_size)
+{
+    const char *names[VIRGA_GROUND_MATERIALS];
+    char all[256] = "";
+    uint32_t material, count = 0;
+    size_t used = 0;
+    if (host_material_find(name, &material))
+        return true;
+    for (; count < VIRGA_GROUND_MATERIALS && used < sizeof all; count++) {
+        names[count] = host_material_name(count);
+        if (count && names[count] == names[0])
+            break;
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", count ? ", " : "", names[count]);
+    }
+    const char *near = suggest_nearest(name, names, count);
+    return scene_file_refuse(scene, key, error, error_size, "expected one of %s, got '%.40s'%s%s%s", all, name,
+                             near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+/* Whether the names of materials that the scene gives are known. */
+static bool check(const scene_file *scene, char *error, size_t error_size)
+{
+    char key[64];
+    const scene_ground *ground = scene_ground_of(scene);
+    for (uint32_t i = 0; i < ground->material_count; i++) {
+        snprintf(key, sizeof key, "ground.materials.%u.material", i);
+        if (ground->materials[i].material &&
+            !check_material(scene, key, ground->materials[i].material, error, error_size))
+            return false;
+    }
+    for (uint32_t i = 0; i < ground->material_map.material_count; i++) {
+        snprintf(key, sizeof key, "ground.material_map.materials.%u", i);
+        if (!check_material(scene, key, ground->material_map.materials[i], error, error_size))
+            return false;
+    }
+    return true;
+}
+
+/* Rules of the scene over what the words in names say: the first that matches a primitive or its material. */
+static void mark_mesh(const scene_file *scene, host_mesh *mesh)
+{
+    const scene_ground *ground = scene_ground_of(scene);
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        host_primitive *primitive = &mesh->primitives[i];
+        const scene_ground_rule *rule = ground->materials, *end = rule + ground->material_count;
+        while (rule < end && !host_name_contains(primitive->name, rule->match) &&
+               !host_name_contains(mesh->materials[primitive->material].name, rule->match))
+            rule++;
+        if (rule == end)
+            continue;
+        if (rule->material)
+            host_material_find(rule->material, &primitive->surface);
+        primitive->ground = rule->walkable;
+    }
+}
+
+/* The picture of ground.material_map as materials, one byte a texel: needs free(). NULL where the scene has no map. */
+static bool read_material_map(const scene_file *scene, uint32_t *width, uint32_t *height, uint8_t **texels, char *error,
+                              size_t error_size)
+{
+    const scene_material_map *map = &scene_ground_of(scene)->material_map;
+    uint8_t material_of[256];
+    char reason[1024];
+    *texels = NULL;
+    if (!map->file)
+        return true;
+    if (!png_read_numbers(map->file, width, height, texels, reason, sizeof reason))
+        return scene_file_refuse(scene, "ground.material_map.file", error, error_size, "%s", reason);
+    memset(material_of, MATERIAL_OF_MESH, sizeof material_of);
+    for (uint32_t i = 0; i < map->material_count; i++) {
+        uint32_t material = MATERIAL_OF_MESH;
+        host_material_find(map->materials[i], &material);
+        material_of[i] = (uint8_t)material;
+    }
+    for (size_t i = 0; i < (size_t)*width * *height; i++)
+        (*texels)[i] = material_of[(*texels)[i]];
+    return true;
+}
+
+static bool check_files(const scene_file *scene, char *error, size_t error_size)
+{
+    uint32_t width, height;
+    uint8_t *texels;
+    const scene_material_map *map = &scene_ground_of(scene)->material_map;
+    if (!read_material_map(scene, &width, &height, &texels, error, error_size))
+        return false;
+    if (!texels)
+        return true;
+    size_t mapped = 0;
+    const size_t count = (size_t)width * height;
+    for (size_t i = 0; i < count; i++)
+        mapped += texels[i] != MATERIAL_OF_MESH;
+    printf("  material map %s: %u x %u, %u materials on %.3g %% of it\n", map->file, width, height, map->material_count,
+           100 * (double)mapped / (double)count);
+    free(texels);
+    return true;
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_ground *ground = scene_ground_of(scene);
+    if (ground->on)
+        printf("  ground       %u x %u cells of %g m\n", ground->cells, ground->cells, ground->cell_m);
+    else
+        printf("  ground       off\n");
+}
+
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+#define RIPPLES_AHEAD_M 4.6 /* of the middle of the map of ripples, which is 6 m wide */
+
+static bool is_used(const scene_file *scene)
+{
+    return scene_ground_of(scene)->on;
+}
+
+/* How far ahead the middle of the map of ripples lies: where the camera looks, up to a distance that the lower part of
+ * a wide picture shows. */
+static double ripples_ahead(const shot *s, double time_s)
+{
+    const host_camera_key *key = s->camera_keys;
+    for (uint32_t i = 1; i < s->path.count && s->camera_keys[i].time_s <= time_s; i++)
+        key = &s->camera_keys[i];
+    const double way = hypot(key->look_at_m[0] - key->position_m[0], key->look_at_m[2] - key->position_m[2]);
+    return way < RIPPLES_AHEAD_M ? way : RIPPLES_AHEAD_M;
+}
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    const scene_ground *from = scene_ground_of(s->scene);
+    (void)state, (void)error, (void)error_size;
+    def->with_ground = from->on;
+    def->ground.cells = from->cells;
+    def->ground.cell_m = (float)from->cell_m;
+    def->ground.kept_tiles = from->kept_tiles;
+    def->ground.far_cells = from->far_cells;
+    /* A close-up sees finer waves of a smaller area. */
+    def->ground.ripple_texel_m = (float)fmax(0.006 * ripples_ahead(s, 0) / RIPPLES_AHEAD_M, 0.002);
+    return true;
+}
+
+static bool upload_materials(shot *s, ground_state *g, uint32_t width, uint32_t height, const uint8_t *texels,
+                             char *error, size_t error_size)
+{
+    const uint32_t limit = s->device.properties.limits.maxImageDimension2D;
+    const host_image_def def = {.format = VK_FORMAT_R8_UINT,
+                                .extent = {width, height, 1},
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                .name = "material map"};
+    if (!shot_blame_input(s, width <= limit && height <= limit))
+        return scene_file_refuse(s->scene, "ground.material_map.file", error, error_size,
+                                 "%u x %u pixels are more than this device's %u on a side", width, height, limit);
+    return host_image_create(&s->device, &def, &g->material_image, error, error_size) &&
+           host_image_upload(&s->device, &g->material_image, texels, (VkDeviceSize)width * height, 1, error,
+                             error_size);
+}
+
+static bool open_material_map(shot *s, ground_state *g, char *error, size_t error_size)
+{
+    const scene_material_map *map = &scene_ground_of(s->scene)->material_map;
+    const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                    VK_ACCESS_SHADER_READ_BIT};
+    uint32_t width, height;
+    uint8_t *texels;
+    if (!shot_blame_input(s, read_material_map(s->scene, &width, &height, &texels, error, error_size)))
+        return false;
+    if (!texels)
+        return true;
+    const bool uploaded = upload_materials(s, g, width, height, texels, error, error_size);
+    free(texels);
+    g->materials.image = (virga_image){.image = g->material_image.image,
+                                       .view = g->material_image.view,
+                                       .format = VK_FORMAT_R8_UINT,
+                                       .extent = {width, height, 1},
+                                       .before = read,
+                                       .after = read};
+    memcpy(g->materials.low_m, map->low_m, sizeof g->materials.low_m);
+    memcpy(g->materials.high_m, map->high_m, sizeof g->materials.high_m);
+    return uploaded;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    ground_state *g = state;
+    g->ground = virga_scene_ground(s->simulation);
+    g->rain = virga_scene_rain(s->simulation);
+    return open_material_map(s, g, error, error_size);
+}
+
+/* The mirror's plane: the foot of the widest ground under the point that the camera looks at first. */
+static bool resize(shot *s, void *state, char *error, size_t error_size)
+{
+    const ground_state *g = state;
+    const double *at = s->camera_keys[0].look_at_m;
+    double widest = 0, height_m = 0;
+    for (uint32_t m = 0; m < s->meshes_loaded; m++) {
+        for (uint32_t i = 0; i < s->meshes[m].primitive_count; i++) {
+            const host_primitive *p = &s->meshes[m].primitives[i];
+            const double area = ((double)p->high[0] - (double)p->low[0]) * ((double)p->high[2] - (double)p->low[2]);
+            const bool under = at[0] >= (double)p->low[0] && at[0] <= (double)p->high[0] &&
+                               at[2] >= (double)p->low[2] && at[2] <= (double)p->high[2];
+            if (area <= widest || !under || !host_is_ground(p->name, p->surface))
+                continue;
+            widest = area;
+            height_m = (double)p->low[1];
+        }
+    }
+    return !g->ground || host_renderer_set_mirror(s->renderer, &s->target, height_m, error, error_size);
+}
+
+static void close_state(shot *s, void *state)
+{
+    ground_state *g = state;
+    host_image_destroy(&s->device, &g->material_image);
+}
+
+/* ---- time ----------------------------------------------------------------------------------------------------- */
+
+static bool apply(shot *s, void *state, double time_s, char *error, size_t error_size)
+{
+    const ground_state *g = state;
+    const scene_ground *from = scene_ground_of(s->scene);
+    virga_ground_settings settings = virga_default_ground_settings();
+    (void)time_s;
+    settings.evaporation_mm_h = (float)from->evaporation_mm_h;
+    settings.start_wetness = (float)from->start_wetness;
+    settings.start_water_mm = (float)from->start_water_mm;
+    settings.measure = s->options.stats;
+    return !g->ground || shot_ok(s, virga_ground_set(g->ground, &settings), "setting the ground", error, error_size);
+}
+
+/* Ripples are worth drawing ahead of the camera, from its feet on. */
+static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
+                       char *error, size_t error_size)
+{
+    const ground_state *g = state;
+    const double ahead_m = ripples_ahead(s, time_s);
+    const float *m = camera->view_from_world; /* its third row points back */
+    const double back[2] = {(double)m[2], (double)m[10]}, length = hypot(back[0], back[1]);
+    (void)error, (void)error_size;
+    frame->materials = g->materials;
+    memcpy(frame->focus_m, camera->position_m, sizeof frame->focus_m);
+    for (int axis = 0; axis < 2 && length > 1e-3; axis++)
+        frame->focus_m[axis * 2] -= back[axis] / length * ahead_m;
+    return true;
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camera_s, char *error, size_t error_size)
+{
+    const ground_state *g = state;
+    virga_ground_maps maps;
+    (void)cmd, (void)camera_s, (void)error, (void)error_size;
+    if (!g->ground)
+        return true;
+    virga_ground_maps_get(g->ground, &maps);
+    host_renderer_set_ground(s->renderer, &maps);
+    return true;
+}
+
+static const tool_layer layers[] = {
+    {.name = "wetness",
+     .channels = {"wetness.Y"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "of the ground, 0 to 1",
+     .plate = HOST_WATER,
+     .value = 0},
+    {.name = "waterdepth",
+     .channels = {"waterdepth.Y"},
+     .type = EXR_SAMPLE_FLOAT,
+     .help = "metres of water on the ground",
+     .plate = HOST_WATER,
+     .value = 1},
+};
+
+/* ---- statistics ----------------------------------------------------------------------------------------------- */
+
+/* start + rained_total = elsewhere + absorbed + film + puddle + run_off + evaporated + kept + forgotten + aloft, to the
+ * last nanolitre. What is aloft flew up in splashes and has not fallen back. */
+static void write_water(const virga_ground_stats *now, jsonl *stats)
+{
+    jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
+    jsonl_number(stats, "elsewhere", (double)now->elsewhere_nl * 1e-3);
+    jsonl_number(stats, "absorbed", (double)(now->held_nl + now->infiltrated_nl) * 1e-3);
+    jsonl_number(stats, "film", (double)now->film_nl * 1e-3);
+    jsonl_number(stats, "puddle", (double)now->puddles_nl * 1e-3);
+    jsonl_number(stats, "run_off", (double)now->run_off_nl * 1e-3);
+    jsonl_number(stats, "evaporated", (double)now->evaporated_nl * 1e-3);
+    jsonl_number(stats, "kept", (double)now->kept_nl * 1e-3);
+    jsonl_number(stats, "forgotten", (double)now->forgotten_nl * 1e-3);
+    jsonl_number(stats, "aloft", (double)(now->flown_nl - now->returned_nl) * 1e-3);
+}
+
+/* The budget of water, and the ground's cells by what is on them. */
+static void write_totals(shot *s, void *state, jsonl *stats)
+{
+    static const char *const states[VIRGA_GROUND_STATES] = {"none",       "dry",        "wet",
+                                                            "puddle_3mm", "puddle_5mm", "puddle_10mm"};
+    const ground_state *g = state;
+    virga_rain_stats rain;
+    virga_ground_stats now;
+    (void)s;
+    virga_rain_stats_get(g->rain, &rain);
+    virga_ground_stats_get(g->ground, &now);
+    jsonl_begin_object(stats, "water_ul");
+    jsonl_number(stats, "rained", (double)rain.impact_water_nl * 1e-3);
+    jsonl_number(stats, "rained_total", (double)rain.total_water_nl * 1e-3);
+    if (g->ground)
+        write_water(&now, stats);
+    jsonl_end(stats);
+    if (!g->ground)
+        return;
+    jsonl_begin_object(stats, "cells");
+    for (uint32_t i = 0; i < VIRGA_GROUND_STATES; i++)
+        jsonl_uint64(stats, states[i], now.cells[i]);
+    jsonl_end(stats);
+}
+
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
 scene_ground *scene_ground_of(const scene_file *scene)
@@ -71,4 +403,25 @@ scene_ground *scene_ground_of(const scene_file *scene)
 const tool_effect ground_effect = {
     .name = "ground",
     .scene = {.group = SCENE_GROUP(scene_ground, ground_section), .check = check_material_map},
+    .is_used = is_used,
+    .missing = "ground; expected ground.on: true",
+    .check = check,
+    .check_files = check_files,
+    .print = print,
+    .state_size = sizeof(ground_state),
+    .define = define,
+    .mark_mesh = mark_mesh,
+    .open = open_state,
+    .resize = resize,
+    .close = close_state,
+    .apply = apply,
+    .fill_frame = fill_frame,
+    .layers = layers,
+    .layer_count = sizeof layers / sizeof layers[0],
+    .before_plate = before_plate,
+    .write_totals = write_totals,
+    .title = "Ground",
+    .views = ground_views,
+    .view_count = GROUND_VIEWS,
+    .fill_budget = ground_fill_budget,
 };

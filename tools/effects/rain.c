@@ -1,11 +1,20 @@
 /* rain.c - what the program knows of the rain. */
 #include "rain.h"
 
+#include <math.h>
+#include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "effect.h"
+#include "point_columns.h"
+#include "rain/view_gpu.h"
 #include "scene_rows.h"
+
+#include "rain_view_frag.spv.h"
+
+#define MAX_SIZES 256 /* entries of a table of sizes */
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
 
@@ -134,6 +143,345 @@ void scene_rain_weather(const scene_rain *rain, double time_s, double *rate_mm_h
         wind_m_s[i] = before->wind_m_s[i] + share * (after->wind_m_s[i] - before->wind_m_s[i]);
 }
 
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+typedef struct rain_state {
+    virga_rain *rain;
+    virga_rain_settings settings;
+    virga_target *mirror; /* of the pass that draws haze over what puddles mirror; NULL where there is no mirror */
+    virga_result mirror_result; /* of that, in the newest plate */
+    shot_read drops;
+} rain_state;
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    const scene_rain *from = scene_rain_of(s->scene);
+    (void)state, (void)error, (void)error_size;
+    def->rain.seed = from->seed;
+    def->rain.max_drops = from->max_drops;
+    def->rain.range_m = (float)from->range_m;
+    def->rain.occlusion_size = from->occlusion_size;
+    def->rain.occlusion_cascades = from->occlusion_cascades;
+    def->rain.occlusion_slants = from->occlusion_slants;
+    def->rain.max_ticks_per_step = 64;
+    def->rain.points = s->options.points;
+    /* Ticks divide a frame, so that each frame lies on one. */
+    const double frame_s = 1 / s->scene->frames.fps;
+    def->rain.tick_s = frame_s / ceil(frame_s * 60 - 1e-9);
+    return true;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    (void)error, (void)error_size;
+    r->rain = virga_scene_rain(s->simulation);
+    r->settings = virga_default_rain_settings();
+    return true;
+}
+
+static void draw_mirror_haze(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4])
+{
+    rain_state *r = user;
+    const virga_result result = virga_rain_draw_haze(r->rain, cmd, view, plane, r->mirror);
+    if (result < 0)
+        r->mirror_result = result;
+}
+
+/* What puddles mirror is as far away in the rain as what is seen. */
+static bool attach(shot *s, void *state, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    virga_target_def target = virga_default_target_def();
+    if (!host_renderer_describe_mirror(s->renderer, &target))
+        return true;
+    host_renderer_haze_mirror(s->renderer, draw_mirror_haze, r);
+    return shot_ok(s, virga_target_create(s->context, &target, &r->mirror), "creating the mirror's target", error,
+                   error_size) &&
+           shot_ok(s, virga_rain_attach(r->rain, r->mirror), "building pipelines", error, error_size);
+}
+
+static void close_state(shot *s, void *state)
+{
+    rain_state *r = state;
+    virga_target_destroy(&r->mirror);
+    host_buffer_destroy(&s->device, &r->drops.buffer);
+}
+
+/* ---- settings ------------------------------------------------------------------------------------------------- */
+
+static bool fill_sizes(shot *s, virga_rain_settings *to, double *diameters, double *numbers, char *error,
+                       size_t error_size)
+{
+    const scene_rain *from = scene_rain_of(s->scene);
+    to->sizes.kind = (virga_sizes_kind)from->sizes;
+    if (from->sizes != SCENE_SIZES_TABLE)
+        return true;
+    if (!shot_blame_input(s, from->table_count <= MAX_SIZES))
+        return host_fail(error, error_size, "rain.table: expected at most %d entries, got %u", MAX_SIZES,
+                         from->table_count);
+    for (uint32_t i = 0; i < from->table_count; i++) {
+        diameters[i] = from->table[i].diameter_mm * 1e-3;
+        numbers[i] = from->table[i].number;
+    }
+    to->sizes.table_diameter_m = diameters;
+    to->sizes.table_number = numbers;
+    to->sizes.table_count = from->table_count;
+    return true;
+}
+
+static void fill_look(const shot *s, const scene_rain *from, virga_rain_settings *to)
+{
+    to->streak_gain = (float)from->streak_gain;
+    to->light_gain = (float)from->light_gain;
+    to->min_width_px = (float)from->min_width_px;
+    to->soft_m = (float)from->soft_m;
+    to->near_m = (float)from->near_m;
+    to->oscillation = (float)from->oscillation;
+    to->haze = (float)from->haze;
+    /* Footage has its own haze. */
+    to->haze_sky_m = s->options.plate ? 0 : (float)from->haze_sky_m;
+    to->glow = (float)from->glow;
+    to->bodies_min_mm = (float)from->bodies_min_mm;
+    to->occlusion_turns = from->occlusion_turns;
+    to->lighting = s->lighting;
+}
+
+/* Keys of the scene file animate rate and wind. */
+static bool apply(shot *s, void *state, double time_s, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    const scene_rain *from = scene_rain_of(s->scene);
+    virga_rain_settings *to = &r->settings;
+    double rate, wind[3], diameters[MAX_SIZES], numbers[MAX_SIZES];
+    scene_rain_weather(from, time_s, &rate, wind);
+    to->rate_mm_h = (float)rate;
+    for (int axis = 0; axis < 3; axis++)
+        to->wind_m_s[axis] = (float)wind[axis];
+    to->air_density = (float)from->air_density;
+    /* Keys say what the rate is at every time; easing towards them would lag behind. */
+    to->transition_s = from->key_count ? 0 : (float)from->transition_s;
+    to->gust_m_s = (float)from->gust_m_s;
+    to->gust_time_s = (float)from->gust_time_s;
+    fill_look(s, from, to);
+    return fill_sizes(s, to, diameters, numbers, error, error_size) &&
+           shot_ok(s, virga_rain_set(r->rain, to), "setting the rain", error, error_size);
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    r->mirror_result = VIRGA_OK;
+    return shot_ok(s, virga_rain_prepare(r->rain, cmd, at->steady, virga_rain_time(r->rain) - at->late_s),
+                   "preparing the rain", error, error_size);
+}
+
+static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    const rain_state *r = state;
+    const virga_result result = virga_rain_draw(r->rain, cmd, target);
+    return result < 0 ? result : r->mirror_result < 0 ? r->mirror_result : result;
+}
+
+static const tool_layer layers[] = {
+    {.name = "rain",
+     .channels = {"rain.R", "rain.G", "rain.B", "rain.A"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "the falling drops alone, premultiplied",
+     .draw = draw,
+     .order = 20,
+     .view_title = "Layer: rain",
+     .view_help = "the falling drops alone, over squares"},
+};
+
+/* ---- files of a frame ----------------------------------------------------------------------------------------- */
+
+/* One drop of the point cache. */
+typedef struct drop {
+    POINT_MEMBERS;
+    float weight;
+} drop;
+
+static const ply_property drop_columns[] = {POINT_COLUMNS(drop), {"weight", PLY_FLOAT, offsetof(drop, weight)}};
+
+static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    virga_rain_buffer drops;
+    return shot_ok(s, virga_rain_points(r->rain, cmd, &drops, &r->drops.count, r->drops.origin_m), "reading drops",
+                   error, error_size) &&
+           shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, &r->drops, error, error_size);
+}
+
+/* The drops under the open sky, in the world. */
+static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size)
+{
+    rain_state *r = state;
+    const virga_point_gpu *from = shot_finish_read(s, &r->drops, error, error_size);
+    drop *drops = from ? malloc(r->drops.count * sizeof *drops + 1) : NULL;
+    *rows = drops;
+    *count = 0;
+    if (!drops)
+        return from && host_fail(error, error_size, "no memory for %u points", r->drops.count);
+    for (uint32_t i = 0; i < r->drops.count; i++) {
+        if (from[i].weight <= 0)
+            continue;
+        drop *to = &drops[(*count)++];
+        shot_read_position(&r->drops, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->id = from[i].id;
+        to->age_s = from[i].age_s;
+        to->weight = from[i].weight;
+    }
+    return true;
+}
+
+static const tool_points points = {
+    .properties = drop_columns,
+    .property_count = sizeof drop_columns / sizeof drop_columns[0],
+    .stride = sizeof(drop),
+    .comment = "virga rain: metres, seconds; weight is the drops that a point stands for",
+    .help = "the drops under the open sky",
+    .record = record_drops,
+    .read = read_drops,
+};
+
+static void write_stats(shot *s, void *state, jsonl *stats)
+{
+    const rain_state *r = state;
+    virga_rain_stats now;
+    (void)s;
+    virga_rain_stats_get(r->rain, &now);
+    jsonl_begin_object(stats, "rain");
+    jsonl_number(stats, "rate_mm_h", (double)r->settings.rate_mm_h);
+    jsonl_uint64(stats, "slots", now.slots);
+    jsonl_uint64(stats, "streaks", now.streaks);
+    jsonl_uint64(stats, "impacts", now.impacts);
+    jsonl_uint64(stats, "impacts_dropped", now.impacts_dropped);
+    jsonl_number(stats, "bodies_radius_m", (double)now.bodies_radius_m);
+    jsonl_begin_array(stats, "wind_m_s");
+    for (int axis = 0; axis < 3; axis++)
+        jsonl_number(stats, NULL, (double)now.wind_m_s[axis]);
+    jsonl_end(stats);
+    jsonl_end(stats);
+}
+
+static uint32_t seed(const scene_file *scene)
+{
+    return scene_rain_of(scene)->seed;
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_rain *rain = scene_rain_of(scene);
+    printf("  rain         %g mm/h, %u drops, seed %u\n", rain->rate_mm_h, rain->max_drops, rain->seed);
+}
+
+/* ---- virga view ----------------------------------------------------------------------------------------------- */
+
+static bool main_setting(const scene_file *scene, uint32_t index, char *path, size_t path_size, char *caption,
+                         size_t caption_size)
+{
+    static const char *const paths[] = {"rain.rate_mm_h", "rain.wind_m_s", "rain.gust_m_s"};
+    (void)scene;
+    if (index >= sizeof paths / sizeof paths[0])
+        return false;
+    snprintf(path, path_size, "%s", paths[index]);
+    snprintf(caption, caption_size, "%s", "");
+    return true;
+}
+
+static bool is_animated(const scene_file *scene)
+{
+    return scene_rain_of(scene)->key_count > 0;
+}
+
+static void stop_animation(scene_file *scene, double time_s)
+{
+    scene_rain *rain = scene_rain_of(scene);
+    double rate, wind[3];
+    scene_rain_weather(rain, time_s, &rate, wind);
+    rain->rate_mm_h = rate;
+    memcpy(rain->wind_m_s, wind, sizeof wind);
+    rain->key_count = 0;
+}
+
+static void print_state(const scene_file *scene, char *text, size_t size)
+{
+    snprintf(text, size, "%.3g mm/h", scene_rain_of(scene)->rate_mm_h);
+}
+
+static uint32_t count_maps(const void *state)
+{
+    virga_rain_occlusion_map map;
+    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
+    return map.cascades * map.slants;
+}
+
+static void print_map(const void *state, uint32_t item, char *text, size_t size)
+{
+    virga_rain_occlusion_map map;
+    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
+    const uint32_t cascade = item / map.slants;
+    snprintf(text, size, "map %%d: %.0f m wide, slant %u of %u", 2 * (double)map.half_m[cascade < 3 ? cascade : 3],
+             item % map.slants + 1, map.slants);
+}
+
+static void fill_view(shot *s, void *state, tool_view_data *data)
+{
+    struct rain_view_gpu *out = data->own;
+    virga_rain_occlusion_map map;
+    (void)s;
+    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
+    out->heights[0] = (float)map.top_m;
+    out->heights[1] = map.height_m;
+    out->heights[2] = (float)data->camera->position_m[1] - 4;
+    out->heights[3] = map.depth ? 1 : 0;
+    data->array = map.depth;
+    data->array_layout = map.layout;
+}
+
+static const tool_view views[] = {
+    {.name = "occlusion",
+     .title = "Occlusion maps",
+     .help = "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)",
+     .kind = TOOL_VIEW_FLAT,
+     .fragment = {rain_view_frag_spv, sizeof rain_view_frag_spv},
+     .fill = fill_view,
+     .item_count = count_maps,
+     .print_item = print_map},
+};
+
+static virga_rain_stats stats_of(const void *state)
+{
+    virga_rain_stats stats;
+    virga_rain_stats_get(((const rain_state *)state)->rain, &stats);
+    return stats;
+}
+
+static double count_streaks(const void *state)
+{
+    return stats_of(state).streaks;
+}
+
+static double count_impacts(const void *state)
+{
+    return stats_of(state).impacts;
+}
+
+static const tool_count counts[] = {
+    {"streaks in the picture", count_streaks},
+    {"impacts a frame", count_impacts},
+};
+
+static uint64_t water_nl(const void *state)
+{
+    return stats_of(state).total_water_nl;
+}
+
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
 scene_rain *scene_rain_of(const scene_file *scene)
@@ -144,4 +492,30 @@ scene_rain *scene_rain_of(const scene_file *scene)
 const tool_effect rain_effect = {
     .name = "rain",
     .scene = {.group = SCENE_GROUP(scene_rain, rain_section), .check = check_rain},
+    .seed_key = "rain.seed",
+    .seed = seed,
+    .print = print,
+    .state_size = sizeof(rain_state),
+    .define = define,
+    .open = open_state,
+    .attach = attach,
+    .close = close_state,
+    .apply = apply,
+    .layers = layers,
+    .layer_count = sizeof layers / sizeof layers[0],
+    .prepare = prepare,
+    .points = &points,
+    .write_stats = write_stats,
+    .title = "Rain",
+    .main_setting = main_setting,
+    .is_animated = is_animated,
+    .stop_animation = stop_animation,
+    .animation_hint = "The scene's keys say rate and wind at every time.",
+    .print_state = print_state,
+    .views = views,
+    .view_count = sizeof views / sizeof views[0],
+    .counts = counts,
+    .count_count = sizeof counts / sizeof counts[0],
+    .water_text = "rained, where drops landed",
+    .water_nl = water_nl,
 };

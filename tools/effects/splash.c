@@ -3,7 +3,16 @@
 
 #include "effect.h"
 #include "ground.h"
+#include "point_columns.h"
 #include "scene_rows.h"
+#include "words.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <virga/shared/random.h>
 
 /* ---- keys of scene files -------------------------------------------------------------------------------------- */
 
@@ -58,6 +67,248 @@ const char *scene_splash_style_name(uint32_t style)
     return scene_keyword_name(splash_styles, style);
 }
 
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+typedef struct splash_state {
+    virga_splash *splash; /* NULL: none */
+    virga_rain *rain;     /* whose time is the splashes' too */
+    shot_read droplets;
+} splash_state;
+
+static bool is_used(const scene_file *scene)
+{
+    return scene_splash_of(scene)->on;
+}
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    const scene_splash *from = scene_splash_of(s->scene);
+    (void)state, (void)error, (void)error_size;
+    def->with_splash = from->on;
+    def->splash.max_splashes = from->max_splashes;
+    def->splash.max_droplets = from->max_droplets;
+    return true;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    splash_state *p = state;
+    (void)error, (void)error_size;
+    p->splash = virga_scene_splash(s->simulation);
+    p->rain = virga_scene_rain(s->simulation);
+    return true;
+}
+
+static void close_state(shot *s, void *state)
+{
+    splash_state *p = state;
+    host_buffer_destroy(&s->device, &p->droplets.buffer);
+}
+
+/* Lit and carried by the same air as the rain, whose settings are applied before. */
+static bool apply(shot *s, void *state, double time_s, char *error, size_t error_size)
+{
+    const splash_state *p = state;
+    const scene_splash *from = scene_splash_of(s->scene);
+    virga_splash_settings settings = virga_default_splash_settings();
+    virga_rain_settings rain;
+    (void)time_s;
+    if (!p->splash)
+        return true;
+    virga_rain_get(p->rain, &rain);
+    settings.mode = (virga_splash_mode)from->mode;
+    settings.style = (virga_splash_style)from->style;
+    settings.droplets_m = (float)from->droplets_m;
+    settings.bounce = (float)from->bounce;
+    settings.pile_s = (float)from->pile_s;
+    settings.pile_m = (float)from->pile_m;
+    settings.dot_mm = (float)from->dot_mm;
+    settings.gain = (float)from->gain;
+    settings.light_gain = (float)from->light_gain;
+    settings.min_width_px = (float)from->min_width_px;
+    settings.soft_m = (float)from->soft_m;
+    settings.near_m = (float)from->near_m;
+    settings.air_density = rain.air_density;
+    settings.lighting = s->lighting;
+    return shot_ok(s, virga_splash_set(p->splash, &settings), "setting the splashes", error, error_size);
+}
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    const splash_state *p = state;
+    return !p->splash ||
+           shot_ok(s, virga_splash_prepare(p->splash, cmd, at->jittered, virga_rain_time(p->rain) - at->late_s),
+                   "preparing the splashes", error, error_size);
+}
+
+static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    const splash_state *p = state;
+    return p->splash ? virga_splash_draw(p->splash, cmd, target) : VIRGA_OK;
+}
+
+static const tool_layer layers[] = {
+    {.name = "splash",
+     .channels = {"splash.R", "splash.G", "splash.B", "splash.A"},
+     .type = EXR_SAMPLE_HALF,
+     .help = "the splashes alone, premultiplied",
+     .draw = draw,
+     .order = 10,
+     .view_title = "Layer: splashes",
+     .view_help = "the splashes alone, over squares"},
+};
+
+/* ---- files of a frame ----------------------------------------------------------------------------------------- */
+
+/* One droplet of the point cache. */
+typedef struct droplet {
+    POINT_MEMBERS;
+    uint32_t model, material, state; /* of its splash, and of the cell that it came from */
+    uint32_t parent, index;          /* the drop, and which of its droplets this is: id is the hash of both */
+    float water_ul;
+} droplet;
+
+static const ply_property droplet_columns[] = {
+    POINT_COLUMNS(droplet),
+    {"model", PLY_UINT, offsetof(droplet, model)},
+    {"material", PLY_UINT, offsetof(droplet, material)},
+    {"state", PLY_UINT, offsetof(droplet, state)},
+    {"parent", PLY_UINT, offsetof(droplet, parent)},
+    {"index", PLY_UINT, offsetof(droplet, index)},
+    {"water_ul", PLY_FLOAT, offsetof(droplet, water_ul)},
+};
+
+static bool record_droplets(shot *s, void *state, VkCommandBuffer cmd, char *error, size_t error_size)
+{
+    splash_state *p = state;
+    virga_splash_buffer droplets;
+    virga_splash_droplets(p->splash, &droplets, &p->droplets.count, p->droplets.origin_m);
+    return !p->splash ||
+           shot_record_read(s, cmd, droplets.buffer, droplets.offset, droplets.size, &p->droplets, error, error_size);
+}
+
+/* Those on the tip of a pile among them. */
+static bool read_droplets(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size)
+{
+    splash_state *p = state;
+    const virga_droplet_gpu *from = shot_finish_read(s, &p->droplets, error, error_size);
+    droplet *droplets = from ? malloc(p->droplets.count * sizeof *droplets + 1) : NULL;
+    *rows = droplets;
+    *count = 0;
+    if (!droplets)
+        return from && host_fail(error, error_size, "no memory for %u points", p->droplets.count);
+    for (uint32_t i = 0; i < p->droplets.count; i++) {
+        if (!(from[i].kind & VIRGA_DROPLET_ALIVE) || from[i].age_s < 0)
+            continue;
+        droplet *to = &droplets[(*count)++];
+        shot_read_position(&p->droplets, from[i].position, to->position);
+        memcpy(to->velocity, from[i].velocity, sizeof to->velocity);
+        to->radius_m = 0.5f * from[i].diameter_m;
+        to->age_s = from[i].age_s;
+        to->model = VIRGA_DROPLET_MODEL(from[i].kind);
+        to->material = VIRGA_DROPLET_MATERIAL(from[i].kind);
+        to->state = VIRGA_DROPLET_STATE(from[i].kind);
+        to->parent = from[i].id;
+        to->index = VIRGA_DROPLET_NUMBER(from[i].kind);
+        to->id = virga_hash2(to->parent, to->index);
+        to->water_ul = (float)(from[i].water_nl * 1e-3);
+    }
+    return true;
+}
+
+static const tool_points points = {
+    .properties = droplet_columns,
+    .property_count = sizeof droplet_columns / sizeof droplet_columns[0],
+    .stride = sizeof(droplet),
+    .comment =
+        "virga splash: metres, seconds, microlitres; parent is the drop's id; water_ul is of all the droplets that "
+        "a point stands for",
+    .help = "the droplets of splashes",
+    .record = record_droplets,
+    .read = read_droplets,
+};
+
+static const char *model_name(uint32_t model)
+{
+    static const char *const models[VIRGA_SPLASH_MODELS] = {
+        [VIRGA_SPLASH_NONE] = "none",
+        [VIRGA_SPLASH_SCATTERING] = "scattering",
+        [VIRGA_SPLASH_CROWN_CONE] = "crown_cone",
+        [VIRGA_SPLASH_DISK] = "disk",
+        [VIRGA_SPLASH_DOT] = "dot",
+    };
+    return models[model < VIRGA_SPLASH_MODELS ? model : VIRGA_SPLASH_NONE];
+}
+
+/* Splashes of a model by what they are on. Materials without a name count as the default one. */
+static void write_materials(jsonl *stats, uint32_t model, const uint64_t counts[VIRGA_GROUND_MATERIALS])
+{
+    const char *other = host_material_name(0);
+    jsonl_begin_object(stats, model_name(model));
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
+        uint64_t count = counts[i];
+        if (i && host_material_name(i) == other)
+            continue;
+        for (uint32_t more = 1; !i && more < VIRGA_GROUND_MATERIALS; more++)
+            count += host_material_name(more) == other ? counts[more] : 0;
+        if (count)
+            jsonl_uint64(stats, host_material_name(i), count);
+    }
+    jsonl_end(stats);
+}
+
+static void write_stats(shot *s, void *state, jsonl *stats)
+{
+    const splash_state *p = state;
+    virga_splash_stats now;
+    (void)s;
+    if (!p->splash)
+        return;
+    virga_splash_stats_get(p->splash, &now);
+    jsonl_begin_object(stats, "splash");
+    jsonl_begin_object(stats, "splashes");
+    for (uint32_t model = VIRGA_SPLASH_NONE + 1; model < VIRGA_SPLASH_MODELS; model++)
+        write_materials(stats, model, now.splashes[model]);
+    jsonl_end(stats);
+    jsonl_uint64(stats, "splashes_alive", now.splashes_alive);
+    jsonl_uint64(stats, "droplets_alive", now.droplets_alive);
+    jsonl_uint64(stats, "droplets", now.droplets);
+    jsonl_uint64(stats, "fallen", now.fallen);
+    jsonl_uint64(stats, "crowded", now.crowded);
+    jsonl_uint64(stats, "sprites", now.sprites);
+    jsonl_end(stats);
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_splash *splash = scene_splash_of(scene);
+    if (splash->on)
+        printf("  splash       %s, %s style, %u splashes, %u droplets\n", scene_splash_mode_name(splash->mode),
+               scene_splash_style_name(splash->style), splash->max_splashes, splash->max_droplets);
+    else
+        printf("  splash       off\n");
+}
+
+/* ---- virga view ----------------------------------------------------------------------------------------------- */
+
+static double count_droplets(const void *state)
+{
+    virga_splash_stats stats;
+    virga_splash_stats_get(((const splash_state *)state)->splash, &stats);
+    return stats.droplets_alive;
+}
+
+static const tool_count counts[] = {{"droplets in the air", count_droplets}};
+
+static uint64_t water_nl(const void *state)
+{
+    virga_splash_stats stats;
+    virga_splash_stats_get(((const splash_state *)state)->splash, &stats);
+    return stats.flown_nl - stats.returned_nl;
+}
+
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
 scene_splash *scene_splash_of(const scene_file *scene)
@@ -68,4 +319,22 @@ scene_splash *scene_splash_of(const scene_file *scene)
 const tool_effect splash_effect = {
     .name = "splash",
     .scene = {.group = SCENE_GROUP(scene_splash, splash_section), .check = check_splash},
+    .is_used = is_used,
+    .missing = "splashes; expected splash.on: true",
+    .print = print,
+    .state_size = sizeof(splash_state),
+    .define = define,
+    .open = open_state,
+    .close = close_state,
+    .apply = apply,
+    .layers = layers,
+    .layer_count = sizeof layers / sizeof layers[0],
+    .prepare = prepare,
+    .points = &points,
+    .write_stats = write_stats,
+    .title = "Splashes",
+    .counts = counts,
+    .count_count = sizeof counts / sizeof counts[0],
+    .water_text = "in the air as splashes",
+    .water_nl = water_nl,
 };

@@ -10,17 +10,17 @@ bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t heigh
     size_t pixels = (size_t)width * height;
     *a = (host_accumulator){.width = width, .height = height};
     a->color = calloc(pixels, 4 * sizeof(float));
-    a->splash = calloc(pixels, 4 * sizeof(float));
-    a->layer = calloc(pixels, 4 * sizeof(float));
-    a->glass = calloc(pixels, 4 * sizeof(float));
-    a->refraction = calloc(pixels, 4 * sizeof(float));
     a->normal = calloc(pixels, 4 * sizeof(float));
     a->velocity = calloc(pixels, 2 * sizeof(float));
     a->water = calloc(pixels, 2 * sizeof(float));
     a->depth = calloc(pixels, sizeof(float));
     a->id = calloc(pixels, sizeof(uint32_t));
-    if (a->color && a->splash && a->layer && a->glass && a->refraction && a->normal && a->velocity && a->water &&
-        a->depth && a->id)
+    bool made = a->color && a->normal && a->velocity && a->water && a->depth && a->id;
+    for (int i = 0; i < HOST_MAX_LAYERS; i++) {
+        a->layers[i] = calloc(pixels, 4 * sizeof(float));
+        made = made && a->layers[i];
+    }
+    if (made)
         return true;
     host_accumulator_destroy(a);
     return host_fail(error, error_size, "no memory for a picture of %u x %u", width, height);
@@ -29,10 +29,8 @@ bool host_accumulator_create(host_accumulator *a, uint32_t width, uint32_t heigh
 void host_accumulator_destroy(host_accumulator *a)
 {
     free(a->color);
-    free(a->splash);
-    free(a->layer);
-    free(a->glass);
-    free(a->refraction);
+    for (int i = 0; i < HOST_MAX_LAYERS; i++)
+        free(a->layers[i]);
     free(a->normal);
     free(a->velocity);
     free(a->water);
@@ -57,25 +55,32 @@ static void add(float *sum, const float *values, size_t count, bool first)
         sum[i] += values[i];
 }
 
+static void add_layers(host_accumulator *a, const host_device *device, const host_target *target, bool first, bool keep)
+{
+    const size_t values = (size_t)a->width * a->height * 4;
+    a->layer_count = target->layer_count;
+    for (uint32_t i = 0; i < target->layer_count; i++) {
+        const float *pixels = host_target_floats(device, target, (host_output)(HOST_LAYER + i));
+        if (!(target->kept_layers & 1u << i))
+            add(a->layers[i], pixels, values, first);
+        else if (first || keep)
+            memcpy(a->layers[i], pixels, values * sizeof(float));
+    }
+    a->kept_layers = target->kept_layers;
+}
+
 void host_accumulator_add(host_accumulator *a, const host_device *device, const host_target *target, bool keep)
 {
     size_t pixels = (size_t)a->width * a->height;
     bool first = a->samples == 0;
     add(a->color, host_target_floats(device, target, HOST_COLOR), pixels * 4, first);
-    if (target->images[HOST_SPLASH].image)
-        add(a->splash, host_target_floats(device, target, HOST_SPLASH), pixels * 4, first);
-    add(a->layer, host_target_floats(device, target, HOST_LAYER), pixels * 4, first);
-    a->panes = target->images[HOST_GLASS].image;
-    if (a->panes)
-        add(a->glass, host_target_floats(device, target, HOST_GLASS), pixels * 4, first);
+    add_layers(a, device, target, first, keep);
     add(a->normal, host_target_floats(device, target, HOST_NORMAL), pixels * 4, first);
     add(a->velocity, host_target_floats(device, target, HOST_VELOCITY), pixels * 2, first);
     add(a->water, host_target_floats(device, target, HOST_WATER), pixels * 2, first);
     if (first || keep) {
         memcpy(a->depth, host_target_floats(device, target, HOST_DEPTH), pixels * sizeof(float));
         memcpy(a->id, host_target_ids(device, target), pixels * sizeof(uint32_t));
-        if (a->panes)
-            memcpy(a->refraction, host_target_floats(device, target, HOST_REFRACTION), pixels * 4 * sizeof(float));
     }
     a->samples++;
 }
@@ -93,10 +98,9 @@ void host_accumulator_finish(host_accumulator *a)
         return;
     float factor = 1.0f / (float)a->samples;
     scale(a->color, pixels * 4, factor);
-    scale(a->splash, pixels * 4, factor);
-    scale(a->layer, pixels * 4, factor);
-    if (a->panes)
-        scale(a->glass, pixels * 4, factor);
+    for (uint32_t i = 0; i < a->layer_count; i++)
+        if (!(a->kept_layers & 1u << i))
+            scale(a->layers[i], pixels * 4, factor);
     scale(a->normal, pixels * 4, factor);
     scale(a->velocity, pixels * 2, factor);
     scale(a->water, pixels * 2, factor);

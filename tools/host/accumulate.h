@@ -8,17 +8,15 @@
 typedef struct host_accumulator {
     uint32_t width, height;
     uint32_t samples;
-    bool panes;      /* the newest target has layers of panes; else theirs are never written, and cost no memory */
-    float *color;    /* RGBA */
-    float *splash;   /* RGBA, premultiplied, over color; stays zero where the target has no such layer */
-    float *layer;    /* RGBA, premultiplied, over both */
-    float *glass;    /* RGBA, premultiplied, over all that; stays zero where the target has no such layer */
-    float *refraction; /* RGBA as HOST_REFRACTION has it, of one sub-frame; likewise */
-    float *normal;   /* RGBA: unit length again after finish */
-    float *velocity; /* XY */
-    float *water;    /* wetness, depth (m) */
-    float *depth;    /* of one sub-frame: means of depths lie where nothing is */
-    uint32_t *id;    /* of the same one */
+    float *color;                   /* RGBA */
+    float *layers[HOST_MAX_LAYERS]; /* RGBA of outputs from HOST_LAYER on; zero where the newest target has none: pages
+                                     * that are never written, and cost no memory */
+    uint32_t layer_count, kept_layers; /* as the newest target has them */
+    float *normal;                     /* RGBA: unit length again after finish */
+    float *velocity;                   /* XY */
+    float *water;                      /* wetness, depth (m) */
+    float *depth;                      /* of one sub-frame: means of depths lie where nothing is */
+    uint32_t *id;                      /* of the same one */
 } host_accumulator;
 
 bool host_accumulator_create(host_accumulator *accumulator, uint32_t width, uint32_t height, char *error,
@@ -29,7 +27,7 @@ void host_accumulator_destroy(host_accumulator *accumulator);
 void host_accumulator_reset(host_accumulator *accumulator);
 
 /* Adds what was copied out of a target (all outputs), in the same order every time: sums are floats. `keep` takes
- * depth, id and refraction from this sub-frame; the first one counts if none is marked. */
+ * depth, id and the target's kept layers from this sub-frame; the first one counts if none is marked. */
 void host_accumulator_add(host_accumulator *accumulator, const host_device *device, const host_target *target,
                           bool keep);
 

@@ -9,18 +9,23 @@ static const struct {
     VkFormat format;
     uint32_t channels;
     const char *name;
-} outputs_table[HOST_OUTPUT_COUNT] = {
+} outputs_table[HOST_LAYER] = {
     [HOST_COLOR] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate color"},
     [HOST_NORMAL] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "plate normal"},
     [HOST_VELOCITY] = {VK_FORMAT_R32G32_SFLOAT, 2, "plate velocity"},
     [HOST_WATER] = {VK_FORMAT_R32G32_SFLOAT, 2, "plate water"},
     [HOST_ID] = {VK_FORMAT_R32_UINT, 1, "plate id"},
     [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
-    [HOST_LAYER] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "rain layer"},
-    [HOST_SPLASH] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "splash layer"}, /* as the rain's: one pass does for all */
-    [HOST_GLASS] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "glass layer"},
-    [HOST_REFRACTION] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, "refraction layer"},
 };
+
+/* All layers are alike, so that one pass does for them. */
+#define LAYER_FORMAT   VK_FORMAT_R32G32B32A32_SFLOAT
+#define LAYER_CHANNELS 4
+
+static VkFormat format_of(host_output output)
+{
+    return output < HOST_LAYER ? outputs_table[output].format : LAYER_FORMAT;
+}
 
 /* What is sampled while layers are drawn, and its layout then. The others are ready to be copied from the start. */
 static bool is_sampled(host_output output, VkImageLayout *layout)
@@ -32,7 +37,7 @@ static bool is_sampled(host_output output, VkImageLayout *layout)
 
 uint32_t host_output_channels(host_output output)
 {
-    return outputs_table[output].channels;
+    return output < HOST_LAYER ? outputs_table[output].channels : LAYER_CHANNELS;
 }
 
 /* ---- passes ------------------------------------------------------------------------------------------------- */
@@ -43,7 +48,7 @@ static VkAttachmentDescription drawn(host_output output)
     VkImageLayout final;
     if (!is_sampled(output, &final))
         final = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    return host_attachment(outputs_table[output].format, final);
+    return host_attachment(format_of(output), final);
 }
 
 #define READERS (VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT)
@@ -129,39 +134,50 @@ static bool create_framebuffer(host_device *device, const host_target *target, V
 
 /* ---- create and destroy ------------------------------------------------------------------------------------- */
 
-static bool create_output(host_device *device, host_target *target, host_output output, char *error, size_t error_size)
+static bool create_output(host_device *device, host_target *target, host_output output, const char *name, char *error,
+                          size_t error_size)
 {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     usage |= output == HOST_COLOR ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0; /* host_target_fill_plate */
     usage |= output == HOST_DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    host_image_def def = {
-        .format = outputs_table[output].format,
-        .extent = {target->width, target->height, 1},
-        .usage = usage,
-        .name = outputs_table[output].name,
-    };
-    VkDeviceSize size = (VkDeviceSize)target->width * target->height * outputs_table[output].channels * 4;
+    const host_image_def def = {
+        .format = format_of(output), .extent = {target->width, target->height, 1}, .usage = usage, .name = name};
+    const VkDeviceSize size = (VkDeviceSize)target->width * target->height * host_output_channels(output) * 4;
     return host_image_create(device, &def, &target->images[output], error, error_size) &&
-           host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
-                              outputs_table[output].name, &target->copies[output], error, error_size);
+           host_buffer_create(device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, name,
+                              &target->copies[output], error, error_size);
+}
+
+bool host_target_add_layer(host_device *device, host_target *target, const char *name, bool kept, host_output *layer,
+                           char *error, size_t error_size)
+{
+    const uint32_t index = target->layer_count;
+    if (index == HOST_MAX_LAYERS)
+        return host_fail(error, error_size, "a picture has at most %d layers", HOST_MAX_LAYERS);
+    *layer = (host_output)(HOST_LAYER + index);
+    if (!create_output(device, target, *layer, name, error, error_size) ||
+        !create_framebuffer(device, target, target->layer_pass, &target->images[*layer].view, 1,
+                            &target->layer_framebuffers[index], error, error_size))
+        return false;
+    target->kept_layers |= kept ? 1u << index : 0;
+    target->layer_count++;
+    return true;
 }
 
 static bool create_parts(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    for (int i = 0; i < HOST_SPLASH; i++)
-        if (!create_output(device, target, (host_output)i, error, error_size))
-            return false;
-    if (!create_plate_pass(device, target, error, error_size) ||
-        !create_layer_passes(device, target, error, error_size))
-        return false;
+    host_output first;
     VkImageView plate[HOST_PLATE_COLORS + 1];
+    for (int i = 0; i < HOST_LAYER; i++)
+        if (!create_output(device, target, (host_output)i, outputs_table[i].name, error, error_size))
+            return false;
     for (int i = 0; i <= HOST_PLATE_COLORS; i++)
         plate[i] = target->images[i].view;
-    const VkImageView layer[] = {target->images[HOST_LAYER].view};
-    return create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
+    return create_plate_pass(device, target, error, error_size) &&
+           create_layer_passes(device, target, error, error_size) &&
+           create_framebuffer(device, target, target->plate_pass, plate, HOST_PLATE_COLORS + 1,
                               &target->plate_framebuffer, error, error_size) &&
-           create_framebuffer(device, target, target->layer_pass, layer, 1, &target->layer_framebuffer, error,
-                              error_size);
+           host_target_add_layer(device, target, "layer", false, &first, error, error_size);
 }
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
@@ -180,39 +196,21 @@ bool host_target_create(host_device *device, uint32_t width, uint32_t height, ho
     return false;
 }
 
-bool host_target_add_splash(host_device *device, host_target *target, char *error, size_t error_size)
+bool host_target_add_behind(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    return create_output(device, target, HOST_SPLASH, error, error_size) &&
-           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_SPLASH].view, 1,
-                              &target->splash_framebuffer, error, error_size);
-}
-
-static bool create_behind(host_device *device, host_target *target, char *error, size_t error_size)
-{
-    const host_image_def def = {.format = outputs_table[HOST_LAYER].format,
+    const host_image_def def = {.format = LAYER_FORMAT,
                                 .extent = {target->width, target->height, 1},
                                 .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-                                .name = "behind panes"};
+                                .name = "behind layers"};
     return host_image_create(device, &def, &target->behind, error, error_size) &&
            create_framebuffer(device, target, target->behind_pass, &target->behind.view, 1, &target->behind_framebuffer,
                               error, error_size);
 }
 
-bool host_target_add_glass(host_device *device, host_target *target, char *error, size_t error_size)
-{
-    return create_behind(device, target, error, error_size) &&
-           create_output(device, target, HOST_GLASS, error, error_size) &&
-           create_output(device, target, HOST_REFRACTION, error, error_size) &&
-           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_GLASS].view, 1,
-                              &target->glass_framebuffer, error, error_size) &&
-           create_framebuffer(device, target, target->layer_pass, &target->images[HOST_REFRACTION].view, 1,
-                              &target->refraction_framebuffer, error, error_size);
-}
-
 bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size)
 {
-    const host_image_def def = {.format = outputs_table[HOST_LAYER].format,
+    const host_image_def def = {.format = LAYER_FORMAT,
                                 .extent = {target->width, target->height, 1},
                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
                                 .name = "moving water"};
@@ -229,13 +227,11 @@ void host_target_destroy(host_device *device, host_target *target)
     vkDestroyFramebuffer(device->device, target->moving_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->moving_pass, NULL);
     host_image_destroy(device, &target->moving);
-    vkDestroyFramebuffer(device->device, target->refraction_framebuffer, NULL);
-    vkDestroyFramebuffer(device->device, target->glass_framebuffer, NULL);
     vkDestroyFramebuffer(device->device, target->behind_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->behind_pass, NULL);
     host_image_destroy(device, &target->behind);
-    vkDestroyFramebuffer(device->device, target->splash_framebuffer, NULL);
-    vkDestroyFramebuffer(device->device, target->layer_framebuffer, NULL);
+    for (int i = 0; i < HOST_MAX_LAYERS; i++)
+        vkDestroyFramebuffer(device->device, target->layer_framebuffers[i], NULL);
     vkDestroyFramebuffer(device->device, target->plate_framebuffer, NULL);
     vkDestroyRenderPass(device->device, target->layer_pass, NULL);
     vkDestroyRenderPass(device->device, target->plate_pass, NULL);
@@ -289,35 +285,25 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
                   VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
-/* A pass of its own clears; that of what is behind panes takes no notice of the clear value. */
-static void begin_layer(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer)
+/* The layers' pass clears; that of what is behind them takes no notice of the clear value. */
+static void begin_pass(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer)
 {
     host_pass_begin(cmd, pass, framebuffer, target->width, target->height, 1);
 }
 
+void host_target_begin_output(const host_target *target, VkCommandBuffer cmd, host_output layer)
+{
+    begin_pass(target, cmd, target->layer_pass, target->layer_framebuffers[layer - HOST_LAYER]);
+}
+
 void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd)
 {
-    begin_layer(target, cmd, target->layer_pass, target->layer_framebuffer);
-}
-
-void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd)
-{
-    begin_layer(target, cmd, target->layer_pass, target->splash_framebuffer);
-}
-
-void host_target_begin_glass(const host_target *target, VkCommandBuffer cmd)
-{
-    begin_layer(target, cmd, target->layer_pass, target->glass_framebuffer);
-}
-
-void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd)
-{
-    begin_layer(target, cmd, target->layer_pass, target->refraction_framebuffer);
+    host_target_begin_output(target, cmd, HOST_LAYER);
 }
 
 void host_target_begin_moving(const host_target *target, VkCommandBuffer cmd)
 {
-    begin_layer(target, cmd, target->moving_pass, target->moving_framebuffer);
+    begin_pass(target, cmd, target->moving_pass, target->moving_framebuffer);
 }
 
 void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd)
@@ -331,7 +317,7 @@ void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd)
     vkCmdCopyImage(cmd, target->images[HOST_COLOR].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target->behind.image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     color_barrier(target, cmd, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0);
-    begin_layer(target, cmd, target->behind_pass, target->behind_framebuffer);
+    begin_pass(target, cmd, target->behind_pass, target->behind_framebuffer);
 }
 
 void host_target_end_layer(const host_target *target, VkCommandBuffer cmd)
@@ -383,7 +369,7 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
     def->kind = VIRGA_TARGET_RENDER_PASS;
     def->render_pass = target->layer_pass;
     def->subpass = 0;
-    def->color_formats[0] = outputs_table[HOST_LAYER].format;
+    def->color_formats[0] = LAYER_FORMAT;
     def->color_count = 1;
     def->samples = VK_SAMPLE_COUNT_1_BIT;
     def->depth_attached = false; /* tested in the shader, see create_color_pass */
@@ -394,7 +380,7 @@ void host_target_describe_moving(const host_target *target, virga_target_def *de
 {
     host_target_describe_layer(target, def);
     def->render_pass = target->moving_pass;
-    def->color_formats[1] = outputs_table[HOST_VELOCITY].format;
+    def->color_formats[1] = format_of(HOST_VELOCITY);
     def->color_count = 2;
     def->motion_attachment = 1;
 }

@@ -6,6 +6,8 @@
 
 #include "memory.h"
 
+#define HOST_MAX_LAYERS 8
+
 typedef enum host_output {
     HOST_COLOR,    /* RGBA float: linear radiance, alpha 1 */
     HOST_NORMAL,   /* RGBA float: world normal, alpha 1; the sky is all zero */
@@ -13,11 +15,9 @@ typedef enum host_output {
     HOST_WATER,    /* XY float: wetness, depth of water (m) */
     HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
     HOST_DEPTH,    /* one float: 0 near to 1 far */
-    HOST_LAYER,    /* RGBA float: premultiplied layer over the plate and the splashes */
-    HOST_SPLASH,   /* RGBA float: premultiplied layer over the plate; there after host_target_add_splash */
-    HOST_GLASS,    /* RGBA float: premultiplied layer over all that; there after host_target_add_glass */
-    HOST_REFRACTION, /* RGBA float: pixels to the right, pixels down, coverage twice; likewise */
-    HOST_OUTPUT_COUNT,
+    HOST_LAYER,    /* RGBA float: the first layer over the plate, premultiplied. It is always there; behind it those of
+                    * host_target_add_layer */
+    HOST_OUTPUT_COUNT = HOST_LAYER + HOST_MAX_LAYERS,
 } host_output;
 
 #define HOST_PLATE_COLORS 5 /* color attachments of the plate pass: the first five outputs */
@@ -26,27 +26,30 @@ typedef struct host_target {
     uint32_t width, height;
     host_image images[HOST_OUTPUT_COUNT];
     host_buffer copies[HOST_OUTPUT_COUNT];
-    VkRenderPass plate_pass; /* clears and draws color, normal, velocity, water, id and depth */
-    VkRenderPass layer_pass; /* clears a layer; the plate's color and depth may be sampled */
+    VkRenderPass plate_pass;  /* clears and draws color, normal, velocity, water, id and depth */
+    VkRenderPass layer_pass;  /* clears a layer; the plate's color and depth may be sampled */
     VkRenderPass behind_pass; /* draws over what is there; compatible with layer_pass */
-    VkFramebuffer plate_framebuffer, layer_framebuffer, splash_framebuffer;
-    VkFramebuffer behind_framebuffer, glass_framebuffer, refraction_framebuffer;
+    VkFramebuffer plate_framebuffer, behind_framebuffer;
+    VkFramebuffer layer_framebuffers[HOST_MAX_LAYERS];
+    uint32_t layer_count;
+    uint32_t kept_layers;     /* bit 1u << layer: one sub-frame's pixels count, means of them have no meaning */
     VkRenderPass moving_pass; /* draws over the velocity, and a color that nobody keeps; with it: */
     VkFramebuffer moving_framebuffer;
     host_image moving;
-    host_image behind; /* RGBA float: what panes show, rain over splashes over the plate; there after
-                        * host_target_add_glass */
+    host_image behind; /* RGBA float: the plate with layers in it; there after host_target_add_behind */
 } host_target;
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
                         size_t error_size);
 void host_target_destroy(host_device *device, host_target *target);
 
-/* Adds the layer of splashes. Drawing into it is as drawing into the other: one virga_target does for both. */
-bool host_target_add_splash(host_device *device, host_target *target, char *error, size_t error_size);
+/* Adds a layer, up to HOST_MAX_LAYERS in all; `layer` gets its output. One virga_target does for all layers. `kept`: of
+ * several sub-frames one counts, see host_accumulator_add. */
+bool host_target_add_layer(host_device *device, host_target *target, const char *name, bool kept, host_output *layer,
+                           char *error, size_t error_size);
 
-/* Adds the layers of panes and the picture that they show. One virga_target does for all. */
-bool host_target_add_glass(host_device *device, host_target *target, char *error, size_t error_size);
+/* Adds a picture of the plate with layers drawn into it, for effects that show what is behind them. */
+bool host_target_add_behind(host_device *device, host_target *target, char *error, size_t error_size);
 
 /* Adds the pass that draws the velocity of water over the plate's. It wants a virga_target of its own. */
 bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size);
@@ -58,15 +61,14 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
 void host_target_begin_plate(const host_target *target, VkCommandBuffer cmd);
 void host_target_end_plate(const host_target *target, VkCommandBuffer cmd);
-void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd);
-void host_target_begin_splash(const host_target *target, VkCommandBuffer cmd);
+void host_target_begin_layer(const host_target *target, VkCommandBuffer cmd); /* the first */
+void host_target_begin_output(const host_target *target, VkCommandBuffer cmd, host_output layer);
 void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd); /* over a copy of the plate's color */
-void host_target_begin_glass(const host_target *target, VkCommandBuffer cmd);
-void host_target_begin_refraction(const host_target *target, VkCommandBuffer cmd);
 void host_target_begin_moving(const host_target *target, VkCommandBuffer cmd); /* after host_target_add_moving */
-void host_target_end_layer(const host_target *target, VkCommandBuffer cmd); /* any of them */
+void host_target_end_layer(const host_target *target, VkCommandBuffer cmd);    /* any of them */
 
-/* The plate's depth and color as Virga sees them while layers are drawn, and the picture that panes show. */
+/* The plate's depth and color as Virga sees them while layers are drawn, and the picture of
+ * host_target_begin_behind. */
 virga_image host_target_depth(const host_target *target);
 virga_image host_target_color(const host_target *target);
 virga_image host_target_behind(const host_target *target);

@@ -6,8 +6,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include <virga/shared/splash_rule.h>
-
 static const char *const names[] = {"default", "asphalt", "concrete", "stone", "brick", "grass",
                                     "sand",    "soil",    "wood",     "metal", "glass", "water",
                                     "leaves",  "cloth",   "plastic",  "tile",  "drain"};
@@ -80,16 +78,4 @@ bool host_is_ground(const char *name, uint32_t material)
 const char *host_material_name(uint32_t material)
 {
     return material < sizeof names / sizeof *names ? names[material] : names[0];
-}
-
-const char *host_splash_model_name(uint32_t model)
-{
-    static const char *const models[VIRGA_SPLASH_MODELS] = {
-        [VIRGA_SPLASH_NONE] = "none",
-        [VIRGA_SPLASH_SCATTERING] = "scattering",
-        [VIRGA_SPLASH_CROWN_CONE] = "crown_cone",
-        [VIRGA_SPLASH_DISK] = "disk",
-        [VIRGA_SPLASH_DOT] = "dot",
-    };
-    return models[model < VIRGA_SPLASH_MODELS ? model : VIRGA_SPLASH_NONE];
 }

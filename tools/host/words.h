@@ -1,4 +1,4 @@
-/* words.h - names of materials and of splashes; and guesses what a surface is made of from the words in its names. */
+/* words.h - names of materials; and guesses what a surface is made of from the words in its names. */
 #ifndef VIRGA_HOST_WORDS_H
 #define VIRGA_HOST_WORDS_H
 
@@ -20,8 +20,5 @@ bool host_is_ground(const char *name, uint32_t material);
 
 /* Name of such a number; "default" for 0 and for numbers that are not used. */
 const char *host_material_name(uint32_t material);
-
-/* Name of a VIRGA_SPLASH_... model: "none", "scattering", ... */
-const char *host_splash_model_name(uint32_t model);
 
 #endif

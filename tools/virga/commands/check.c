@@ -53,78 +53,33 @@ static bool check_environment(const char *path)
     return true;
 }
 
-static bool check_material_map(const scene_file *scene)
-{
-    uint32_t width, height;
-    uint8_t *texels;
-    char error[1024];
-    if (!shot_read_material_map(scene, &width, &height, &texels, error, sizeof error))
-        return options_complain("check", "%s", error);
-    if (!texels)
-        return true;
-    size_t mapped = 0;
-    const size_t count = (size_t)width * height;
-    for (size_t i = 0; i < count; i++)
-        mapped += texels[i] != SHOT_MATERIAL_OF_MESH;
-    printf("  material map %s: %u x %u, %u materials on %.3g %% of it\n", scene_ground_of(scene)->material_map.file,
-           width, height, scene_ground_of(scene)->material_map.material_count, 100 * (double)mapped / (double)count);
-    free(texels);
-    return true;
-}
-
-static bool check_pane_files(const scene_file *scene)
-{
-    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++) {
-        uint32_t columns, rows;
-        float *bumps = NULL;
-        uint8_t *mask = NULL;
-        char error[1024];
-        if (!shot_read_bumps(scene, i, &columns, &rows, &bumps, error, sizeof error))
-            return options_complain("check", "%s", error);
-        if (bumps)
-            printf("  bumps        %s: %u x %u\n", scene_glass_of(scene)->panes[i].bumps.file, columns, rows);
-        free(bumps);
-        if (!shot_read_mask(scene, i, &columns, &rows, &mask, error, sizeof error))
-            return options_complain("check", "%s", error);
-        if (mask)
-            printf("  mask         %s: %u x %u\n", scene_glass_of(scene)->panes[i].mask, columns, rows);
-        free(mask);
-    }
-    return true;
-}
-
 static bool check_files(const scene_file *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         if (!check_mesh(scene->meshes[i].file))
             return false;
-    return check_environment(scene->environment.file) && check_material_map(scene) && check_pane_files(scene);
-}
-
-static void print_ground(const scene_file *scene)
-{
-    const scene_ground *ground = scene_ground_of(scene);
-    const scene_splash *splash = scene_splash_of(scene);
-    if (ground->on)
-        printf("  ground       %u x %u cells of %g m\n", ground->cells, ground->cells, ground->cell_m);
-    else
-        printf("  ground       off\n");
-    if (splash->on)
-        printf("  splash       %s, %s style, %u splashes, %u droplets\n", scene_splash_mode_name(splash->mode),
-               scene_splash_style_name(splash->style), splash->max_splashes, splash->max_droplets);
-    else
-        printf("  splash       off\n");
-}
-
-static void print_panes(const scene_file *scene)
-{
-    for (uint32_t i = 0; i < scene_glass_of(scene)->pane_count; i++) {
-        const scene_pane *pane = &scene_glass_of(scene)->panes[i];
-        printf("  glass        %s: %s, %g x %g m, %s, %s style, %u wiper%s%s\n", pane->name,
-               scene_pane_shape_name(pane->shape), pane->width_m, pane->height_m, scene_pane_kind_name(pane->kind),
-               scene_pane_style_name(pane->style), pane->wiper_count, pane->wiper_count == 1 ? "" : "s",
-               pane->follow == SCENE_PANE_CAMERA ? ", with the camera" : "");
+    if (!check_environment(scene->environment.file))
+        return false;
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        char error[1024];
+        if (tool_effects[i]->check_files && !tool_effects[i]->check_files(scene, error, sizeof error))
+            return options_complain("check", "%s", error);
     }
+    return true;
+}
+
+static void print_scene(const char *path, const scene_file *scene)
+{
+    const scene_frames *frames = &scene->frames;
+    printf("%s\n", path);
+    printf("  frames       %u to %u at %g a second, %u x %u\n", frames->first, frames->last, frames->fps,
+           frames->size[0], frames->size[1]);
+    if (frames->preroll_s > 0)
+        printf("  pre-roll     %g s of rain before frame %u\n", frames->preroll_s, frames->first);
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->print)
+            tool_effects[i]->print(scene);
+    printf("  lights       %u\n", scene->light_count);
 }
 
 int check_run(int argc, char **argv)
@@ -143,21 +98,12 @@ int check_run(int argc, char **argv)
         fprintf(stderr, "%s\n", error);
         return EXIT_USAGE;
     }
-    if (!shot_check_materials(scene, error, sizeof error) || !shot_check_panes(scene, error, sizeof error)) {
+    if (!shot_check_scene(scene, error, sizeof error)) {
         options_complain("check", "%s", error);
         scene_file_free(scene);
         return EXIT_USAGE;
     }
-    printf("%s\n", parsed.arguments[0]);
-    printf("  frames       %u to %u at %g a second, %u x %u\n", scene->frames.first, scene->frames.last,
-           scene->frames.fps, scene->frames.size[0], scene->frames.size[1]);
-    if (scene->frames.preroll_s > 0)
-        printf("  pre-roll     %g s of rain before frame %u\n", scene->frames.preroll_s, scene->frames.first);
-    printf("  rain         %g mm/h, %u drops, seed %u\n", scene_rain_of(scene)->rate_mm_h,
-           scene_rain_of(scene)->max_drops, scene_rain_of(scene)->seed);
-    print_ground(scene);
-    print_panes(scene);
-    printf("  lights       %u\n", scene->light_count);
+    print_scene(parsed.arguments[0], scene);
     const bool good = check_files(scene);
     scene_file_free(scene);
     if (good)

@@ -3,6 +3,7 @@
 #include "effect.h"
 #include "file.h"
 #include "frame/files.h"
+#include "frame/layers.h"
 #include "frame/resume.h"
 #include "options.h"
 #include "progress.h"
@@ -117,7 +118,7 @@ static bool load_scene(render_job *job)
     if (options_value(&job->parsed, "--seed")) {
         if (!options_uint(&job->parsed, "--seed", 0, UINT32_MAX, &seed_value))
             return false;
-        snprintf(seed, sizeof seed, "rain.seed=%u", seed_value);
+        snprintf(seed, sizeof seed, "%s=%u", tool_seed_key(), seed_value);
         overrides[count++] = seed;
     }
     if (!scene_file_load(job->parsed.arguments[0], tool_effect_sections, overrides, count, &job->scene, job->error,

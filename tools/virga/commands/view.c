@@ -28,8 +28,8 @@ static const option_row rows[] = {
 static void print_views(void)
 {
     size_t column = (size_t)printf("\nViews:") - 1;
-    for (uint32_t mode = 0; mode < VIEW_MODES; mode++) {
-        const char *name = view_mode(mode)->name, *comma = mode + 1 < VIEW_MODES ? "," : "\n";
+    for (uint32_t mode = 0; view_mode(mode); mode++) {
+        const char *name = view_mode(mode)->name, *comma = view_mode(mode + 1) ? "," : "\n";
         if (column + strlen(name) + 2 > HELP_COLUMNS)
             column = (size_t)printf("\n      ") - 1;
         column += (size_t)printf(" %s%s", name, comma);
@@ -85,7 +85,7 @@ static bool load_scene(viewer *v, const options *parsed, const char *overrides[2
     if (options_value(parsed, "--seed")) {
         if (!options_uint(parsed, "--seed", 0, UINT32_MAX, &value))
             return false;
-        snprintf(seed, 64, "rain.seed=%u", value);
+        snprintf(seed, 64, "%s=%u", tool_seed_key(), value);
         overrides[v->override_count++] = seed;
     }
     if (!scene_file_load(v->path, tool_effect_sections, overrides, v->override_count, &v->loaded, v->error,

@@ -4,6 +4,7 @@
 
 #include "exr.h"
 #include "frame/files.h"
+#include "frame/layers.h"
 #include "jsonl.h"
 
 #include <stdio.h>
@@ -13,12 +14,9 @@
 
 /* ---- frames */
 
-static bool has_file(const char *directory, const char *format, uint32_t frame)
+static bool has_file(const char *path)
 {
-    char path[4096], name[64];
     struct stat info;
-    snprintf(name, sizeof name, format, frame);
-    snprintf(path, sizeof path, "%s/%s", directory, name);
     return !stat(path, &info) && S_ISREG(info.st_mode) && info.st_size > 0;
 }
 
@@ -37,7 +35,7 @@ static bool is_of_wish(const resume_wish *wish, const char *path, const exr_head
                        char *error, size_t error_size)
 {
     char has[256], expected[256];
-    snprintf(expected, sizeof expected, "%u", scene_rain_of(wish->scene)->seed);
+    snprintf(expected, sizeof expected, "%u", tool_seed(wish->scene));
     if (differs(path, "seed", texts[0].text, expected, error, error_size))
         return false;
     snprintf(has, sizeof has, "%ux%u", header->width, header->height);
@@ -62,6 +60,20 @@ static bool is_of_wish(const resume_wish *wish, const char *path, const exr_head
     return !differs(path, "scene hash", texts[2].text, expected, error, error_size);
 }
 
+/* The files beside frame.%04d.exr. */
+static bool has_files(const resume_wish *wish, uint32_t frame)
+{
+    char path[4096];
+    const char *name;
+    snprintf(path, sizeof path, "%s/preview.%04u.png", wish->directory, frame);
+    bool has = !wish->preview || has_file(path);
+    for (uint32_t i = 0; wish->points && (name = frame_points_name(wish->scene, i)); i++) {
+        frame_points_path(wish->directory, name, frame, path, sizeof path);
+        has = has && has_file(path);
+    }
+    return has;
+}
+
 /* A frame's EXR is written last, so if it is there, then so is all that the run that wrote it was asked for. */
 static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, char *error, size_t error_size)
 {
@@ -78,9 +90,7 @@ static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, cha
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }
-    *there = !wish->preview || has_file(wish->directory, "preview.%04u.png", frame);
-    for (uint32_t i = 0; wish->points && frame_points_name(wish->scene, i); i++)
-        *there = *there && has_file(wish->directory, frame_points_name(wish->scene, i), frame);
+    *there = has_files(wish, frame);
     return is_of_wish(wish, path, &header, texts, error, error_size);
 }
 

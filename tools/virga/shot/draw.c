@@ -1,138 +1,124 @@
-/* draw.c - the picture of a shot: the plate, splashes, rain and panes, and a frame as an average of sub-frames. */
+/* draw.c - the picture of a shot: the plate, the layers of effects, and a frame as an average of sub-frames. */
 #include "shot/internal.h"
 
+#include "effect.h"
+#include "shot/plate.h"
+
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-/* A sub-frame's views: with its jitter, and as if it had none. The jitter is what smooths the edges of the average;
- * streaks are smooth by themselves, and one whose parts are all jittered another way is a kinked line. */
-typedef struct sample_views {
-    virga_view jittered, steady;
-} sample_views;
+/* ---- layers */
 
-/* Splashes and rain as a view sees them: each into a layer of its own. The worse of the results. */
-static virga_result prepare(shot *s, VkCommandBuffer cmd, const sample_views *views, double time_s)
+static const tool_effect *effect_of(const shot_layer *layer)
 {
-    const virga_result splash = s->splash ? virga_splash_prepare(s->splash, cmd, &views->jittered, time_s) : VIRGA_OK;
-    return splash < 0 ? splash : virga_rain_prepare(s->rain, cmd, &views->steady, time_s);
+    return tool_effects[layer->effect];
 }
 
-static virga_result draw_layers(shot *s, VkCommandBuffer cmd)
+/* Whether a layer is the first of its effect. */
+static bool is_first(const shot *s, uint32_t index)
 {
-    virga_result result = VIRGA_OK;
-    if (s->splash) {
-        host_target_begin_splash(&s->target, cmd);
-        result = virga_splash_draw(s->splash, cmd, s->layer);
-        host_target_end_layer(&s->target, cmd);
-    }
-    host_target_begin_layer(&s->target, cmd);
-    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
+    for (uint32_t i = 0; i < index; i++)
+        if (s->layers[i].effect == s->layers[index].effect)
+            return false;
+    return true;
+}
+
+static bool draw_layer(const shot *s, VkCommandBuffer cmd, const shot_layer *layer, const virga_target *target,
+                       char *error, size_t error_size)
+{
+    char what[80];
+    const virga_result result = layer->layer->draw(s->states[layer->effect], cmd, target);
+    snprintf(what, sizeof what, "drawing the layer %s", layer->layer->name);
+    return shot_ok(s, result, what, error, error_size);
+}
+
+/* Colors of the first `count` layers, over what is there. Ends the pass. */
+static bool draw_colors(const shot *s, VkCommandBuffer cmd, uint32_t count, const virga_target *target, char *error,
+                        size_t error_size)
+{
+    bool drawn = true;
+    for (uint32_t i = 0; i < count && drawn; i++)
+        drawn = s->layers[i].layer->is_data || draw_layer(s, cmd, &s->layers[i], target, error, error_size);
     host_target_end_layer(&s->target, cmd);
-    return result < 0 ? result : rain;
+    return drawn;
 }
 
-/* Panes show what is behind them: the plate with splashes and rain in it, which are drawn a second time for that. */
-static virga_result draw_behind(shot *s, VkCommandBuffer cmd)
+/* An effect that shows what is behind it gets the plate with the layers below it, which are drawn a second time for
+ * that. */
+static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const tool_moment *at, char *error,
+                          size_t error_size)
 {
+    const tool_effect *effect = effect_of(&s->layers[index]);
+    virga_view view = *at->jittered;
+    tool_moment behind = *at;
+    if (!effect->shows_behind || !is_first(s, index))
+        return true;
     host_target_begin_behind(&s->target, cmd);
-    const virga_result splash = s->splash ? virga_splash_draw(s->splash, cmd, s->layer) : VIRGA_OK;
-    const virga_result rain = virga_rain_draw(s->rain, cmd, s->layer);
-    host_target_end_layer(&s->target, cmd);
-    return splash < 0 ? splash : rain;
-}
-
-/* All panes of a kind of draw, far ones first. */
-static virga_result draw_each_pane(shot *s, VkCommandBuffer cmd, const virga_target *target,
-                                   virga_result (*draw)(virga_glass *, VkCommandBuffer, const virga_target *))
-{
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count && result >= 0; i++)
-        result = draw(s->panes[i].glass, cmd, target);
-    host_target_end_layer(&s->target, cmd);
-    return result;
-}
-
-/* Now and a frame ago. */
-static void pose_pane(const shot *s, const scene_pane *pane, double camera_s, virga_glass_pose *pose)
-{
-    virga_glass_pose before;
-    const host_camera_path eye = shot_eye(s);
-    const double shot_start = host_camera_shot_start(&eye, camera_s);
-    shot_pane_pose(s, pane, camera_s, pose);
-    shot_pane_pose(s, pane, fmax(camera_s - 1 / s->scene->frames.fps, shot_start), &before);
-    memcpy(pose->before_position_m, before.position_m, sizeof before.position_m);
-    memcpy(pose->before_world_from_pane, before.world_from_pane, sizeof before.world_from_pane);
-}
-
-/* All that was drawn into layers once more, for its velocity. */
-static virga_result draw_moving(shot *s, VkCommandBuffer cmd)
-{
-    host_target_begin_moving(&s->target, cmd);
-    const virga_result splash = s->splash ? virga_splash_draw(s->splash, cmd, s->moving) : VIRGA_OK;
-    const virga_result rain = virga_rain_draw(s->rain, cmd, s->moving);
-    const virga_result panes = draw_each_pane(s, cmd, s->moving, virga_glass_draw); /* ends the pass */
-    return splash < 0 ? splash : rain < 0 ? rain : panes;
-}
-
-/* `camera_s` is where the camera is on its path, `late_s` how long before the newest tick the picture is taken. */
-static virga_result draw_panes(shot *s, VkCommandBuffer cmd, virga_view view, double camera_s, double late_s)
-{
-    virga_result result = draw_behind(s, cmd);
+    if (!draw_colors(s, cmd, index, s->layer_target, error, error_size))
+        return false;
     view.color = host_target_behind(&s->target);
-    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count && result >= 0; i++) {
-        virga_glass_pose pose;
-        const shot_pane *pane = &s->panes[i];
-        pose_pane(s, pane->from, camera_s, &pose);
-        result = virga_glass_prepare(pane->glass, cmd, &view, &pose, virga_glass_time(pane->glass) - late_s);
-    }
-    if (result < 0)
-        return result;
-    host_target_begin_glass(&s->target, cmd);
-    result = draw_each_pane(s, cmd, s->layer, virga_glass_draw);
-    host_target_begin_refraction(&s->target, cmd);
-    const virga_result refraction = draw_each_pane(s, cmd, s->layer, virga_glass_draw_refraction);
-    return result < 0 ? result : refraction;
+    behind.jittered = &view;
+    return effect->prepare(s, s->states[s->layers[index].effect], cmd, &behind, error, error_size);
 }
 
-/* The opaque scene, or footage in its place. */
+/* Each into a picture of its own. */
+static bool draw_layers(shot *s, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        if (!prepare_layer(s, cmd, i, at, error, error_size))
+            return false;
+        host_target_begin_output(&s->target, cmd, s->layers[i].output);
+        const bool drawn = draw_layer(s, cmd, &s->layers[i], s->layer_target, error, error_size);
+        host_target_end_layer(&s->target, cmd);
+        if (!drawn)
+            return false;
+    }
+    return true;
+}
+
+/* ---- the picture */
+
+/* In the order of layers; those that show what is behind them come later. */
+static bool prepare(shot *s, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        const tool_effect *effect = effect_of(&s->layers[i]);
+        if (effect->prepare && !effect->shows_behind && is_first(s, i) &&
+            !effect->prepare(s, s->states[s->layers[i].effect], cmd, at, error, error_size))
+            return false;
+    }
+    return true;
+}
+
+/* The opaque scene, or footage that replaces it. */
 static bool record_plate(shot *s, VkCommandBuffer cmd, double camera_s, const host_camera *now,
                          const host_camera *frame_ago, char *error, size_t error_size)
 {
-    if (s->plate.pattern) {
-        memcpy(s->plate_buffer.mapped, s->plate.rgba, s->plate_buffer.size);
+    if (s->plate) {
+        memcpy(s->plate_buffer.mapped, s->plate->rgba, s->plate_buffer.size);
         host_target_fill_plate(&s->target, cmd, &s->plate_buffer);
         return true;
     }
-    if (!shot_panes_move_meshes(s, cmd, camera_s, error, error_size))
-        return false;
-    if (s->ground) {
-        virga_ground_maps maps;
-        virga_ground_maps_get(s->ground, &maps);
-        host_renderer_set_ground(s->renderer, &maps);
-    }
-    s->mirror_result = VIRGA_OK;
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->before_plate &&
+            !tool_effects[i]->before_plate(s, s->states[i], cmd, camera_s, error, error_size))
+            return false;
     host_renderer_plate(s->renderer, cmd, &s->target, now, frame_ago);
-    return shot_ok(s, s->mirror_result, "drawing the rain in puddles", error, error_size);
+    return true;
 }
 
-/* When a picture is taken. */
-typedef struct moment {
-    double camera_s; /* on the camera's path */
-    double late_s;   /* before the newest tick */
-} moment;
-
-static bool record_picture(shot *s, VkCommandBuffer cmd, const sample_views *views, moment at, const host_camera *now,
+static bool record_picture(shot *s, VkCommandBuffer cmd, const tool_moment *at, const host_camera *now,
                            const host_camera *frame_ago, char *error, size_t error_size)
 {
-    if (!shot_ok(s, prepare(s, cmd, views, virga_rain_time(s->rain) - at.late_s), "preparing the rain", error,
-                 error_size) ||
-        !record_plate(s, cmd, at.camera_s, now, frame_ago, error, error_size) ||
-        !shot_ok(s, draw_layers(s, cmd), "drawing the rain", error, error_size))
+    if (!prepare(s, cmd, at, error, error_size) ||
+        !record_plate(s, cmd, at->camera_s, now, frame_ago, error, error_size) ||
+        !draw_layers(s, cmd, at, error, error_size))
         return false;
-    if (scene_glass_of(s->scene)->pane_count &&
-        !shot_ok(s, draw_panes(s, cmd, views->jittered, at.camera_s, at.late_s), "drawing panes", error, error_size))
-        return false;
-    return !s->moving || shot_ok(s, draw_moving(s, cmd), "drawing the velocity of water", error, error_size);
+    if (!s->moving_target)
+        return true;
+    host_target_begin_moving(&s->target, cmd);
+    return draw_colors(s, cmd, s->layer_count, s->moving_target, error, error_size);
 }
 
 /* Motion vectors as the layer of velocities has them: from a frame ago on, in pixels. */
@@ -185,10 +171,13 @@ bool shot_record_sample(shot *s, VkCommandBuffer cmd, uint32_t sample, double ti
     float jitter[2];
     sample_cameras steady, cameras;
     host_camera_jitter(sample, s->options.samples, jitter);
-    const sample_views views = {.steady = look_through(s, close_s, part_s, shot_start, NULL, &steady),
-                                .jittered = look_through(s, close_s, part_s, shot_start, jitter, &cameras)};
-    const moment at = {fmax(close_s, shot_start), time_s - close_s};
-    return record_picture(s, cmd, &views, at, &cameras.now, &cameras.frame_ago, error, error_size);
+    const virga_view steady_view = look_through(s, close_s, part_s, shot_start, NULL, &steady);
+    const virga_view jittered_view = look_through(s, close_s, part_s, shot_start, jitter, &cameras);
+    const tool_moment at = {.jittered = &jittered_view,
+                            .steady = &steady_view,
+                            .camera_s = fmax(close_s, shot_start),
+                            .late_s = time_s - close_s};
+    return record_picture(s, cmd, &at, &cameras.now, &cameras.frame_ago, error, error_size);
 }
 
 static bool draw_sample(shot *s, uint32_t sample, double time_s, char *error, size_t error_size)
@@ -213,12 +202,4 @@ bool shot_draw_samples(shot *s, double time_s, host_camera *camera, char *error,
             return false;
     host_accumulator_finish(&s->frame);
     return true;
-}
-
-bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size)
-{
-    if (!shot_step(s, frame, error, error_size) ||
-        (s->plate.pattern && !plate_load(&s->plate, frame, error, error_size)))
-        return false;
-    return shot_draw_samples(s, shot_time(s, frame), camera, error, error_size);
 }

@@ -74,14 +74,25 @@ bool view_check(viewer *v)
 {
     char error[400];
     scene_file *tuned = view_load_tuned(v, error, sizeof error);
-    const bool good = tuned && shot_check_panes(tuned, error, sizeof error);
+    const bool good = tuned && shot_check_scene(tuned, error, sizeof error);
     scene_file_free(tuned);
     if (!good)
         view_say(v, "%s", error);
     return good;
 }
 
-/* Tried on a copy first. Panes start anew with other wipers, whose arms are made then. */
+/* Whether the effect of a list starts again where the list has another length. */
+static bool list_restarts(const char *path)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        const size_t length = strlen(tool_effects[i]->name);
+        if (tool_effects[i]->lists_restart && !strncmp(path, tool_effects[i]->name, length) && path[length] == '.')
+            return true;
+    }
+    return false;
+}
+
+/* Tried on a copy first. */
 static bool change_list(viewer *v, const char *path,
                         bool (*change)(scene_file *scene, const char *path, char *error, size_t error_size))
 {
@@ -101,7 +112,7 @@ static bool change_list(viewer *v, const char *path,
     good = change(scene, path, error, sizeof error) && view_list_settings(v);
     if (!good)
         view_say(v, "%s", error);
-    v->restart = v->restart || !strncmp(path, "glass.", strlen("glass."));
+    v->restart = v->restart || list_restarts(path);
     return good;
 }
 
@@ -115,7 +126,24 @@ bool view_list_drop(viewer *v, const char *path)
     return change_list(v, path, scene_list_drop);
 }
 
-/* Rate and wind are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
+bool view_is_animated(const viewer *v, const char **hint)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        *hint = tool_effects[i]->animation_hint;
+        if (tool_effects[i]->is_animated && tool_effects[i]->is_animated(v->scene))
+            return true;
+    }
+    return false;
+}
+
+void view_stop_animation(viewer *v)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->stop_animation)
+            tool_effects[i]->stop_animation(v->scene, v->shot.camera_time_s);
+}
+
+/* Settings are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
 bool view_preset_take(viewer *v, const char *name)
 {
     size_t count;
@@ -127,7 +155,7 @@ bool view_preset_take(viewer *v, const char *name)
         view_say(v, "no preset '%.40s'; there are drizzle, shower, storm, carwash, window", name);
         return false;
     }
-    scene_rain_of(v->scene)->key_count = 0;
+    view_stop_animation(v);
     v->needs_restart = false;
     for (uint32_t i = 0; i < VIEW_PRESET_SETTINGS && preset->settings[i]; i++)
         if (!view_assign(v, preset->settings[i]))
@@ -140,35 +168,42 @@ bool view_preset_take(viewer *v, const char *name)
     return true;
 }
 
-bool view_show(viewer *v, const char *mode, uint32_t layer)
+bool view_show(viewer *v, const char *mode, uint32_t item)
 {
     const uint32_t found = view_mode_find(mode);
-    if (found == VIEW_MODES) {
+    const view_mode_row *row = view_mode(found);
+    if (!row) {
         view_say(v, "no view '%.40s'; the list of views has their names", mode);
         return false;
     }
-    const uint32_t layers = view_mode_layers(&v->shot, found);
-    if (layer >= layers) {
-        view_say(v, layers ? "%s: expected a number below %u" : "%s: this scene has none", view_mode(found)->title,
-                 layers);
+    const uint32_t items = view_mode_items(&v->shot, found);
+    if (item >= items) {
+        view_say(v, items ? "%s: expected a number below %u" : "%s: this scene has none", row->title, items);
         return false;
     }
     v->mode = found;
-    v->layer = layer;
-    if (found == VIEW_PANE_HEIGHT && !v->shot.options.height_maps) {
-        v->shot.options.height_maps = true; /* panes are made with them or without */
+    v->item = item;
+    if (row->view && row->view->debug_map && !v->shot.options.debug_maps) {
+        v->shot.options.debug_maps = true; /* effects are created with them or without */
         v->restart = true;
     }
-    view_say(v, "%s: %s", view_mode(found)->title, view_mode(found)->help);
+    view_say(v, "%s: %s", row->title, row->help);
     return true;
+}
+
+/* Whether showing it needs no restart. */
+static bool is_ready(const viewer *v, uint32_t mode)
+{
+    const tool_view *view = view_mode(mode)->view;
+    return view_mode_items(&v->shot, mode) && (!view || !view->debug_map || v->shot.options.debug_maps);
 }
 
 void view_show_next(viewer *v, int step)
 {
     uint32_t mode = v->mode;
     do
-        mode = (mode + (uint32_t)(VIEW_MODES + step)) % VIEW_MODES;
-    while (!view_mode_layers(&v->shot, mode) || (mode == VIEW_PANE_HEIGHT && !v->shot.options.height_maps));
+        mode = (mode + (uint32_t)((int)view_mode_count() + step)) % view_mode_count();
+    while (!is_ready(v, mode));
     view_show(v, view_mode(mode)->name, 0);
 }
 

@@ -1,7 +1,8 @@
-/* frame.c - one frame of the window: time goes on, the scene is drawn, the panel over it, numbers are taken. */
+/* frame.c - one frame of the window: time goes on, the scene is drawn, the panel over it, numbers are read. */
 #include "view/view.h"
 
 #include "frame/files.h"
+#include "frame/layers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -90,21 +91,21 @@ static view_pass *pass_of(view_numbers *n, const char *name)
     for (uint32_t i = 0; i < n->pass_count; i++)
         if (!strcmp(n->passes[i].name, name))
             return &n->passes[i];
-    if (n->pass_count == VIEW_MOST_TIMES)
+    if (n->pass_count == VIEW_MAX_TIMES)
         return NULL;
     n->passes[n->pass_count].name = name;
     return &n->passes[n->pass_count++];
 }
 
-static void take_times(viewer *v)
+static void read_times(viewer *v)
 {
     view_numbers *n = &v->numbers;
-    virga_pass_time times[VIEW_MOST_TIMES];
-    const uint32_t there = virga_timings_get(v->shot.context, times, VIEW_MOST_TIMES);
+    virga_pass_time times[VIEW_MAX_TIMES];
+    const uint32_t there = virga_timings_get(v->shot.context, times, VIEW_MAX_TIMES);
     n->device_now_ms = 0;
     for (uint32_t i = 0; i < n->pass_count; i++)
         n->passes[i].newest = 0;
-    for (uint32_t i = 0; i < there && i < VIEW_MOST_TIMES; i++) {
+    for (uint32_t i = 0; i < there && i < VIEW_MAX_TIMES; i++) {
         view_pass *pass = pass_of(n, times[i].name);
         if (pass)
             pass->newest = times[i].milliseconds;
@@ -115,26 +116,23 @@ static void take_times(viewer *v)
     put(&n->device_ms, n->device_now_ms);
 }
 
-static void take_numbers(viewer *v, double wall_s)
+/* In the order of effects. */
+static void read_counts(viewer *v)
+{
+    uint32_t graph = 0;
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        for (uint32_t k = 0; k < tool_effects[i]->count_count && graph < VIEW_MAX_COUNTS; k++)
+            put(&v->numbers.counts[graph++], tool_effects[i]->counts[k].value(v->shot.states[i]));
+}
+
+static void read_numbers(viewer *v, double wall_s)
 {
     view_numbers *n = &v->numbers;
-    uint32_t on_glass = 0;
     n->frame_now_ms = wall_s * 1e3;
     put(&n->frame_ms, n->frame_now_ms);
-    take_times(v);
-    virga_rain_stats_get(v->shot.rain, &n->rain);
-    virga_ground_stats_get(v->shot.ground, &n->ground);
-    virga_splash_stats_get(v->shot.splash, &n->splash);
+    read_times(v);
+    read_counts(v);
     virga_memory_get(v->shot.context, &n->memory);
-    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++) {
-        virga_glass_stats stats;
-        virga_glass_stats_get(v->shot.panes[i].glass, &stats);
-        on_glass += stats.drops + stats.particles;
-    }
-    put(&n->drops, n->rain.streaks);
-    put(&n->impacts, n->rain.impacts);
-    put(&n->droplets, n->splash.droplets_alive);
-    put(&n->on_glass, on_glass);
     put(&n->memory_mib, (double)n->memory.device_bytes / (1 << 20));
 }
 
@@ -187,13 +185,13 @@ static bool draw(viewer *v, double wall_s)
     const double dt_s = time_of_frame(v, wall_s);
     view_camera_move(v, wall_s, dt_s);
     place_picture(v, shown.area);
-    shown.mode = view_mode_layers(&v->shot, v->mode) ? v->mode : VIEW_PICTURE;
-    shown.layer = v->layer;
+    shown.mode = view_mode_items(&v->shot, v->mode) ? v->mode : 0;
+    shown.item = v->item;
     if (!shot_begin(&v->shot, &cmd, v->error, sizeof v->error) || !record(v, cmd, dt_s, &shown) ||
         !view_window_present(&v->window, v->error, sizeof v->error))
         return false;
     v->frame++;
-    take_numbers(v, wall_s);
+    read_numbers(v, wall_s);
     return !v->window_shot[0] || write_window(v);
 }
 

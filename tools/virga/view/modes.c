@@ -1,108 +1,124 @@
-/* modes.c - the one list of what the viewer can show, and the colours of its maps. */
-#include "view/picture.h"
+/* modes.c - the one list of what the viewer can show: the picture and its plate, and what effects add to them. */
+#include "view/modes.h"
 
-#include "words.h"
-
+#include <stdio.h>
 #include <string.h>
 
-static const view_mode_row rows[VIEW_MODES] = {
-    [VIEW_PICTURE] = {"picture", "Picture", "panes over rain over splashes over the scene, as previews show it"},
-    [VIEW_PLATE] = {"plate", "Scene without rain", "the opaque scene alone"},
-    [VIEW_RAIN] = {"rain", "Layer: rain", "the falling drops alone, over squares"},
-    [VIEW_SPLASH] = {"splash", "Layer: splashes", "the splashes alone, over squares"},
-    [VIEW_GLASS] = {"glass", "Layer: panes", "drops on panes and what they show, over squares"},
-    [VIEW_REFRACTION] = {"refraction", "Layer: refraction", "where drops show the scene from: red right, green down"},
-    [VIEW_DEPTH] = {"depth", "Depth", "near is bright; every step to half the brightness is farther by a factor"},
-    [VIEW_NORMAL] = {"normal", "Normals", "red X, green Y, blue Z of the world"},
-    [VIEW_VELOCITY] = {"velocity", "Velocity", "hue is the direction, brightness the way; full at 20 pixels a frame"},
-    [VIEW_ID] = {"id", "Objects", "a colour for each part of a mesh"},
-    [VIEW_WETNESS] = {"wetness", "Wetness", "of the ground, from dry (red) to full pores (blue)"},
-    [VIEW_WATER_DEPTH] = {"depth_mm", "Depth of water", "on the ground, from 0 (blue) to 10 mm (red)"},
-    [VIEW_CELL_STATE] = {"state", "Cells by state", "what a drop that falls there finds"},
-    [VIEW_MATERIAL] = {"material", "Cells by material", "what the ground is made of"},
-    [VIEW_OCCLUSION] =
-        {"occlusion", "Occlusion maps",
-         "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)"},
-    [VIEW_PANE] = {"pane", "Pane: affinity, drops", "unevenness of the glass (grey), drops of the mesh, particles"},
-    [VIEW_PANE_HEIGHT] = {"height", "Pane: height of water", "the height map: red is 1.5 mm and more"},
+static const view_mode_row first[] = {
+    {.name = "picture",
+     .title = "Picture",
+     .help = "panes over rain over splashes over the scene, as previews show it",
+     .shader = VIEW_PICTURE},
+    {.name = "plate", .title = "Scene without rain", .help = "the opaque scene alone", .shader = VIEW_PLATE},
 };
+
+static const view_mode_row second[] = {
+    {.name = "depth",
+     .title = "Depth",
+     .help = "near is bright; every step to half the brightness is farther by a factor",
+     .shader = VIEW_DEPTH},
+    {.name = "normal", .title = "Normals", .help = "red X, green Y, blue Z of the world", .shader = VIEW_NORMAL},
+    {.name = "velocity",
+     .title = "Velocity",
+     .help = "hue is the direction, brightness the way; full at 20 pixels a frame",
+     .shader = VIEW_VELOCITY},
+    {.name = "id", .title = "Objects", .help = "a colour for each part of a mesh", .shader = VIEW_ID},
+};
+
+static view_mode_row rows[VIEW_MAX_MODES];
+static uint32_t row_count;
+
+static void add(view_mode_row row)
+{
+    if (row_count < VIEW_MAX_MODES)
+        rows[row_count++] = row;
+}
+
+static void add_layers(uint32_t effect)
+{
+    for (uint32_t i = 0; i < tool_effects[effect]->layer_count; i++) {
+        const tool_layer *layer = &tool_effects[effect]->layers[i];
+        if (layer->draw)
+            add((view_mode_row){.name = layer->name,
+                                .title = layer->view_title ? layer->view_title : layer->name,
+                                .help = layer->view_help ? layer->view_help : layer->help,
+                                .shader = layer->is_data ? VIEW_OFFSETS : VIEW_LAYER,
+                                .effect = tool_effects[effect],
+                                .effect_index = effect,
+                                .layer = layer});
+    }
+}
+
+static void add_views(uint32_t effect, tool_view_kind kind)
+{
+    for (uint32_t i = 0; i < tool_effects[effect]->view_count; i++) {
+        const tool_view *view = &tool_effects[effect]->views[i];
+        if (view->kind == kind)
+            add((view_mode_row){.name = view->name,
+                                .title = view->title,
+                                .help = view->help,
+                                .effect = tool_effects[effect],
+                                .effect_index = effect,
+                                .view = view});
+    }
+}
+
+static void list_rows(void)
+{
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
+        add(first[i]);
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        add_layers(i);
+    for (size_t i = 0; i < sizeof second / sizeof second[0]; i++)
+        add(second[i]);
+    for (uint32_t kind = 0; kind < TOOL_VIEW_KINDS; kind++)
+        for (uint32_t i = 0; tool_effects[i]; i++)
+            add_views(i, (tool_view_kind)kind);
+}
+
+uint32_t view_mode_count(void)
+{
+    if (!row_count)
+        list_rows();
+    return row_count;
+}
 
 const view_mode_row *view_mode(uint32_t mode)
 {
-    return &rows[mode < VIEW_MODES ? mode : 0];
+    return mode < view_mode_count() ? &rows[mode] : NULL;
 }
 
 uint32_t view_mode_find(const char *name)
 {
     uint32_t mode = 0;
-    while (mode < VIEW_MODES && strcmp(rows[mode].name, name))
+    while (view_mode(mode) && strcmp(rows[mode].name, name))
         mode++;
     return mode;
 }
 
-uint32_t view_mode_layers(const shot *s, uint32_t mode)
+uint32_t view_mode_items(const shot *s, uint32_t mode)
 {
-    virga_rain_occlusion_map map;
-    switch (mode) {
-    case VIEW_OCCLUSION: virga_rain_occlusion_map_get(s->rain, &map); return map.cascades * map.slants;
-    case VIEW_PANE:
-    case VIEW_PANE_HEIGHT: return scene_glass_of(s->scene)->pane_count;
-    case VIEW_GLASS:
-    case VIEW_REFRACTION: return scene_glass_of(s->scene)->pane_count ? 1 : 0;
-    case VIEW_SPLASH: return s->splash ? 1 : 0;
-    case VIEW_WETNESS:
-    case VIEW_WATER_DEPTH:
-    case VIEW_CELL_STATE:
-    case VIEW_MATERIAL: return s->ground ? 1 : 0;
-    default: return mode < VIEW_MODES ? 1 : 0;
-    }
+    const view_mode_row *row = view_mode(mode);
+    if (!row)
+        return 0;
+    if (row->view)
+        return row->view->item_count ? row->view->item_count(s->states[row->effect_index]) : 1;
+    for (uint32_t i = 0; row->layer && i < s->layer_count; i++)
+        if (s->layers[i].layer == row->layer)
+            return 1;
+    return row->layer ? 0 : 1;
 }
 
-/* ---- colours */
-
-typedef struct legend_row {
-    float color[3];
-    const char *name;
-} legend_row;
-
-static const legend_row states[] = {
-    {{0.20f, 0.20f, 0.22f}, "no ground"},       {{0.78f, 0.62f, 0.40f}, "dry, or damp"},
-    {{0.35f, 0.70f, 0.45f}, "wet, under 3 mm"}, {{0.35f, 0.75f, 0.95f}, "puddle of 3 mm"},
-    {{0.20f, 0.45f, 1.00f}, "puddle of 5 mm"},  {{0.45f, 0.20f, 0.95f}, "puddle of 10 mm"},
-};
-
-static const legend_row pane[] = {
-    {{0.30f, 0.60f, 1.00f}, "drop, resting"},
-    {{0.35f, 1.00f, 0.55f}, "drop, running"},
-    {{1.00f, 0.50f, 0.10f}, "particle"},
-    {{1.00f, 0.85f, 0.20f}, "particle, held back"},
-    {{0.43f, 0.29f, 0.16f}, "region of particles"},
-    {{0.40f, 0.40f, 0.40f}, "region of the mesh: bright draws drops"},
-};
-
-/* Hues apart by the golden ratio, in two shades, so that neighbours in the list differ. */
-static void material_color(uint32_t material, float color[3])
+void view_mode_print_item(const shot *s, uint32_t mode, uint32_t item, char *text, size_t size)
 {
-    const float turn = (float)material * 0.618034f;
-    for (int c = 0; c < 3; c++) {
-        float x = turn + (float)((3 - c) % 3) / 3.0f;
-        x = (x - (float)(int)x) * 6.0f - 3.0f;
-        x = (x < 0 ? -x : x) - 1.0f;
-        x = x < 0 ? 0 : x > 1 ? 1 : x;
-        color[c] = (material & 1 ? 0.85f : 0.6f) * (0.25f + 0.75f * x);
-    }
+    const view_mode_row *row = view_mode(mode);
+    snprintf(text, size, "%%d");
+    if (row && row->view && row->view->print_item)
+        row->view->print_item(s->states[row->effect_index], item, text, size);
 }
 
 const char *view_mode_legend(uint32_t mode, uint32_t index, float color[3])
 {
-    const legend_row *legend = mode == VIEW_CELL_STATE ? states : mode == VIEW_PANE ? pane : NULL;
-    const uint32_t count = legend ? 6 : 0;
-    if (mode == VIEW_MATERIAL && index < VIRGA_MATERIAL_OWN) {
-        material_color(index, color);
-        return index ? host_material_name(index) : "other";
-    }
-    if (index >= count)
-        return NULL;
-    memcpy(color, legend[index].color, 3 * sizeof *color);
-    return legend[index].name;
+    const view_mode_row *row = view_mode(mode);
+    return row && row->view && row->view->legend ? row->view->legend(index, color) : NULL;
 }

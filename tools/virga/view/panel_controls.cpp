@@ -53,35 +53,30 @@ static void scrub(viewer *v, const char *path)
         edit_setting(v, *s);
 }
 
-/* Rate and wind, and how the wipers go: what one reaches for first. */
+/* What one reaches for first. */
 void part_weather(viewer *v)
 {
-    if (scene_rain_of(v->scene)->key_count) {
+    const char *hint;
+    if (view_is_animated(v, &hint)) {
         ImGui::PushTextWrapPos();
-        ImGui::TextColored(COLOR_WARN, "The scene's keys say rate and wind at every time.");
+        ImGui::TextColored(COLOR_WARN, "%s", hint);
         ImGui::PopTextWrapPos();
         if (ImGui::Button("Take over from the keys")) {
-            double wind[3], rate;
-            scene_rain_weather(scene_rain_of(v->scene), v->shot.camera_time_s, &rate, wind);
-            scene_rain_of(v->scene)->rate_mm_h = rate;
-            std::memcpy(scene_rain_of(v->scene)->wind_m_s, wind, sizeof wind);
-            scene_rain_of(v->scene)->key_count = 0;
+            view_stop_animation(v);
             view_list_settings(v);
         }
         return;
     }
-    scrub(v, "rain.rate_mm_h");
-    scrub(v, "rain.wind_m_s");
-    scrub(v, "rain.gust_m_s");
-    for (uint32_t p = 0; p < scene_glass_of(v->scene)->pane_count; p++)
-        for (uint32_t w = 0; w < scene_glass_of(v->scene)->panes[p].wiper_count; w++) {
-            char path[96];
-            ImGui::TextColored(COLOR_HINT, "%s, wiper %u", scene_glass_of(v->scene)->panes[p].name, w + 1);
-            for (const char *key : {"drive", "sweep_s", "pause_s"}) {
-                std::snprintf(path, sizeof path, "glass.%u.wipers.%u.%s", p, w, key);
-                scrub(v, path);
-            }
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        char path[96], caption[80];
+        for (uint32_t k = 0; tool_effects[i]->main_setting &&
+                             tool_effects[i]->main_setting(v->scene, k, path, sizeof path, caption, sizeof caption);
+             k++) {
+            if (*caption)
+                ImGui::TextColored(COLOR_HINT, "%s", caption);
+            scrub(v, path);
         }
+    }
     scrub(v, "preview.exposure_ev");
 }
 
@@ -94,40 +89,31 @@ static void legend(const viewer *v)
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker, ImVec2(14, 14));
         ImGui::SameLine();
         ImGui::TextUnformatted(name);
-        if (v->mode == VIEW_MATERIAL && i % 2 == 0 && view_mode_legend(v->mode, i + 1, color))
+        if (view_mode(v->mode)->view->wide_legend && i % 2 == 0 && view_mode_legend(v->mode, i + 1, color))
             ImGui::SameLine(200);
         ImGui::PopID();
     }
 }
 
-static void choose_layer(viewer *v)
+static void choose_item(viewer *v)
 {
-    const uint32_t layers = view_mode_layers(&v->shot, v->mode);
-    int layer = (int)v->layer;
+    const uint32_t items = view_mode_items(&v->shot, v->mode);
+    int item = (int)v->item;
     char format[80];
-    if (layers < 2)
+    if (items < 2)
         return;
-    if (v->mode == VIEW_OCCLUSION) {
-        virga_rain_occlusion_map map;
-        virga_rain_occlusion_map_get(v->shot.rain, &map);
-        std::snprintf(format, sizeof format, "map %%d: %.0f m wide, slant %u of %u",
-                      2 * (double)map.half_m[std::min(v->layer / map.slants, 3u)], v->layer % map.slants + 1,
-                      map.slants);
-    } else {
-        std::snprintf(format, sizeof format, "pane %%d: %.40s",
-                      scene_glass_of(v->scene)->panes[std::min(v->layer, layers - 1)].name);
-    }
+    view_mode_print_item(&v->shot, v->mode, std::min(v->item, items - 1), format, sizeof format);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##layer", &layer, 0, (int)layers - 1, format, ImGuiSliderFlags_AlwaysClamp))
-        v->layer = (uint32_t)layer;
+    if (ImGui::SliderInt("##layer", &item, 0, (int)items - 1, format, ImGuiSliderFlags_AlwaysClamp))
+        v->item = (uint32_t)item;
 }
 
 void part_views(viewer *v)
 {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##view", view_mode(v->mode)->title, ImGuiComboFlags_HeightLarge)) {
-        for (uint32_t mode = 0; mode < VIEW_MODES; mode++) {
-            if (!view_mode_layers(&v->shot, mode))
+        for (uint32_t mode = 0; view_mode(mode); mode++) {
+            if (!view_mode_items(&v->shot, mode))
                 continue;
             if (ImGui::Selectable(view_mode(mode)->title, mode == v->mode))
                 view_show(v, view_mode(mode)->name, 0);
@@ -136,8 +122,8 @@ void part_views(viewer *v)
         ImGui::EndCombo();
     }
     tooltip("V, Shift V; B: the picture");
-    choose_layer(v);
-    if (v->mode != VIEW_PICTURE) {
+    choose_item(v);
+    if (v->mode) {
         ImGui::PushTextWrapPos();
         ImGui::TextColored(COLOR_HINT, "%s", view_mode(v->mode)->help);
         ImGui::PopTextWrapPos();

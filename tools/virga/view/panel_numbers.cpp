@@ -54,12 +54,14 @@ void part_counts(viewer *v)
 {
     view_numbers &n = v->numbers;
     char text[80];
-    plot_count("##drops", n.drops, "streaks in the picture");
-    plot_count("##impacts", n.impacts, "impacts a frame");
-    if (v->shot.splash)
-        plot_count("##droplets", n.droplets, "droplets in the air");
-    if (scene_glass_of(v->scene)->pane_count)
-        plot_count("##glass", n.on_glass, "drops and particles on panes");
+    uint32_t graph = 0;
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        for (uint32_t k = 0; k < tool_effects[i]->count_count && graph < VIEW_MAX_COUNTS; k++, graph++)
+            if (tool_effect_is_used(tool_effects[i], v->scene)) {
+                ImGui::PushID((int)graph);
+                plot_count("##count", n.counts[graph], tool_effects[i]->counts[k].what);
+                ImGui::PopID();
+            }
     std::snprintf(text, sizeof text, "%.1f MiB of the device", (double)n.memory.device_bytes / (1 << 20));
     plot("##memory", n.memory_mib, text, 34);
     ImGui::TextColored(COLOR_HINT, "in use %.1f MiB, %u blocks, %u objects; host %.1f MiB",
@@ -80,63 +82,31 @@ static void litres(const char *what, uint64_t nl, uint64_t of_nl)
         ImGui::TextColored(COLOR_HINT, "%.1f %%", 100 * (double)nl / (double)of_nl);
 }
 
-static bool begin_budget(const char *id, const char *title)
+static void budget_table(const tool_budget &budget)
 {
-    if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
-        return false;
-    ImGui::TableSetupColumn(title, 0, 1.5f);
+    if (!ImGui::BeginTable(budget.title, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
+        return;
+    ImGui::TableSetupColumn(budget.title, 0, 1.5f);
     ImGui::TableSetupColumn("litres", 0, 1);
     ImGui::TableSetupColumn("share", 0, 0.7f);
     ImGui::TableHeadersRow();
-    return true;
-}
-
-static void budget_of_ground(const virga_ground_stats &g)
-{
-    const uint64_t all = g.start_nl + g.landed_nl;
-    if (!begin_budget("##ground", "Ground"))
-        return;
-    litres("there at the start", g.start_nl, all);
-    litres("landed", g.landed_nl, all);
-    litres("film", g.film_nl, all);
-    litres("puddles", g.puddles_nl, all);
-    litres("in pores", g.held_nl, all);
-    litres("kept outside", g.kept_nl, all);
-    litres("sunk in", g.infiltrated_nl, all);
-    litres("run off", g.run_off_nl, all);
-    litres("evaporated", g.evaporated_nl, all);
-    litres("forgotten", g.forgotten_nl, all);
-    const uint64_t found = g.film_nl + g.puddles_nl + g.held_nl + g.kept_nl + g.infiltrated_nl + g.run_off_nl +
-                           g.evaporated_nl + g.forgotten_nl;
-    litres("not accounted for", all > found ? all - found : found - all, 0);
-    ImGui::EndTable();
-}
-
-static void budget_of_pane(const char *name, virga_glass *glass)
-{
-    virga_glass_stats s;
-    virga_glass_stats_get(glass, &s);
-    if (!begin_budget(name, name))
-        return;
-    litres("landed", s.landed_nl, s.landed_nl);
-    litres("in drops", s.drops_nl, s.landed_nl);
-    litres("in particles", s.particles_nl, s.landed_nl);
-    litres("film", s.film_nl, s.landed_nl);
-    litres("run off", s.run_off_nl, s.landed_nl);
-    litres("wiped off", s.wiped_nl, s.landed_nl);
-    litres("evaporated", s.evaporated_nl, s.landed_nl);
+    for (uint32_t i = 0; i < budget.row_count; i++)
+        litres(budget.rows[i].what, budget.rows[i].nl, budget.rows[i].of_nl);
     ImGui::EndTable();
 }
 
 void part_water(viewer *v)
 {
-    view_numbers &n = v->numbers;
-    ImGui::Text("rained, where drops landed: %.6f l", (double)n.rain.total_water_nl * 1e-9);
-    ImGui::Text("in the air as splashes: %.6f l", (double)(n.splash.flown_nl - n.splash.returned_nl) * 1e-9);
-    if (v->shot.ground)
-        budget_of_ground(n.ground);
-    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++)
-        budget_of_pane(scene_glass_of(v->scene)->panes[i].name, v->shot.panes[i].glass);
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->water_text)
+            ImGui::Text("%s: %.6f l", tool_effects[i]->water_text,
+                        (double)tool_effects[i]->water_nl(v->shot.states[i]) * 1e-9);
+    for (uint32_t i = 0; tool_effects[i]; i++) {
+        tool_budget budget;
+        for (uint32_t k = 0;
+             tool_effects[i]->fill_budget && tool_effects[i]->fill_budget(v->shot.states[i], k, &budget); k++)
+            budget_table(budget);
+    }
 }
 
 } // namespace view_panel

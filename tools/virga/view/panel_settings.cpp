@@ -307,21 +307,25 @@ static void section(viewer *v, growing *g, const char *title, const char *prefix
         edit_branch(v, g, prefix);
 }
 
+/* One, or one for each entry of its list. */
+static void effect_sections(viewer *v, growing *g, const tool_effect *effect)
+{
+    char title[80];
+    const std::string prefix = std::string(effect->name) + ".";
+    for (uint32_t i = 0; effect->print_entry && effect->print_entry(v->scene, i, title, sizeof title); i++)
+        section(v, g, title, (prefix + std::to_string(i) + ".").c_str());
+    if (effect->title && !effect->print_entry)
+        section(v, g, effect->title, prefix.c_str());
+}
+
 void sections(viewer *v)
 {
     growing g = {};
     g.lists = scene_lists(v->scene, &g.count);
     if (!g.lists)
         g.count = 0;
-    section(v, &g, "Rain", "rain.");
-    section(v, &g, "Ground", "ground.");
-    section(v, &g, "Splashes", "splash.");
-    for (uint32_t i = 0; i < scene_glass_of(v->scene)->pane_count; i++) {
-        char title[80], prefix[24];
-        std::snprintf(title, sizeof title, "Pane: %.40s", scene_glass_of(v->scene)->panes[i].name);
-        std::snprintf(prefix, sizeof prefix, "glass.%u.", i);
-        section(v, &g, title, prefix);
-    }
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        effect_sections(v, &g, tool_effects[i]);
     section(v, &g, "Lamps", "lights.");
     section(v, &g, "Sky", "environment.");
     section(v, &g, "Camera", "camera.");

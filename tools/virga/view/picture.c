@@ -1,55 +1,41 @@
-/* picture.c - one full-screen pass over the outputs of the shot, and drops on the flat map of a pane. */
+/* picture.c - one full-screen pass over the outputs of the shot, and quads of a view over it. */
 #include "view/picture.h"
+
+#include "views/view_gpu.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "view_pane_drops_frag.spv.h"
-#include "view_pane_drops_vert.spv.h"
 #include "view_view_frag.spv.h"
 #include "view_view_vert.spv.h"
 
-/* In the order of view_common.glsl. */
-enum {
-    AT_VIEW,
-    AT_COLOR,
-    AT_SPLASH,
-    AT_RAIN,
-    AT_GLASS,
-    AT_REFRACTION,
-    AT_NORMAL,
-    AT_VELOCITY,
-    AT_WATER,
-    AT_ID,
-    AT_DEPTH,
-    AT_OCCLUSION,
-    AT_HEIGHTS,
-    AT_FLOORS,
-    AT_CELLS,
-    AT_SURFACE,
-    AT_DROPS,
-    BINDINGS,
-};
+/* Uniforms of all shaders, and those of the shown view. */
+typedef struct view_uniforms {
+    struct view_gpu view;
+    uint8_t own[TOOL_VIEW_BYTES];
+} view_uniforms;
 
-static const host_output output_at[] = {
-    [AT_COLOR] = HOST_COLOR,       [AT_SPLASH] = HOST_SPLASH,         [AT_RAIN] = HOST_LAYER,
-    [AT_GLASS] = HOST_GLASS,       [AT_REFRACTION] = HOST_REFRACTION, [AT_NORMAL] = HOST_NORMAL,
-    [AT_VELOCITY] = HOST_VELOCITY, [AT_WATER] = HOST_WATER,           [AT_ID] = HOST_ID,
-    [AT_DEPTH] = HOST_DEPTH};
+static const struct {
+    uint32_t binding;
+    host_output output;
+} plate_bindings[] = {
+    {VIEW_AT_COLOR, HOST_COLOR}, {VIEW_AT_NORMAL, HOST_NORMAL}, {VIEW_AT_VELOCITY, HOST_VELOCITY},
+    {VIEW_AT_WATER, HOST_WATER}, {VIEW_AT_ID, HOST_ID},         {VIEW_AT_DEPTH, HOST_DEPTH},
+};
 
 /* ---- pipelines */
 
 static bool create_sets(view_picture *p, char *error, size_t error_size)
 {
     const VkShaderStageFlags seen = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    VkDescriptorType types[BINDINGS];
-    for (uint32_t i = 0; i < BINDINGS; i++)
-        types[i] = i == AT_VIEW      ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                   : i <= AT_HEIGHTS ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const host_set_shape shape = {types, BINDINGS, seen};
+    VkDescriptorType types[VIEW_BINDINGS];
+    for (uint32_t i = 0; i < VIEW_BINDINGS; i++)
+        types[i] = i == VIEW_AT_UNIFORMS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                   : i < VIEW_AT_BUFFERS ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const host_set_shape shape = {types, VIEW_BINDINGS, seen};
     for (uint32_t i = 0; i < HOST_FRAMES; i++)
-        if (!host_buffer_create(p->device, sizeof(struct view_gpu), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+        if (!host_buffer_create(p->device, sizeof(view_uniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 HOST_BUFFER_UPLOAD, "view", &p->uniforms[i], error, error_size))
             return false;
     return host_set_layout_create(p->device, &shape, &p->set_layout, error, error_size) &&
@@ -69,7 +55,7 @@ static bool create_samplers(view_picture *p, char *error, size_t error_size)
                                error_size);
 }
 
-/* What stands for outputs that a scene has not. */
+/* Replace outputs that a scene does not have. */
 static bool create_blanks(view_picture *p, char *error, size_t error_size)
 {
     const uint8_t zero[64] = {0};
@@ -100,6 +86,20 @@ static bool build(const view_picture *p, VkRenderPass pass, host_code vertex, ho
     return host_graphics_create(p->device, &def, pipeline, error, error_size);
 }
 
+/* Modes with shaders of their own. */
+static bool build_views(view_picture *p, VkRenderPass pass, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; view_mode(i); i++) {
+        const tool_view *view = view_mode(i)->view;
+        if (view && !build(p, pass, HOST_CODE(view_view_vert), view->fragment, &p->views[i], error, error_size))
+            return false;
+        if (view && view->quad_count &&
+            !build(p, pass, view->quad_vertex, view->quad_fragment, &p->quads[i], error, error_size))
+            return false;
+    }
+    return true;
+}
+
 bool view_picture_create(host_device *device, const view_window *window, view_picture *p, char *error,
                          size_t error_size)
 {
@@ -109,8 +109,7 @@ bool view_picture_create(host_device *device, const view_window *window, view_pi
            create_sets(p, error, error_size) &&
            build(p, window->pass, HOST_CODE(view_view_vert), HOST_CODE(view_view_frag), &p->picture, error,
                  error_size) &&
-           build(p, window->pass, HOST_CODE(view_pane_drops_vert), HOST_CODE(view_pane_drops_frag), &p->drops, error,
-                 error_size);
+           build_views(p, window->pass, error, error_size);
 }
 
 void view_picture_destroy(view_picture *p)
@@ -118,7 +117,10 @@ void view_picture_destroy(view_picture *p)
     if (!p->device)
         return;
     const VkDevice device = p->device->device;
-    vkDestroyPipeline(device, p->drops, NULL);
+    for (uint32_t i = 0; i < VIEW_MAX_MODES; i++) {
+        vkDestroyPipeline(device, p->quads[i], NULL);
+        vkDestroyPipeline(device, p->views[i], NULL);
+    }
     vkDestroyPipeline(device, p->picture, NULL);
     vkDestroyPipelineLayout(device, p->layout, NULL);
     vkDestroyDescriptorPool(device, p->pool, NULL);
@@ -133,15 +135,7 @@ void view_picture_destroy(view_picture *p)
     memset(p, 0, sizeof *p);
 }
 
-/* ---- what the shaders are told */
-
-static const shot_pane *pane_of(const shot *s, const view_shown *shown)
-{
-    const bool flat = shown->mode == VIEW_PANE || shown->mode == VIEW_PANE_HEIGHT;
-    if (!scene_glass_of(s->scene)->pane_count)
-        return NULL;
-    return &s->panes[flat && shown->layer < scene_glass_of(s->scene)->pane_count ? shown->layer : 0];
-}
+/* ---- uniforms */
 
 static void fill_camera(const host_camera *camera, struct view_gpu *out)
 {
@@ -159,98 +153,43 @@ static void fill_camera(const host_camera *camera, struct view_gpu *out)
     }
 }
 
-static void fill_ground(const shot *s, const host_camera *camera, uint32_t mode, struct view_gpu *out)
+/* The layer of a mode, from HOST_LAYER on. */
+static uint32_t layer_of(const shot *s, const tool_layer *layer)
 {
-    virga_ground_cells cells;
-    virga_ground_maps maps;
-    virga_ground_cells_get(s->ground, &cells);
-    virga_ground_maps_get(s->ground, &maps);
-    for (uint32_t i = 0; i < VIEW_PALETTE; i++)
-        view_mode_legend(mode, i, out->palette[i]);
-    if (!s->ground)
-        return;
-    const virga_ground_settings settings = virga_default_ground_settings(); /* as the shot has them */
-    const double area = (double)maps.cell_m * (double)maps.cell_m;
-    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
-        out->capacity[i / 4][i % 4] = (uint32_t)floor((double)settings.materials[i].capacity_mm * area * 1e9 + 0.5);
-    out->ground[0] = (float)(maps.low_m[0] - camera->position_m[0]);
-    out->ground[1] = (float)(maps.low_m[1] - camera->position_m[2]);
-    out->ground[2] = 1 / maps.cell_m;
-    out->ground[3] = (float)maps.cells;
-    out->jitter[2] = (float)(camera->position_m[1] - (double)cells.base_m);
-    out->cells[0] = cells.low_tile[0];
-    out->cells[1] = cells.low_tile[1];
-    out->cells[2] = (int32_t)cells.tiles;
-    out->cells[3] = (int32_t)cells.nl_per_um;
+    for (uint32_t i = 0; i < s->layer_count; i++)
+        if (s->layers[i].layer == layer)
+            return s->layers[i].output - HOST_LAYER;
+    return 0;
 }
 
-/* Both ends of a blade at a time, as the library places it. */
-static void place_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
+static void fill_layers(const shot *s, struct view_gpu *out)
 {
-    const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)
-                                                           : virga_glass_wiper_deg(wiper, fmax(time_s, 0));
-    const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
-    const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
-    for (int end = 0; end < 2; end++) {
-        const double way = (end - 0.5) * from->blade_m;
-        ends[2 * end] = (float)(from->pivot_m[0] + hub * cos(arm) + way * cos(blade));
-        ends[2 * end + 1] = (float)(from->pivot_m[1] + hub * sin(arm) + way * sin(blade));
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        const uint32_t at = out->mode[2];
+        if (s->layers[i].layer->is_data)
+            continue;
+        out->over[at / 4][at % 4] = s->layers[i].output - HOST_LAYER;
+        out->mode[2]++;
     }
-}
-
-static void fill_pane(const shot *s, const shot_pane *pane, struct view_gpu *out)
-{
-    const scene_pane *from = pane->from;
-    const virga_glass_settings *now = &pane->settings;
-    const double angle = 0.5 * ((double)now->advancing_deg + (double)now->receding_deg) * M_PI / 180, c = cos(angle);
-    virga_glass_map heights;
-    virga_glass_surface(pane->glass, NULL, &out->pane_cells[0], &out->pane_cells[1]);
-    virga_glass_map_get(pane->glass, &heights);
-    out->pane[0] = (float)from->width_m;
-    out->pane[1] = (float)from->height_m;
-    out->pane[2] = (float)from->width_m / (float)out->pane_cells[0];
-    out->pane[3] = (float)(from->band * 2 * from->particle_mm * 1e-3);
-    /* Water of a cap on a base with a radius of 1 m, by its contact angle. */
-    out->pane_drop[0] = (float)(1e12 * M_PI * (2 - 3 * c + c * c * c) / (3 * pow(sin(angle), 3)));
-    out->pane_drop[1] = (float)(from->particle_mm * 1e-3);
-    out->pane_cells[2] = from->wiper_count;
-    for (uint32_t i = 0; i < from->wiper_count && i < VIEW_BLADES; i++)
-        place_blade(&from->wipers[i], &now->wipers[i], s->camera_time_s, out->blades[i]);
-    out->height_map[0] = (float)heights.columns;
-    out->height_map[1] = (float)heights.rows;
-    out->height_map[2] = now->threshold;
 }
 
 static void fill(const shot *s, const host_camera *camera, const view_shown *shown, struct view_gpu *out)
 {
-    virga_rain_occlusion_map map;
-    virga_glass_map heights = {0};
-    const shot_pane *pane = pane_of(s, shown);
-    memset(out, 0, sizeof *out);
-    virga_rain_occlusion_map_get(s->rain, &map);
+    const view_mode_row *mode = view_mode(shown->mode);
     memcpy(out->area, shown->area, sizeof out->area);
     out->picture[0] = (float)s->target.width;
     out->picture[1] = (float)s->target.height;
     out->picture[2] = exp2f(shown->exposure_ev);
     out->picture[3] = 20; /* pixels a frame that show in full */
-    out->heights[0] = (float)map.top_m;
-    out->heights[1] = map.height_m;
-    out->heights[2] = (float)camera->position_m[1] - 4;
+    out->mode[0] = mode->view ? mode->view->mode : mode->shader;
+    out->mode[1] = mode->layer ? layer_of(s, mode->layer) : shown->item;
     fill_camera(camera, out);
-    fill_ground(s, camera, shown->mode, out);
-    if (pane) {
-        fill_pane(s, pane, out);
-        virga_glass_map_get(pane->glass, &heights);
-    }
-    out->mode[0] = shown->mode;
-    out->mode[1] = shown->layer;
-    out->mode[2] = (s->splash ? 1u : 0u) | (pane ? 2u : 0u) | (s->ground ? 4u : 0u) | (map.depth ? 8u : 0u) |
-                   (heights.view ? 16u : 0u);
+    fill_layers(s, out);
 }
 
 /* ---- descriptors */
 
-/* A storage buffer, or what stands for it. */
+/* A storage buffer, or what replaces it. */
 static void write_buffer(const view_picture *p, VkDescriptorSet set, uint32_t binding, VkBuffer buffer)
 {
     host_set_write_buffer(p->device, set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
@@ -259,41 +198,32 @@ static void write_buffer(const view_picture *p, VkDescriptorSet set, uint32_t bi
 
 static void write_outputs(const view_picture *p, const shot *s, VkDescriptorSet set)
 {
-    for (uint32_t i = AT_COLOR; i <= AT_DEPTH; i++) {
-        const host_image *image = &s->target.images[output_at[i]];
-        const bool smooth = i <= AT_GLASS;
-        host_set_write_image(
-            p->device, set, i, smooth ? p->linear : p->nearest, image->image ? image->view : p->blank.view,
-            i == AT_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    for (size_t i = 0; i < sizeof plate_bindings / sizeof plate_bindings[0]; i++) {
+        const host_output output = plate_bindings[i].output;
+        host_set_write_image(p->device, set, plate_bindings[i].binding, output == HOST_COLOR ? p->linear : p->nearest,
+                             s->target.images[output].view,
+                             output == HOST_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL : read);
+    }
+    for (uint32_t i = 0; i < VIEW_LAYERS; i++) {
+        const host_image *image = &s->target.images[HOST_LAYER + i];
+        host_set_write_image(p->device, set, VIEW_AT_LAYERS + i, p->linear, image->image ? image->view : p->blank.view,
+                             read);
     }
 }
 
-static void write_set(const view_picture *p, const shot *s, const view_shown *shown, VkDescriptorSet set,
+static void write_set(const view_picture *p, const shot *s, const tool_view_data *data, VkDescriptorSet set,
                       const host_buffer *uniforms)
 {
     const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const shot_pane *pane = pane_of(s, shown);
-    virga_rain_occlusion_map map;
-    virga_ground_cells cells;
-    virga_glass_map heights = {0};
-    virga_glass_buffer surface = {0}, drops = {0};
-    virga_rain_occlusion_map_get(s->rain, &map);
-    virga_ground_cells_get(s->ground, &cells);
-    if (pane) {
-        virga_glass_map_get(pane->glass, &heights);
-        virga_glass_surface(pane->glass, &surface, NULL, NULL);
-        virga_glass_drops(pane->glass, &drops, NULL);
-    }
-    host_set_write_buffer(p->device, set, AT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniforms->buffer);
+    host_set_write_buffer(p->device, set, VIEW_AT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniforms->buffer);
     write_outputs(p, s, set);
-    host_set_write_image(p->device, set, AT_OCCLUSION, p->nearest, map.depth ? map.depth : p->blank_array.view,
-                         map.depth ? map.layout : read);
-    host_set_write_image(p->device, set, AT_HEIGHTS, p->nearest, heights.view ? heights.view : p->blank.view,
-                         heights.view ? VK_IMAGE_LAYOUT_GENERAL : read);
-    write_buffer(p, set, AT_FLOORS, cells.floors);
-    write_buffer(p, set, AT_CELLS, cells.cells);
-    write_buffer(p, set, AT_SURFACE, surface.buffer);
-    write_buffer(p, set, AT_DROPS, drops.buffer);
+    host_set_write_image(p->device, set, VIEW_AT_ARRAY, p->nearest, data->array ? data->array : p->blank_array.view,
+                         data->array ? data->array_layout : read);
+    host_set_write_image(p->device, set, VIEW_AT_IMAGE, p->nearest, data->image ? data->image : p->blank.view,
+                         data->image ? data->image_layout : read);
+    for (uint32_t i = 0; i < 2; i++)
+        write_buffer(p, set, VIEW_AT_BUFFERS + i, data->buffers[i]);
 }
 
 /* ---- recording */
@@ -318,12 +248,18 @@ void view_picture_begin(VkCommandBuffer cmd)
                          0, 0, NULL, 0, NULL, 0, NULL);
 }
 
-void view_picture_prepare(view_picture *p, VkCommandBuffer cmd, const shot *s, const host_camera *camera,
+void view_picture_prepare(view_picture *p, VkCommandBuffer cmd, shot *s, const host_camera *camera,
                           const view_shown *shown)
 {
     const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
-    fill(s, camera, shown, p->uniforms[slot].mapped);
-    write_set(p, s, shown, p->sets[slot], &p->uniforms[slot]);
+    const view_mode_row *mode = view_mode(shown->mode);
+    view_uniforms *uniforms = p->uniforms[slot].mapped;
+    tool_view_data data = {.camera = camera, .item = shown->item, .own = uniforms->own};
+    memset(uniforms, 0, sizeof *uniforms);
+    fill(s, camera, shown, &uniforms->view);
+    if (mode->view && mode->view->fill)
+        mode->view->fill(s, s->states[mode->effect_index], &data);
+    write_set(p, s, &data, p->sets[slot], &p->uniforms[slot]);
     make_readable(cmd, s);
     host_memory_barrier(
         cmd,
@@ -337,16 +273,15 @@ void view_picture_draw(const view_picture *p, VkCommandBuffer cmd, const shot *s
                        const view_shown *shown)
 {
     const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
-    const shot_pane *pane = pane_of(s, shown);
+    const view_mode_row *mode = view_mode(shown->mode);
     const float size[2] = {(float)window->width, (float)window->height};
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->layout, 0, 1, &p->sets[slot], 0, NULL);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->picture);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, mode->view ? p->views[shown->mode] : p->picture);
     vkCmdDraw(cmd, 3, 1, 0, 0);
-    if (shown->mode != VIEW_PANE || !pane)
+    if (!mode->view || !mode->view->quad_count)
         return;
-    uint32_t places;
-    virga_glass_drops(pane->glass, NULL, &places);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->drops);
+    const uint32_t quads = mode->view->quad_count(s->states[mode->effect_index], shown->item);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->quads[shown->mode]);
     vkCmdPushConstants(cmd, p->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof size, size);
-    vkCmdDraw(cmd, 6 * places, 1, 0, 0);
+    vkCmdDraw(cmd, 6 * quads, 1, 0, 0);
 }

@@ -2,33 +2,16 @@
 #ifndef VIRGA_VIEW_PICTURE_H
 #define VIRGA_VIEW_PICTURE_H
 
-#include "shot/shot.h"
+#include "view/modes.h"
 #include "view/window.h"
-
-#include "view/shaders/view_gpu.h"
-
-typedef struct view_mode_row {
-    const char *name; /* one word, for scripts */
-    const char *title;
-    const char *help;
-} view_mode_row;
-
-/* The modes there are, VIEW_MODES of them, and the one of a name; VIEW_MODES where there is none. */
-const view_mode_row *view_mode(uint32_t mode);
-uint32_t view_mode_find(const char *name);
-
-/* How many layers a mode has to choose from in this shot (maps, panes); 0: it shows nothing here. */
-uint32_t view_mode_layers(const shot *s, uint32_t mode);
-
-/* Colours that a mode shows by number, and what they stand for; NULL behind the last. */
-const char *view_mode_legend(uint32_t mode, uint32_t index, float color[3]);
 
 typedef struct view_picture {
     host_device *device;
     VkSampler nearest, linear;
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
-    VkPipeline picture, drops;
+    VkPipeline picture;
+    VkPipeline views[VIEW_MAX_MODES], quads[VIEW_MAX_MODES]; /* of modes that have a shader of their own */
     VkDescriptorPool pool;
     VkDescriptorSet sets[HOST_FRAMES];
     host_buffer uniforms[HOST_FRAMES];
@@ -42,7 +25,7 @@ bool view_picture_create(host_device *device, const view_window *window, view_pi
 void view_picture_destroy(view_picture *picture); /* the device must be idle */
 
 typedef struct view_shown {
-    uint32_t mode, layer;
+    uint32_t mode, item;
     float area[4]; /* where in the window, pixels: low corner, size */
     float exposure_ev;
 } view_shown;
@@ -51,7 +34,7 @@ typedef struct view_shown {
 void view_picture_begin(VkCommandBuffer cmd);
 
 /* Makes what the shot has drawn ready to be sampled. Outside rendering, after shot_live_record. */
-void view_picture_prepare(view_picture *picture, VkCommandBuffer cmd, const shot *s, const host_camera *camera,
+void view_picture_prepare(view_picture *picture, VkCommandBuffer cmd, shot *s, const host_camera *camera,
                           const view_shown *shown);
 
 /* Draws it, all over the window. Inside rendering. */

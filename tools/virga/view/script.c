@@ -228,9 +228,13 @@ static bool do_await(viewer *v, const script_line *line)
 static bool do_print(viewer *v, const script_line *line)
 {
     (void)line;
-    printf("time %.4f s, %s, %.3g mm/h, view %s, camera %s, %u x %u\n", v->shot.camera_time_s,
-           v->paused ? "paused" : "playing", scene_rain_of(v->scene)->rate_mm_h, view_mode(v->mode)->name,
-           v->camera.free ? "free" : "on its path", v->shot.target.width, v->shot.target.height);
+    char state[80] = "";
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->print_state && !state[0])
+            tool_effects[i]->print_state(v->scene, state, sizeof state);
+    printf("time %.4f s, %s, %s, view %s, camera %s, %u x %u\n", v->shot.camera_time_s,
+           v->paused ? "paused" : "playing", state, view_mode(v->mode)->name, v->camera.free ? "free" : "on its path",
+           v->shot.target.width, v->shot.target.height);
     fflush(stdout);
     return true;
 }

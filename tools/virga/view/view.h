@@ -28,7 +28,8 @@ extern "C" {
 #include "view/window.h"
 
 #define VIEW_HISTORY    180 /* frames that graphs go back */
-#define VIEW_MOST_TIMES 64
+#define VIEW_MAX_TIMES  64
+#define VIEW_MAX_COUNTS 32
 #define VIEW_PANEL_PX   430
 
 /* The newest VIEW_HISTORY values of something, the oldest first from `next` on. */
@@ -45,13 +46,11 @@ typedef struct view_pass {
 
 /* What graphs and numbers show, taken from the library after each frame. */
 typedef struct view_numbers {
-    view_pass passes[VIEW_MOST_TIMES];
+    view_pass passes[VIEW_MAX_TIMES];
     uint32_t pass_count;
-    view_graph frame_ms, device_ms, drops, impacts, droplets, on_glass, memory_mib;
+    view_graph frame_ms, device_ms, memory_mib;
+    view_graph counts[VIEW_MAX_COUNTS]; /* of all effects, in their order */
     double frame_now_ms, device_now_ms;
-    virga_rain_stats rain;
-    virga_ground_stats ground;
-    virga_splash_stats splash;
     virga_memory_stats memory;
 } view_numbers;
 
@@ -93,7 +92,7 @@ typedef struct viewer {
     double wall_s;  /* when the last frame began */
 
     /* What is shown. */
-    uint32_t mode, layer;
+    uint32_t mode, item; /* see modes.h */
     bool panel;
     uint32_t divide; /* 1, 2 or 4: the picture has that many fewer pixels along each side than the window */
     char unfold[40]; /* part of the panel to open or close, by its title; and which of both */
@@ -130,8 +129,12 @@ bool view_check(viewer *v);
 bool view_list_add(viewer *v, const char *path);
 bool view_list_drop(viewer *v, const char *path);
 
+/* Whether keys of the scene animate settings, and a line that says so; and the end of that. */
+bool view_is_animated(const viewer *v, const char **hint);
+void view_stop_animation(viewer *v);
+
 bool view_preset_take(viewer *v, const char *name);
-bool view_show(viewer *v, const char *mode, uint32_t layer);
+bool view_show(viewer *v, const char *mode, uint32_t item);
 void view_show_next(viewer *v, int step);
 bool view_save(viewer *v, const char *path);
 

@@ -1,4 +1,4 @@
-// pane_drops.frag - a disk.
+// view_drops.frag - a disk.
 #version 460
 layout(location = 0) in vec2 in_at;
 layout(location = 1) flat in vec3 in_color;

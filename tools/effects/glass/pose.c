@@ -1,15 +1,14 @@
-/* glass_place.c - where the panes of a shot are and how they move: with the camera, or as the scene gives it. */
-#include "shot/internal.h"
+/* pose.c - where panes are and how they move: with the camera, or as the scene gives it. */
+#include "panes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct frame3 {
     double origin[3], axes[3][3]; /* axes[i] is the i-th in the world */
 } frame3;
 
-/* What a pane's place and angles are given in. A pane that follows the camera faces ahead, so its X points to the
+/* What a pane's position and angles are given in. A pane that follows the camera faces ahead, so its X points to the
  * left. */
 static frame3 frame_of(const shot *s, const scene_pane *pane, double time_s)
 {
@@ -27,7 +26,7 @@ static frame3 frame_of(const shot *s, const scene_pane *pane, double time_s)
     return f;
 }
 
-/* A place or a direction as the scene gives it, to the right where the pane follows the camera. */
+/* An offset or a direction as the scene gives it, to the right where the pane follows the camera. */
 static void to_world(const frame3 *f, const scene_pane *pane, const double given[3], double out[3])
 {
     const double side = pane->follow == SCENE_PANE_CAMERA ? -1 : 1;
@@ -47,7 +46,7 @@ static void turn_axes(double a[3], double b[3], double angle_deg)
 }
 
 /* Yaw first, then pitch about the axis to the right that it has left, then roll. */
-static frame3 place_of(const shot *s, const scene_pane *pane, double time_s)
+static frame3 pose_of(const shot *s, const scene_pane *pane, double time_s)
 {
     frame3 f = frame_of(s, pane, time_s);
     double offset[3];
@@ -60,9 +59,9 @@ static frame3 place_of(const shot *s, const scene_pane *pane, double time_s)
     return f;
 }
 
-void shot_pane_pose(const shot *s, const scene_pane *pane, double time_s, virga_glass_pose *pose)
+void glass_pose(const shot *s, const scene_pane *pane, double time_s, virga_glass_pose *pose)
 {
-    const frame3 f = place_of(s, pane, time_s);
+    const frame3 f = pose_of(s, pane, time_s);
     memset(pose, 0, sizeof *pose);
     memcpy(pose->position_m, f.origin, sizeof pose->position_m);
     for (int i = 0; i < 9; i++)
@@ -90,7 +89,7 @@ static void velocity_at(const shot *s, const scene_pane *pane, double time_s, do
     memset(turn, 0, 3 * sizeof *turn);
     if (!moving_span(s, time_s, 0.25 / s->scene->frames.fps, span))
         return;
-    const frame3 a = place_of(s, pane, span[0]), b = place_of(s, pane, span[1]);
+    const frame3 a = pose_of(s, pane, span[0]), b = pose_of(s, pane, span[1]);
     const double time = span[1] - span[0];
     for (int axis = 0; axis < 3; axis++) {
         const int y = (axis + 1) % 3, z = (axis + 2) % 3;
@@ -135,19 +134,24 @@ static void move_as_given(const shot *s, const scene_pane *pane, double time_s, 
     }
 }
 
-virga_scene_pane *shot_panes_place(shot *s, double time_s)
+void glass_place(const shot *s, const scene_pane *pane, double time_s, virga_scene_pane *out)
 {
-    const uint32_t count = scene_glass_of(s->scene)->pane_count;
-    virga_scene_pane *placed = calloc(count ? count : 1, sizeof *placed);
-    for (uint32_t i = 0; placed && i < count; i++) {
-        const scene_pane *from = s->panes[i].from;
-        shot_pane_pose(s, from, time_s, &placed[i].pose);
-        if (from->motion == SCENE_PANE_MOTION_GIVEN)
-            move_as_given(s, from, time_s, &placed[i]);
-        else
-            move_along_path(s, from, time_s, &placed[i]);
-        placed[i].shelter = (float)from->shelter;
-        s->panes[i].now = placed[i];
-    }
-    return placed;
+    memset(out, 0, sizeof *out);
+    glass_pose(s, pane, time_s, &out->pose);
+    if (pane->motion == SCENE_PANE_MOTION_GIVEN)
+        move_as_given(s, pane, time_s, out);
+    else
+        move_along_path(s, pane, time_s, out);
+    out->shelter = (float)pane->shelter;
+}
+
+void glass_pose_moving(const shot *s, const scene_pane *pane, double camera_s, virga_glass_pose *pose)
+{
+    virga_glass_pose before;
+    const host_camera_path eye = shot_eye(s);
+    const double shot_start = host_camera_shot_start(&eye, camera_s);
+    glass_pose(s, pane, camera_s, pose);
+    glass_pose(s, pane, fmax(camera_s - 1 / s->scene->frames.fps, shot_start), &before);
+    memcpy(pose->before_position_m, before.position_m, sizeof before.position_m);
+    memcpy(pose->before_world_from_pane, before.world_from_pane, sizeof before.world_from_pane);
 }

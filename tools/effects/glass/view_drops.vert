@@ -1,8 +1,13 @@
-// pane_drops.vert - a square for each place on the flat map of a pane.
+// view_drops.vert - a quad for each slot of a drop, on the flat map of a pane.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "view_common.glsl"
+#define VIRGA_GLSL
+#include "view_gpu.h"
+#define VIEW_OWN glass_view_gpu
+#include "../views/view_common.glsl"
+#include "shared/glass_drop.h"
 
+layout(scalar, set = 0, binding = VIEW_AT_BUFFERS + 1) readonly buffer Drops { virga_glass_drop_gpu drops[]; };
 layout(location = 0) out vec2 out_at;
 layout(location = 1) flat out vec3 out_color;
 layout(push_constant) uniform Window { vec2 window; };
@@ -17,11 +22,11 @@ void main()
                     ? ((drop.kind & VIRGA_GLASS_HELD) != 0u ? vec3(1.0, 0.85, 0.2) : vec3(1.0, 0.5, 0.1))
                 : (drop.kind & VIRGA_GLASS_RUNNING) != 0u ? vec3(0.35, 1.0, 0.55)
                                                           : vec3(0.3, 0.6, 1.0);
-    const float radius = kind == VIRGA_GLASS_PARTICLE ? view.pane_drop.y
-                                                      : pow(float(drop.water_nl) / view.pane_drop.x, 1.0 / 3.0);
-    const vec4 flat_map = flat_area(view.pane.x / view.pane.y);
-    const vec2 place = vec2(drop.position[0], drop.position[1]) / view.pane.xy;
-    const float px = max(radius / view.pane.x * flat_map.z, 1.0);
-    const vec2 pixel = flat_map.xy + vec2(place.x, 1.0 - place.y) * flat_map.zw + out_at * px;
+    const float radius =
+        kind == VIRGA_GLASS_PARTICLE ? own.drop.y : pow(float(drop.water_nl) / own.drop.x, 1.0 / 3.0);
+    const vec4 flat_map = flat_area(own.pane.x / own.pane.y);
+    const vec2 uv = vec2(drop.position[0], drop.position[1]) / own.pane.xy;
+    const float px = max(radius / own.pane.x * flat_map.z, 1.0);
+    const vec2 pixel = flat_map.xy + vec2(uv.x, 1.0 - uv.y) * flat_map.zw + out_at * px;
     gl_Position = kind == VIRGA_GLASS_FREE ? vec4(2.0, 2.0, 0.0, 1.0) : vec4(pixel / window * 2.0 - 1.0, 0.0, 1.0);
 }

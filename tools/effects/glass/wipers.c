@@ -1,6 +1,6 @@
 /* wipers.c - what is seen of a pane beside its drops: arms and blades of its wipers, and a dark frame around
  * it, as a mesh that is laid along the pane anew for each picture. */
-#include "shot/internal.h"
+#include "panes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,49 +15,10 @@
 #define ARM_ABOVE_M   0.018 /* of its middle over the glass */
 #define BLADE_ABOVE_M 0.009
 
-/* ---- the pane's surface */
-
-static const float *node(const shot_pane *pane, uint32_t column, uint32_t row)
-{
-    return pane->positions + 3 * ((size_t)row * pane->columns + column);
-}
-
-/* The square of the grid that a place lies in, or the nearest one, and where it lies in it, or beside it. */
-static uint32_t find_square(double share, uint32_t points, double *inside)
-{
-    const double at = share * (points - 1);
-    const uint32_t low = (uint32_t)fmin(fmax(floor(at), 0), points - 2);
-    *inside = at - low;
-    return low;
-}
-
-void shot_pane_point(const shot_pane *pane, double u, double v, double point[3], double normal[3])
-{
-    double s, t, across[3], up[3];
-    const uint32_t column = find_square(u / pane->from->width_m, pane->columns, &s);
-    const uint32_t row = find_square(v / pane->from->height_m, pane->rows, &t);
-    const float *a = node(pane, column, row), *b = node(pane, column + 1, row), *c = node(pane, column, row + 1),
-                *d = node(pane, column + 1, row + 1);
-    for (int i = 0; i < 3; i++) {
-        point[i] =
-            (1 - t) * ((1 - s) * (double)a[i] + s * (double)b[i]) + t * ((1 - s) * (double)c[i] + s * (double)d[i]);
-        across[i] = (1 - t) * ((double)b[i] - (double)a[i]) + t * ((double)d[i] - (double)c[i]);
-        up[i] = (1 - s) * ((double)c[i] - (double)a[i]) + s * ((double)d[i] - (double)b[i]);
-    }
-    double length = 0;
-    for (int i = 0; i < 3; i++) {
-        const int y = (i + 1) % 3, z = (i + 2) % 3;
-        normal[i] = across[y] * up[z] - across[z] * up[y];
-        length += normal[i] * normal[i];
-    }
-    for (int i = 0; i < 3; i++)
-        normal[i] /= sqrt(fmax(length, 1e-24));
-}
-
 /* ---- vertices */
 
 typedef struct maker {
-    const shot_pane *pane;
+    const glass_pane *pane;
     virga_glass_pose pose;
     host_vertex *vertices;
     uint32_t count;
@@ -85,8 +46,8 @@ static void put_section(maker *m, const double uv[2], const double across_uv[2],
                         double half_height)
 {
     double middle[3], side[3], normal[3], ignored[3], across[3];
-    shot_pane_point(m->pane, uv[0], uv[1], middle, normal);
-    shot_pane_point(m->pane, uv[0] + 1e-3 * across_uv[0], uv[1] + 1e-3 * across_uv[1], side, ignored);
+    glass_point(m->pane, uv[0], uv[1], middle, normal);
+    glass_point(m->pane, uv[0] + 1e-3 * across_uv[0], uv[1] + 1e-3 * across_uv[1], side, ignored);
     for (int i = 0; i < 3; i++)
         across[i] = (side[i] - middle[i]) / 1e-3;
     for (int face = 0; face < 4; face++) {
@@ -141,7 +102,7 @@ static void put_frame(maker *m)
             for (int out = 0; out < 2; out++) {
                 const double(*c)[2] = out ? beyond : corners;
                 double point[3], normal[3], inward[3];
-                shot_pane_point(m->pane, c[side][0] + t * (c[side + 1][0] - c[side][0]),
+                glass_point(m->pane, c[side][0] + t * (c[side + 1][0] - c[side][0]),
                                 c[side][1] + t * (c[side + 1][1] - c[side][1]), point, normal);
                 for (int i = 0; i < 3; i++)
                     inward[i] = -normal[i];
@@ -163,10 +124,10 @@ static uint32_t point_count(const scene_pane *pane)
     return drawn_wipers(pane) * 2 * BAR_POINTS + (pane->frame_m > 0 ? FRAME_POINTS : 0);
 }
 
-static void put_all(const shot *s, const shot_pane *pane, double time_s, host_vertex *vertices)
+static void put_all(const shot *s, const glass_pane *pane, double time_s, host_vertex *vertices)
 {
     maker m = {.pane = pane, .vertices = vertices};
-    shot_pane_pose(s, pane->from, time_s, &m.pose);
+    glass_pose(s, pane->from, time_s, &m.pose);
     for (uint32_t i = 0; i < pane->from->wiper_count; i++)
         if (pane->from->wipers[i].drawn)
             put_wiper(&m, &pane->from->wipers[i], &pane->settings.wipers[i], shot_preroll_s(s), time_s);
@@ -200,7 +161,7 @@ static uint32_t put_indices(const scene_pane *pane, uint32_t *indices)
     return count;
 }
 
-bool shot_pane_make_mesh(shot *s, shot_pane *pane, char *error, size_t error_size)
+bool glass_create_mesh(shot *s, glass_pane *pane, char *error, size_t error_size)
 {
     const host_material rubber = {
         .name = "rubber", .base_color = {0.02f, 0.02f, 0.021f, 1}, .roughness = 0.7f, .two_sided = true};
@@ -224,18 +185,16 @@ bool shot_pane_make_mesh(shot *s, shot_pane *pane, char *error, size_t error_siz
     return made;
 }
 
-bool shot_panes_move_meshes(shot *s, VkCommandBuffer cmd, double time_s, char *error, size_t error_size)
+bool glass_move_mesh(shot *s, const glass_pane *pane, VkCommandBuffer cmd, double time_s, char *error,
+                     size_t error_size)
 {
-    for (uint32_t i = 0; i < scene_glass_of(s->scene)->pane_count; i++) {
-        const shot_pane *pane = &s->panes[i];
-        if (!pane->mesh.vertex_count)
-            continue;
-        host_vertex *vertices = calloc(pane->mesh.vertex_count, sizeof *vertices);
-        if (!vertices)
-            return host_fail(error, error_size, "no memory for wipers");
-        put_all(s, pane, time_s, vertices);
-        host_mesh_move(cmd, &pane->mesh, vertices);
-        free(vertices);
-    }
+    if (!pane->mesh.vertex_count)
+        return true;
+    host_vertex *vertices = calloc(pane->mesh.vertex_count, sizeof *vertices);
+    if (!vertices)
+        return host_fail(error, error_size, "no memory for wipers");
+    put_all(s, pane, time_s, vertices);
+    host_mesh_move(cmd, &pane->mesh, vertices);
+    free(vertices);
     return true;
 }

@@ -1,0 +1,133 @@
+/* settings.c - the settings of panes, from the scene file. */
+#include "panes.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The library's time begins with the pre-roll, and the scene's with the first frame. */
+static double phase_of(const scene_wiper *from, double preroll_s)
+{
+    const double pause_s = from->drive == SCENE_WIPER_INTERMITTENT ? from->pause_s : 0;
+    const double cycle_s = 2 * from->sweep_s + pause_s, phase_s = fmod(from->phase_s - preroll_s, cycle_s);
+    return preroll_s == 0 ? from->phase_s : phase_s < 0 ? phase_s + cycle_s : phase_s;
+}
+
+static void fill_wiper(const scene_wiper *from, double preroll_s, double time_s, virga_glass_wiper *to)
+{
+    *to = virga_default_glass_wiper();
+    for (int axis = 0; axis < 2; axis++)
+        to->pivot_m[axis] = (float)from->pivot_m[axis];
+    to->reach_m = (float)from->reach_m;
+    to->blade_m = (float)from->blade_m;
+    to->width_m = (float)from->width_m;
+    to->low_deg = (float)from->low_deg;
+    to->high_deg = (float)from->high_deg;
+    to->blade_deg = (float)from->blade_deg;
+    to->blade_turn = (float)from->blade_turn;
+    to->drive = (virga_glass_drive)from->drive;
+    to->sweep_s = (float)from->sweep_s;
+    to->pause_s = (float)from->pause_s;
+    to->phase_s = (float)phase_of(from, preroll_s);
+    to->film_mm = (float)from->film_mm;
+    to->wear = (float)from->wear;
+    to->host_deg = (float)scene_wiper_angle_deg(from, time_s);
+}
+
+/* What the kind of surface says, unless the scene says otherwise. */
+static void fill_kind(const scene_pane *from, virga_glass_settings *to)
+{
+    const struct {
+        const double *given;
+        float *value;
+    } rows[] = {{from->advancing_deg, &to->advancing_deg},
+                {from->receding_deg, &to->receding_deg},
+                {from->run_hold, &to->run_hold},
+                {from->affinity, &to->affinity},
+                {from->film_um, &to->film_um},
+                {from->tail_mm, &to->tail_mm}};
+    virga_glass_settings_of((virga_glass_kind)from->kind, to);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (rows[i].given)
+            *rows[i].value = (float)*rows[i].given;
+    const bool solid = from->kind == VIRGA_GLASS_KIND_METAL || from->kind == VIRGA_GLASS_KIND_LEAF;
+    to->opaque = from->opaque ? *from->opaque : solid;
+}
+
+static void fill_motion(const scene_pane *from, virga_glass_settings *to)
+{
+    to->drag = (float)from->drag;
+    to->meander = (float)from->meander;
+    to->path_ease = (float)from->path_ease;
+    to->path_s = (float)from->path_s;
+    to->touch = (float)from->touch;
+    to->tail_m = (float)from->tail_m;
+    to->tail_s = (float)from->tail_s;
+    to->film_break_s = (float)from->film_break_s;
+    to->evaporation_mm_h = (float)from->evaporation_mm_h;
+    to->mist_mm = (float)from->mist_mm;
+    to->air_share = (float)from->air_share;
+    to->particle_mm = (float)from->particle_mm;
+    to->penalty = (float)from->penalty;
+    to->band = (float)from->band;
+    to->hold_back_mm = (float)from->hold_back_mm;
+    to->hold_back_cells = from->hold_back_cells;
+}
+
+static void fill_look(const scene_pane *from, virga_glass_settings *to)
+{
+    to->density = (virga_glass_density)from->density;
+    to->blend = (virga_glass_blend)from->blend;
+    to->compress = from->compress;
+    to->compress_from = (float)from->compress_from;
+    to->compress_step = (float)from->compress_step;
+    to->compress_k = (float)from->compress_k;
+    to->compress_steps = from->compress_steps;
+    to->threshold = (float)from->threshold;
+    to->impact_s = (float)from->impact_s;
+    to->style = (virga_glass_style)from->style;
+    to->paper_shift = (float)from->paper_shift;
+    to->thickness_mm = (float)from->thickness_mm;
+    for (int c = 0; c < 3; c++)
+        to->tint[c] = (float)from->tint[c];
+    to->gain = (float)from->gain;
+}
+
+bool glass_apply(shot *s, void *state, double time_s, char *error, size_t error_size)
+{
+    const glass_state *g = state;
+    for (uint32_t i = 0; i < g->count; i++) {
+        glass_pane *pane = &g->panes[i];
+        virga_glass_settings *to = &pane->settings;
+        *to = virga_default_glass_settings();
+        fill_kind(pane->from, to);
+        fill_motion(pane->from, to);
+        fill_look(pane->from, to);
+        to->wiper_count = pane->from->wiper_count;
+        for (uint32_t w = 0; w < to->wiper_count; w++)
+            fill_wiper(&pane->from->wipers[w], shot_preroll_s(s), time_s, &to->wipers[w]);
+        to->lighting = s->lighting;
+        if (!shot_ok(s, virga_glass_set(pane->glass, to), "setting a pane", error, error_size))
+            return false;
+    }
+    return true;
+}
+
+/* One of the two angles may be the scene's and the other its kind's. */
+bool glass_check(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_glass *glass = scene_glass_of(scene);
+    for (uint32_t i = 0; i < glass->pane_count; i++) {
+        const scene_pane *pane = &glass->panes[i];
+        virga_glass_settings settings = virga_default_glass_settings();
+        char key[64];
+        fill_kind(pane, &settings);
+        if (settings.receding_deg <= settings.advancing_deg)
+            continue;
+        snprintf(key, sizeof key, "glass.%u.%s", i, pane->receding_deg ? "receding_deg" : "advancing_deg");
+        return scene_file_refuse(scene, key, error, error_size, "expected %s (%g), got %g",
+                                 pane->receding_deg ? "at most the advancing angle" : "at least the receding angle",
+                                 (double)(pane->receding_deg ? settings.advancing_deg : settings.receding_deg),
+                                 (double)(pane->receding_deg ? settings.receding_deg : settings.advancing_deg));
+    }
+    return true;
+}

@@ -1,0 +1,28 @@
+/* point_columns.h - what the rows of all point caches begin with. */
+#ifndef VIRGA_EFFECTS_POINT_COLUMNS_H
+#define VIRGA_EFFECTS_POINT_COLUMNS_H
+
+#include "ply.h"
+
+/* Members of a struct of a row. */
+#define POINT_MEMBERS                            \
+    float position[3], velocity[3], radius_m;    \
+    uint32_t id;                                 \
+    float age_s
+
+/* The columns of such a struct. */
+#define POINT_COLUMN(type, member, index) (offsetof(type, member) + 4 * (index))
+/* clang-format off */
+#define POINT_COLUMNS(type)                                  \
+    {"x", PLY_FLOAT, POINT_COLUMN(type, position, 0)},       \
+    {"y", PLY_FLOAT, POINT_COLUMN(type, position, 1)},       \
+    {"z", PLY_FLOAT, POINT_COLUMN(type, position, 2)},       \
+    {"vx", PLY_FLOAT, POINT_COLUMN(type, velocity, 0)},      \
+    {"vy", PLY_FLOAT, POINT_COLUMN(type, velocity, 1)},      \
+    {"vz", PLY_FLOAT, POINT_COLUMN(type, velocity, 2)},      \
+    {"radius", PLY_FLOAT, POINT_COLUMN(type, radius_m, 0)},  \
+    {"id", PLY_UINT, POINT_COLUMN(type, id, 0)},             \
+    {"age", PLY_FLOAT, POINT_COLUMN(type, age_s, 0)}
+/* clang-format on */
+
+#endif

@@ -1,0 +1,89 @@
+/* shot_state.c - what effects need of a scene on a device: errors, cameras, and points that are read back. */
+#include "shot_state.h"
+
+#include <math.h>
+
+bool shot_ok(const shot *s, virga_result result, const char *what, char *error, size_t error_size)
+{
+    if (result >= 0)
+        return true;
+    return host_fail(error, error_size, "%s: %s%s%s", what, virga_result_name(result), s->warning[0] ? ": " : "",
+                     s->warning);
+}
+
+bool shot_blame_input(shot *s, bool right)
+{
+    s->input_wrong = !right;
+    return right;
+}
+
+double shot_preroll_s(const shot *s)
+{
+    return round(s->scene->frames.preroll_s * s->scene->frames.fps) / s->scene->frames.fps;
+}
+
+host_camera_path shot_eye(const shot *s)
+{
+    host_camera_path path = s->path;
+    if (s->eye_free) {
+        path.keys = s->eye_keys;
+        path.count = 2;
+    }
+    return path;
+}
+
+/* Rotation about X, then Y, then Z of the world, scaled and moved. */
+void shot_mesh_transform(const scene_mesh *mesh, float out[12])
+{
+    double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int axis = 0; axis < 3; axis++) {
+        const double angle = mesh->rotation_deg[axis] * M_PI / 180, c = cos(angle), sn = sin(angle);
+        const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        for (int column = 0; column < 3; column++) {
+            const double x = m[a][column], y = m[b][column];
+            m[a][column] = c * x - sn * y;
+            m[b][column] = sn * x + c * y;
+        }
+    }
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            out[row * 4 + column] = (float)(m[row][column] * mesh->scale);
+        out[row * 4 + 3] = (float)mesh->position_m[row];
+    }
+}
+
+/* ---- points */
+
+bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
+                      shot_read *read, char *error, size_t error_size)
+{
+    if (!read->buffer.buffer &&
+        !host_buffer_create(&s->device, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "points read",
+                            &read->buffer, error, error_size))
+        return false;
+    const VkBufferCopy copy = {offset, 0, size};
+    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags written = VK_ACCESS_TRANSFER_WRITE_BIT;
+    host_memory_barrier(cmd, copying, written, copying, written);
+    vkCmdCopyBuffer(cmd, from, read->buffer.buffer, 1, &copy);
+    host_memory_barrier(cmd, copying, written, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    return true;
+}
+
+const void *shot_finish_read(shot *s, shot_read *read, char *error, size_t error_size)
+{
+    if (!read->buffer.buffer) {
+        host_fail(error, error_size, "no points were read back");
+        return NULL;
+    }
+    if (!host_wait(&s->device, error, error_size))
+        return NULL;
+    host_buffer_invalidate(&s->device, &read->buffer);
+    return read->buffer.mapped;
+}
+
+void shot_read_position(const shot_read *read, const float position[3], float out[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        out[axis] = (float)((double)position[axis] + read->origin_m[axis]);
+}
