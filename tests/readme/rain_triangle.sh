@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The program that engine/README.md builds up, as a newcomer builds it: against the installed library, with the command of
-# that page. It runs under validation and synchronization validation, like the triangle that it began with. Their pictures
-# differ by rain, over the triangle and beside it.
+# The program that engine/README.md builds up, as a newcomer builds it: against the installed library, with the
+# command of that page. It runs under validation and synchronization validation, like the triangle that it began with.
+# Their pictures differ by rain, over the triangle and beside it.
 # Usage: rain_triangle.sh SOURCE_ROOT BUILD_ROOT "CC"
 set -eu
 source=$1 build=$2 cc=$3
