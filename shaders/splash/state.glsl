@@ -1,4 +1,4 @@
-// state.glsl - what splash's passes share: buffers and places in the rings. Vertex shaders define STATE_ACCESS
+// state.glsl - what all passes of splash share: buffers, and slots in the rings. Vertex shaders define STATE_ACCESS
 // readonly.
 #define VIRGA_GLSL
 #include "shared/splash_gpu.h"
@@ -19,13 +19,13 @@ layout(scalar, set = 0, binding = 6) STATE_ACCESS buffer Droplets { uvec4 drople
 #include "texels.glsl"
 
 #define GRAVITY 9.80665
-#define NO_PLACE 0xffffffffu
+#define NO_SLOT 0xffffffffu
 
-// Place of the droplet or splash that an invocation of a dispatch over the ring works for; past the end: NO_PLACE.
-uint ring_place(uint first, uint end, uint size, uint invocation)
+// The slot of the droplet or splash that an invocation of a dispatch over a ring handles; NO_SLOT past the end.
+uint ring_slot(uint first, uint end, uint size, uint invocation)
 {
-    const uint place = (first & ~uint(VIRGA_SPLASH_GROUP - 1)) + invocation;
-    return place - first < end - first ? place & (size - 1u) : NO_PLACE;
+    const uint slot = (first & ~uint(VIRGA_SPLASH_GROUP - 1)) + invocation;
+    return slot - first < end - first ? slot & (size - 1u) : NO_SLOT;
 }
 
 uint[3] ring_groups(uint first, uint end)

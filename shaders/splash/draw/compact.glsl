@@ -1,7 +1,7 @@
-// compact.glsl - where splash's passes keep what they pick, see gpu/compact_buffers.glsl.
+// compact.glsl - bindings of ordered compaction in splash, see gpu/compact_buffers.glsl.
 //
-// Slots of sprites are droplets that are lines, all other droplets, then their piles, then splashes, each as many as
-// the workgroups over them have invocations; slots of sheets are splashes again, behind. A list of sprites, then one of
+// Slots of sprites: droplets that are lines, all other droplets, their piles, splashes; each as many as the workgroups
+// over them have invocations. Then slots of sheets: the splashes again. The first list has the sprites, the second the
 // sheets.
 #define COMPACT_GROUP VIRGA_SPLASH_GROUP
 #define COMPACT_PICKS_BINDING 10

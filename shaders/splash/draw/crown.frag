@@ -1,5 +1,6 @@
-// crown.frag - a thin sheet of water, premultiplied: it reflects by Fresnel, hides little of what is behind it, and
-// bends that where it is thick or seen from its edge: at the rim, which is a bead, and at its sides.
+// crown.frag - a thin sheet of water, premultiplied. It reflects by Fresnel, hides little of the background, and
+// refracts where it is thick or seen from the edge: at the rim, which is a bead, and at its sides.
+// One invocation per pixel of a sheet. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -26,12 +27,12 @@ layout(constant_id = 0) const bool HAS_DEPTH = true;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 sheet;
-layout(location = 4) in vec4 rim_at;
+layout(location = 4) in vec4 rim_data;
 layout(location = 5) in vec3 upward;
 layout(location = 6) in vec2 size;
 layout(location = 0) out vec4 radiance;
 
-// How far a place lies below the rim (m, along the sheet), and the way across the rim out of the sheet there.
+// Distance below the rim (m, along the sheet), and the direction across the rim, out of the sheet.
 struct Rim {
     float below;
     vec3 outward;
@@ -39,24 +40,24 @@ struct Rim {
 
 Rim rim_of(vec3 n)
 {
-    const vec2 rim = crown_rim(rim_at.x, rim_at.y, rim_at.z);
-    const float slope = clamp(rim.y * rim_at.w / size.x, -4.0, 4.0), steep = inversesqrt(1.0 + slope * slope);
+    const vec2 rim = rim_height(rim_data.x, rim_data.y, rim_data.z);
+    const float slope = clamp(rim.y * rim_data.w / size.x, -4.0, 4.0), steep = inversesqrt(1.0 + slope * slope);
     const vec3 u = normalize(upward), around = cross(u, n);
-    return Rim((rim.x - CROWN_REACH * sheet.x) * rim_at.w * steep, (u - slope * around) * steep);
+    return Rim((rim.x - CROWN_REACH * sheet.x) * rim_data.w * steep, (u - slope * around) * steep);
 }
 
-// How the wall's face leans aside where water streams up it into the fingers: a ridge below each, and finer ones
-// between them, that come together towards the rim. Waves that are no pixels long do not show.
-float leaning()
+// The slope of the wall's face where water streams up into the fingers: a ridge below each finger, and finer ones
+// between, which merge towards the rim. Waves shorter than pixels are left out.
+float ridge_slope()
 {
-    const float finger = rim_at.x, slow = rim_at.y, up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0);
+    const float finger = rim_data.x, slow = rim_data.y, up = clamp(sheet.x * CROWN_REACH, 0.0, 1.0);
     const vec3 waves = vec3(finger, 2.0 * finger + slow + 1.3 * sin(slow + 2.0 * up), 3.0 * finger - slow - 1.1 * up);
     const vec3 shown = 1.0 - smoothstep(0.6, 1.8, fwidth(finger) * vec3(1.0, 2.0, 3.0));
     return dot(sin(waves) * shown, vec3(0.3, 0.26, 0.2) * vec3(0.4 + 0.6 * up, 1.0, 1.0 - 0.4 * up));
 }
 
-// What is behind the wall, bent by as much as its faces lean towards each other, a prism of water; from there it is as
-// far to what is seen as the scene is.
+// The background, refracted by the angle between the wall's faces, as by a prism of water. The scene's depth gives the
+// distance behind the wall.
 vec3 through_wall(vec3 d, vec3 lean)
 {
     if (view.color_given == 0u)
@@ -76,33 +77,35 @@ void main()
     vec3 n = normalize(normal);
     const Rim ends = rim_of(n);
     n = dot(n, d) > 0.0 ? -n : n;
-    // From 0, where the bead begins, to 1 at the rim. What is no pixel thick is drawn a pixel thick. A disk has none.
-    const bool disk = rim_at.w <= 0.0;
-    const float least_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(size.y, least_m);
+    // 0 where the bead begins, 1 at the rim. It is drawn at least a pixel thick. A disk has no bead.
+    const bool disk = rim_data.w <= 0.0;
+    const float min_bead_m = 1.2 * length(position) * view.pixel_angle, bead_m = max(size.y, min_bead_m);
     const float out_of_bead = disk ? 0.0 : clamp(1.0 - ends.below / bead_m, 0.0, 1.0);
-    const float a_pixel = max(fwidth(ends.below), 1e-9), cut = disk ? 1.0 : clamp(ends.below / a_pixel + 0.5, 0.0, 1.0);
-    // Its face is as round as a rod's that the sheet runs into.
-    const bool has_fingers = !disk && rim_at.z > 0.0;
-    const vec3 lean = leaning() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n));
+    const float pixel_m = max(fwidth(ends.below), 1e-9),
+                edge_cover = disk ? 1.0 : clamp(ends.below / pixel_m + 0.5, 0.0, 1.0);
+    // The face of the bead is round, as that of a rod at the end of the sheet.
+    const bool has_fingers = !disk && rim_data.z > 0.0;
+    const vec3 lean = ridge_slope() * (has_fingers ? 1.0 - out_of_bead : 0.0) * normalize(cross(upward, n));
     n = normalize(n + lean);
     const float across = (1.7 * out_of_bead - 0.7) * smoothstep(0.0, 0.3, out_of_bead);
     n = n * sqrt(1.0 - across * across) + ends.outward * across;
     n = normalize(n - 1.01 * d * max(dot(n, d), 0.0));
     const float cosine = -dot(n, d), mirror = fresnel(cosine);
-    // Two parallel faces do not bend what is behind them, so the wall of a crown is clear but for its ridges; its rim
-    // is a bead, and at its sides the eye looks along the wall.
+    // Two parallel faces do not refract, so the wall is clear except for its ridges. The rim is a bead, and at the
+    // sides the view is along the wall.
     const float rim = disk ? smoothstep(0.7, 1.0, sheet.x) : smoothstep(0.0, 0.4, out_of_bead) * size.y / bead_m;
     const float edge = (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine);
     const float thick = clamp(0.05 + 0.12 * sheet.x * sheet.x + 0.6 * rim + 0.8 * edge, 0.0, 1.0);
     const vec3 side = n + d * cosine; // across the line of sight
     const vec3 behind = mix(through_wall(d, lean), through_ball(d, side * (0.35 + 0.6 * rim)), max(rim, edge));
     const vec3 glitter = lamps(position, d) * thick;
-    // With the picture of what is behind it a wall is all that is seen there, but moves as that does.
+    // If the host gives its picture, the wall replaces the background by its refraction, but its motion counts only as
+    // far as it is thick.
     const float hides = !disk && view.color_given != 0u ? 1.0 : thick;
     const float body = mirror + (1.0 - mirror) * hides, moving = mirror + (1.0 - mirror) * thick;
     const vec3 light = mirror * around_of(reflect(d, n)) + (1.0 - mirror) * hides * behind + glitter;
-    const float there = cut * clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
-    radiance = vec4(light * there, body * there);
-    WRITE_MOTION(motion_from(before), moving * there);
-    WRITE_REACTIVE(moving * there, view.reactive_gain);
+    const float visible = edge_cover * clamp(sheet.y * sheet.z, 0.0, 1.0) * (HAS_DEPTH ? soft_edge(sheet.w) : 1.0);
+    radiance = vec4(light * visible, body * visible);
+    WRITE_MOTION(motion_from(before), moving * visible);
+    WRITE_REACTIVE(moving * visible, view.reactive_gain);
 }

@@ -1,4 +1,5 @@
-// droplet_mark.comp - marks what a view may see of droplets, where they are many.
+// droplet_mark.comp - marks the droplets and piles that a view may see, where droplets are many.
+// One invocation per droplet. Reads: droplets. Writes: picks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

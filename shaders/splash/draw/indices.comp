@@ -1,5 +1,5 @@
-// indices.comp - the index buffer, once: quads of sprites, pyramids, the mesh of one sheet, and lines of
-// sprites.
+// indices.comp - fills the index buffer, once: quads of sprites, pyramids, the mesh of a sheet, and lines of sprites.
+// One invocation per index or group of them. Writes: the index buffer.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +11,7 @@ layout(scalar, set = 0, binding = 15) writeonly buffer Indices { uint indices[];
 layout(push_constant) uniform Size { uint max_sprites; };
 
 const uint quad[6] = uint[6](0u, 1u, 2u, 2u, 1u, 3u);
-const uint pyramid[12] = uint[12](0u, 1u, 4u, 1u, 2u, 4u, 2u, 3u, 4u, 3u, 0u, 4u); // four feet and a tip
+const uint pyramid[12] = uint[12](0u, 1u, 4u, 1u, 2u, 4u, 2u, 3u, 4u, 3u, 0u, 4u); // four corners at the foot and a tip
 
 uint index_at(uint i)
 {
@@ -22,9 +22,9 @@ uint index_at(uint i)
         return (i - quads) / 12u * 8u + pyramid[(i - quads) % 12u];
     const uint j = i - quads - pyramids;
     if (j >= VIRGA_CROWN_INDICES)
-        return (j - VIRGA_CROWN_INDICES) * 2u; // of four corners the first and the third are left, one at each end
+        return (j - VIRGA_CROWN_INDICES) * 2u; // of the four corners the first and the third, one at each end
     const uint cell = j / 6u, corner = quad[j % 6u];
-    // Columns in turns left and right of the farthest, so that what is behind is drawn first: see crown.vert.
+    // Columns alternate between left and right of the farthest, so that the back is drawn first: see crown.vert.
     return ((cell / VIRGA_CROWN_ROWS * 2u + (corner & 1u)) << 4) | (cell % VIRGA_CROWN_ROWS + (corner >> 1));
 }
 

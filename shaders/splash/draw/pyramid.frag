@@ -1,4 +1,5 @@
-// pyramid.frag - a pyramid's side, one shade of what is all around, premultiplied.
+// pyramid.frag - a side of a pyramid, in one shade of its surroundings, premultiplied.
+// One invocation per pixel of a pyramid. Reads: the scene's depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

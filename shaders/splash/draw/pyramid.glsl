@@ -1,10 +1,10 @@
-// pyramid.glsl - piles and crowns as the paper draws them (figures 4 and 5): pyramids of four sides.
+// pyramid.glsl - piles and crowns as the paper draws them (Mizukami et al., figures 4 and 5): pyramids with four sides.
 #include "splash/state.glsl"
 #include "sprite.glsl"
 #include "compact.glsl"
 #include "gpu/compact_buffers.glsl"
 
-layout(location = 0) out vec3 position; // relative to the camera
+layout(location = 0) out vec3 position;   // relative to the camera
 layout(location = 1) flat out vec2 shade; // coverage; -
 #ifdef MOTION
 layout(location = 2) out vec3 before; // in the previous frame's clip coordinates: x, y, w
@@ -22,11 +22,11 @@ vec3 corner_of(vec3 base, vec3 tip, float half_foot, uint corner)
            half_foot * ((corner & 2u) == 0u ? across : -across);
 }
 
-// Both as they were `ago_s` before the time drawn.
+// Both `ago_s` before the time that is drawn.
 vec3 crown_corner(uint pyramid, uint corner, float ago_s)
 {
-    const uint slot = splash_place(listed[look.max_sprites + pyramid / VIRGA_CROWN_PYRAMIDS]);
-    if (slot == NO_PLACE)
+    const uint slot = splash_slot(listed[look.max_sprites + pyramid / VIRGA_CROWN_PYRAMIDS]);
+    if (slot == NO_SLOT)
         return vec3(0.0);
     const virga_splash_gpu splash = splash_of(slot);
     const Crown crown = crown_at(splash, view.time_close_s - ago_s);
@@ -36,7 +36,7 @@ vec3 crown_corner(uint pyramid, uint corner, float ago_s)
     const vec3 side = normalize(abs(crown.normal.y) > 0.7 ? vec3(crown.normal.y, -crown.normal.x, 0.0)
                                                           : vec3(crown.normal.z, 0.0, -crown.normal.x));
     const vec3 outward = cos(angle) * side + sin(angle) * cross(side, crown.normal);
-    // The paper's crown stands where it is, on its initial circle; in the physical mode it widens.
+    // The paper's crown stays on its initial circle; in the physical mode it widens.
     const uint row = VIRGA_DROPLET_MATERIAL(splash.kind) * VIRGA_GROUND_STATES + VIRGA_DROPLET_STATE(splash.kind);
     const float radius = look.physical != 0u ? crown.radius : rules.rules[row].circle * crown.diameter;
     const float height = crown.height * (0.8 + 0.4 * virga_unit(virga_hash2(crown.random, 32u + spoke)));
@@ -46,8 +46,8 @@ vec3 crown_corner(uint pyramid, uint corner, float ago_s)
 
 vec3 pile_corner(uint pyramid, uint corner, float ago_s)
 {
-    const uint slot = slot_of(listed[pyramid]).place;
-    if (slot == NO_PLACE)
+    const uint slot = slot_of(listed[pyramid]).item;
+    if (slot == NO_SLOT)
         return vec3(0.0);
     const virga_droplet_gpu droplet = droplet_of(slot);
     const vec4 tip = pile_tip(droplet, view.time_close_s - ago_s);

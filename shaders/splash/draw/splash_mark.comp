@@ -1,4 +1,5 @@
-// splash_mark.comp - marks what a view may see of splashes, where they are many.
+// splash_mark.comp - marks the splashes that a view may see, where they are many.
+// One invocation per splash. Reads: splashes. Writes: picks.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

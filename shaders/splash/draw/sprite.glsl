@@ -1,4 +1,4 @@
-// sprite.glsl - what sprites stand for, by slot; and how much each would cover.
+// sprite.glsl - what the slots of sprites stand for, and how much of the picture each would cover.
 #include "view.glsl"
 
 #define SLOT_NONE 0u
@@ -8,38 +8,38 @@
 
 struct Slot {
     uint kind;
-    uint place;
+    uint item;
 };
 
 Slot slot_of(uint slot)
 {
     const uint span = state.view_groups[0] * VIRGA_SPLASH_GROUP;
-    Slot found = Slot(SLOT_NONE, NO_PLACE);
+    Slot found = Slot(SLOT_NONE, NO_SLOT);
     if (slot < 3u * span) {
         found.kind = slot < 2u * span ? SLOT_DROPLET : SLOT_PILE;
-        found.place = slot < span ? slot : slot < 2u * span ? slot - span : slot - 2u * span;
-        if (found.place >= state.staying)
-            found.place = NO_PLACE;
+        found.item = slot < span ? slot : slot < 2u * span ? slot - span : slot - 2u * span;
+        if (found.item >= state.staying)
+            found.item = NO_SLOT;
     } else {
         found.kind = SLOT_SPLASH;
-        found.place = ring_place(state.first_splash, state.end_splash, look.max_splashes, slot - 3u * span);
+        found.item = ring_slot(state.first_splash, state.end_splash, look.max_splashes, slot - 3u * span);
     }
-    if (found.place == NO_PLACE)
+    if (found.item == NO_SLOT)
         found.kind = SLOT_NONE;
     return found;
 }
 
-// A sprite before it is projected.
+// A sprite before projection.
 struct Sprite {
     uint kind;
-    vec3 head, tail;       // relative to the camera, as the camera sees them at the shutter's end and start
-    vec3 normal;           // (puff) of what it stands on, from tail to head
-    bool moves;            // head and tail are of different times
-    vec2 widths;           // m, at the head and the tail
-    float body;            // m; 0: its whole length
+    vec3 head, tail; // relative to the camera: at the end and at the start of the shutter
+    vec3 normal;     // (puff) of the surface that it stands on, from tail to head
+    bool moves;      // head and tail are at different times
+    vec2 widths;     // m, at head and tail
+    float body;      // m; 0: its whole length
     float gain, weight;
     float solid;
-    float spread;          // (puff) m around it where the drops lie that it stands for
+    float spread; // (puff) radius (m) in which the drops lie that it stands for
     uint id;
 };
 
@@ -59,7 +59,7 @@ Sprite empty_sprite()
     return sprite;
 }
 
-// All of these as they were `ago_s` before the time drawn, 0 for now.
+// All of these `ago_s` before the time that is drawn, 0 for now.
 Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
 {
     Sprite sprite = empty_sprite();
@@ -74,7 +74,7 @@ Sprite droplet_sprite(virga_droplet_gpu droplet, float ago_s)
     return sprite;
 }
 
-// A pile narrows from its foot to a neck that is thinner than its droplet; a cone stands on a wider foot.
+// A pile narrows from its foot to a neck that is thinner than its droplet; a cone has a wider foot.
 vec2 pile_widths(virga_droplet_gpu droplet, float left)
 {
     const float foot = is_upright(droplet) ? 7.0 : 2.2;
@@ -92,22 +92,22 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     sprite.kind = VIRGA_SPRITE_PILE;
     sprite.head = longer ? now.xyz : before.xyz;
     sprite.tail = base;
-    // It is there all of the time as far as it reaches at both ends of the shutter.
+    // It is there all of the time up to the height that it has at both ends of the shutter.
     sprite.solid = min(now_m, before_m) / max(max(now_m, before_m), 1e-6);
     sprite.widths = pile_widths(droplet, max(now.w, before.w));
-    // Fingers of a crown are fewer than its droplets: those between were torn off the rim at once.
+    // A crown has fewer fingers than droplets: droplets between them were torn off the rim at once.
     const bool crown = VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE;
     const bool finger = is_upright(droplet) ||
                         (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
-    const bool there = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
-    sprite.weight = there ? droplet_weight(droplet) : 0.0;
+    const bool visible = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
+    sprite.weight = visible ? droplet_weight(droplet) : 0.0;
     sprite.id = droplet.id;
     return sprite;
 }
 
-// A splash that is too small to be a sheet: a soft blob with the coverage of its sheet, and of its droplets where they
-// are not followed one by one (a seventh of the drop's water in a dozen of them). One that stands for several shows
-// them side by side.
+// A splash that is too small for a sheet: a soft blob (puff) with the coverage of its sheet, and of its droplets where
+// they are not simulated (a seventh of the drop's water in a dozen of them). One that stands for several shows them
+// side by side.
 Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
 {
     Sprite sprite = empty_sprite();
@@ -125,13 +125,13 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     sprite.normal = crown.normal;
     sprite.widths = vec2(across);
     sprite.body = across;
-    // What is not ground, a leaf or a railing, may end beside the drop.
+    // Surfaces other than ground, such as a leaf or a railing, may end beside the drop.
     const bool ground = VIRGA_DROPLET_STATE(splash.kind) != VIRGA_GROUND_NONE;
-    const float beside = APART * VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
+    const float beside = SPACING * VIRGA_GROUND_DROP_M * sqrt(max(crown.weight - 1.0, 0.0));
     sprite.spread = ground ? min(beside, VIRGA_GROUND_CROWNS_M) : 0.0;
     sprite.weight = t <= 1.0 && area > 0.0 ? crown.weight : 0.0;
     sprite.gain = area / max(across * up, 1e-8);
-    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10; // pieces of one impact have one id
+    sprite.id = (splash.random & 1023u) | uint(1023.0 * min(t, 1.0)) << 10; // pieces of one impact have the same id
     return sprite;
 }
 
@@ -140,35 +140,35 @@ Sprite sprite_of(Slot slot, float ago_s)
     if (slot.kind == SLOT_NONE)
         return empty_sprite();
     if (slot.kind == SLOT_SPLASH)
-        return puff_sprite(splash_of(slot.place), ago_s);
-    const virga_droplet_gpu droplet = droplet_of(slot.place);
+        return puff_sprite(splash_of(slot.item), ago_s);
+    const virga_droplet_gpu droplet = droplet_of(slot.item);
     if (slot.kind == SLOT_PILE)
         return pile_sprite(droplet, ago_s);
     return droplet_sprite(droplet, ago_s);
 }
 
-// On the picture.
+// A sprite on the picture.
 struct Projected {
-    vec4 head, tail;  // clip
+    vec4 head, tail; // clip coordinates
     float width_px, way_px, body_px;
-    float coverage;   // of its middle; 0: not to be seen
-    float columns, rows; // (puff) of how many beside and behind each other
-    float spread_px;     // that they are wider than one
-    float one_share;     // of the way that one of them is high
-    float sine;          // of how far from above it is seen: its rim is so much less deep on the picture than wide
+    float coverage;      // of its middle; 0: not visible
+    float columns, rows; // (puff) how many puffs beside and behind each other
+    float spread_px;     // by which they are wider than one
+    float one_share;     // height of one of them, as a fraction of the sprite's
+    float sine;          // sine of the elevation from which it is seen: depth over width of its rim on the picture
 };
 
-// Seen level, what lies on a disc lies on a line. Which of the ground around an impact its drops fell on is not known,
-// so the flatter it is seen the farther they lie before and behind it (m), and the less beside it.
-vec2 strewn_m(float spread, float sine, float distance)
+// Seen from the side, a disc is a line. The exact positions of an impact's drops are unknown, so the flatter the view,
+// the more they are scattered in depth (m), and the less sideways.
+vec2 scatter_m(float spread, float sine, float distance)
 {
-    const float longer = clamp(FLATTEST / max(sine, 1e-3), 1.0, MOST_LONGER);
-    return spread * vec2(inversesqrt(longer), min(sqrt(longer), max(MOST_REACH * distance / max(spread, 1e-3), 1.0)));
+    const float longer = clamp(MIN_FLATNESS / max(sine, 1e-3), 1.0, MAX_STRETCH);
+    return spread * vec2(inversesqrt(longer), min(sqrt(longer), max(MAX_REACH * distance / max(spread, 1e-3), 1.0)));
 }
 
-// Both ends get the depth of the ground where they are, or it would hide what stands before the middle; a little
-// nearer, as distances on the picture are those of a chord.
-void lay_down(Sprite sprite, float reach_m, inout Projected p)
+// Both ends get the depth of the ground at their position, or the ground in front would hide the foot; slightly nearer,
+// since distances on the picture are those of a chord.
+void set_ground_depth(Sprite sprite, float reach_m, inout Projected p)
 {
     const mat4 m = to_mat(view.clip_from_rel);
     const vec3 level = sprite.tail - sprite.normal * dot(sprite.normal, sprite.tail);
@@ -181,27 +181,27 @@ void lay_down(Sprite sprite, float reach_m, inout Projected p)
     p.head = vec4(p.head.xy / p.head.w * behind.w, behind.zw);
 }
 
-// A puff reaches from the near side of its rim to the far one. Several lie on an ellipse, that of a disc on the ground
-// seen from the eye; some are twice as high as they are in the mean.
-void spread_out(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
+// A puff spans from the near side of its rim to the far one. Several are spread over an ellipse, the projection of a
+// disc on the ground; some are twice as high as the mean.
+void project_puff(Sprite sprite, float nearest, float drawn, vec2 up, inout Projected p)
 {
     p.sine = abs(dot(normalize(sprite.tail), sprite.normal));
     p.body_px = max(p.width_px, drawn);
-    const vec2 strewn = strewn_m(sprite.spread, p.sine, p.tail.w);
-    const float wide_px = pixels(2.0 * strewn.x, nearest), each_px = max(1.5 * p.width_px, LEAST_APART * drawn);
+    const vec2 scatter = scatter_m(sprite.spread, p.sine, p.tail.w);
+    const float wide_px = pixels(2.0 * scatter.x, nearest), each_px = max(1.5 * p.width_px, MIN_SPACING * drawn);
     const float rim_px = 0.5 * p.sine * p.body_px, high_px = p.way_px;
     float below_px = rim_px, above_px = rim_px, reach_m = 0.5 * sprite.body;
-    p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MOST_COLUMNS));
+    p.columns = clamp(floor(min(sprite.weight, wide_px / each_px + 1.0)), 1.0, float(MAX_COLUMNS));
     if (p.columns > 1.5) {
-        const float deep_px = pixels(2.0 * strewn.y, nearest) * p.sine;
+        const float deep_px = pixels(2.0 * scatter.y, nearest) * p.sine;
         below_px += 0.5 * deep_px;
         above_px += 0.5 * deep_px + high_px;
         p.rows = min(sprite.weight / p.columns, deep_px / (1.5 * (high_px + 2.0 * rim_px + 1.0)));
-        p.rows = clamp(floor(p.rows), 1.0, float(MOST_ROWS));
+        p.rows = clamp(floor(p.rows), 1.0, float(MAX_ROWS));
         p.spread_px = wide_px;
-        reach_m += strewn.y;
+        reach_m += scatter.y;
     }
-    lay_down(sprite, reach_m, p);
+    set_ground_depth(sprite, reach_m, p);
     const vec2 pixel = 2.0 * up / vec2(view.viewport[2], view.viewport[3]);
     p.head.xy += above_px * pixel * p.head.w;
     p.tail.xy -= below_px * pixel * p.tail.w;
@@ -230,7 +230,7 @@ Projected project_sprite(Sprite sprite)
     p.body_px = pixels(sprite.body, nearest);
     if (sprite.kind == VIRGA_SPRITE_PUFF) {
         const vec2 up = p.way_px > 1e-3 ? moved / p.way_px : vec2(0.0, -1.0);
-        spread_out(sprite, nearest, drawn, up, p);
+        project_puff(sprite, nearest, drawn, up, p);
     }
     const float beyond = (p.width_px + p.spread_px + 2.0) * max(p.head.w, p.tail.w);
     const vec2 margin = beyond / vec2(view.viewport[2], view.viewport[3]);
@@ -241,27 +241,28 @@ Projected project_sprite(Sprite sprite)
     const float mean_px =
         sprite.kind == VIRGA_SPRITE_PILE ? pixels(0.5 * (sprite.widths.x + sprite.widths.y), nearest) : p.width_px;
     float one = sprite.gain * look.gain * min(mean_px / drawn, 1.0);
-    const float high_px = max(p.way_px, 0.2 * p.width_px); // (puff) from above it covers its width for its height
+    // (puff) from above it covers its width instead of its height
+    const float high_px = max(p.way_px, 0.2 * p.width_px);
     float shown = one;
     if (sprite.kind == VIRGA_SPRITE_DROPLET)
         shown *= min(p.body_px / max(p.way_px, 1.0), 1.0);
     else if (sprite.kind == VIRGA_SPRITE_PILE)
         shown = one *= min(max(p.way_px, 0.05), 1.0);
     else {
-        // A blob is drawn a pixel higher and half a pixel wider than it is, see puff_cover.
+        // A blob is drawn one pixel higher and half a pixel wider than it is, see puff_cover.
         const float wide_px = max(p.width_px, drawn);
         shown = one *= high_px / (high_px + 1.0) * wide_px / (wide_px + 0.5);
     }
     const float many = sprite.weight / (p.columns * p.rows);
-    const float all = min(shown * many, max(shown, MOST_COVERAGE)) / max(shown, 1e-9) * one;
-    const float fade = clamp(shown * many / LEAST_COVERAGE - 1.0, 0.0, 1.0);
+    const float all = min(shown * many, max(shown, MAX_COVERAGE)) / max(shown, 1e-9) * one;
+    const float fade = clamp(shown * many / MIN_COVERAGE - 1.0, 0.0, 1.0);
     p.coverage = min(all, max(look.gain, 1.0)) * fade * near_fade(0.5 * (sprite.head + sprite.tail));
     if (sprite.kind == VIRGA_SPRITE_PUFF)
         p.coverage *= (high_px + 1.0) / (p.way_px + 1.0);
     return p;
 }
 
-// Whether a splash's sheet is large enough to be drawn as one.
+// Whether a splash's sheet is large enough on the picture to be drawn as a sheet.
 bool is_sheet(virga_splash_gpu splash, Crown crown)
 {
     const float distance = project(to_mat(view.clip_from_rel), crown.centre).w;

@@ -1,4 +1,5 @@
-// sprite.vert - corners of sprites.
+// sprite.vert - vertices of sprites.
+// One invocation per vertex. Reads: sprites. Writes: position, colour and shape.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

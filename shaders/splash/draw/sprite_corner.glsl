@@ -1,29 +1,32 @@
-// sprite_corner.glsl - a sprite's record taken apart, and its four corners around its way on the picture, half a pixel
-// wider than it is drawn; or the two ends of a line of that width, for a droplet (see rain/draw/streak.glsl).
+// sprite_corner.glsl - the vertices of a sprite: its record unpacked, and the four corners of a quad around its path on
+// the picture, half a pixel wider than it is drawn; or the two ends of a line of that width, for a droplet (see
+// rain/draw/streak.glsl).
 //
-// Vertices are pulled from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan
-// half as much again.
+// Vertices are read from the sprites by an ordinary index buffer: instances of four vertices cost software Vulkan half
+// as much again.
 #include "sprite_form.glsl"
 #include "gpu/line.glsl"
 #include "gpu/texels.glsl"
 
-TEXELS(sprite_texel, 20, 13) // four a sprite; behind all a motion each
+TEXELS(sprite_texel, 20, 13) // four texels per sprite; behind all of them a texel per motion
 
 #ifdef MOTION
 layout(location = 5) noperspective out vec2 motion; // px
 #endif
 
-layout(location = 0) noperspective out vec4 place; // px from the middle line; px from the tail; view depth; -
+// x: px from the center line; y: px from the tail; z: view depth
+layout(location = 0) noperspective out vec4 sprite_position;
 layout(location = 1) flat out vec4 centre_alpha;
 layout(location = 2) flat out vec4 rim_kind;
-layout(location = 3) flat out vec4 shape;          // half widths at head and tail; way; length of the thing (px)
-// Direction of its way on the picture (puff: rows, and as a fraction the share of its life; sine of how far from
-// above); share; columns, and a fraction by lot. Of a line: see line_equation.
-layout(location = 4) flat out vec4 turn;
+// x, y: half widths at head and tail; z: length of the path; w: length of the body (px)
+layout(location = 3) flat out vec4 shape;
+// Direction of the path on the picture. A puff: x: rows, and as fraction the fraction of its life; y: sine of the
+// elevation; z: share; w: columns, and a random fraction. A line: see line_equation.
+layout(location = 4) flat out vec4 axis_chance;
 
 void set_corner(uint vertex)
 {
-    const uint texel = vertex & ~3u; // four corners, four texels
+    const uint texel = vertex & ~3u; // four corners and four texels per sprite
     const vec4 ends = uintBitsToFloat(sprite_texel(texel)), depths = uintBitsToFloat(sprite_texel(texel + 1u));
     const uvec4 shown = sprite_texel(texel + 2u), rest = sprite_texel(texel + 3u);
     const vec2 head = ends.xy, tail = ends.zw;
@@ -31,11 +34,11 @@ void set_corner(uint vertex)
     const vec2 light[3] = vec2[3](unpackHalf2x16(shown.z), unpackHalf2x16(shown.w), unpackHalf2x16(rest.x));
     const uint kind = rest.y;
     const vec2 half_viewport = 0.5 * vec2(view.viewport[2], view.viewport[3]);
-    const vec2 way = (head - tail) * half_viewport;
-    const float way_px = length(way);
-    const vec2 along = way_px > 1e-3 ? way / way_px : vec2(0.0, -1.0), side = vec2(-along.y, along.x);
+    const vec2 path = (head - tail) * half_viewport;
+    const float path_px = length(path);
+    const vec2 along = path_px > 1e-3 ? path / path_px : vec2(0.0, -1.0), side = vec2(-along.y, along.x);
     const bool at_head = (vertex & 2u) != 0u;
-    // A droplet reaches half of itself beyond its way; what stands on the ground ends where it ends.
+    // A droplet extends by half its length beyond its path; things on the ground end where they end.
     const float widest = 0.5 * max(widths.x, widths.y) + 0.5;
     const float margin = kind == VIRGA_SPRITE_PILE ? 0.5 : kind == VIRGA_SPRITE_PUFF ? 0.5 : widest;
     const float own = kind == VIRGA_SPRITE_PILE ? 0.5 * (at_head ? widths.x : widths.y) + 0.5 : widest;
@@ -46,18 +49,18 @@ void set_corner(uint vertex)
     const vec4 moved = uintBitsToFloat(sprite_texel(4u * look.max_sprites + (vertex >> 2)));
     motion = at_head ? moved.xy : moved.zw;
 #endif
-    place = vec4(across, at_head ? way_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
+    sprite_position = vec4(across, at_head ? path_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
     centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
     rim_kind = vec4(light[1].y, light[2], float(kind));
-    shape = vec4(0.5 * widths, way_px, alpha_body.y);
+    shape = vec4(0.5 * widths, path_px, alpha_body.y);
     const vec2 shares = unpackHalf2x16(rest.z);
-    const float lot = float(rest.w & 1023u) / 1024.0, life = float(rest.w >> 10 & 1023u) / 1024.0;
+    const float random = float(rest.w & 1023u) / 1024.0, life = float(rest.w >> 10 & 1023u) / 1024.0;
     const float rows = floor(shares.y / 32.0);
-    turn = vec4(along, shares.x, shares.y - 32.0 * rows + lot);
+    axis_chance = vec4(along, shares.x, shares.y - 32.0 * rows + random);
     if (kind == VIRGA_SPRITE_PUFF)
-        turn.xy = vec2(rows + life, widths.y);
+        axis_chance.xy = vec2(rows + life, widths.y);
     if (LINES)
-        turn = vec4(line_equation(tail, side), 0.0);
-    // The same w at all corners, so that everything is interpolated without perspective.
+        axis_chance = vec4(line_equation(tail, side), 0.0);
+    // w is 1 at all corners, so that everything is interpolated without perspective.
     gl_Position = vec4(corner, at_head ? depths.x : depths.y, 1.0);
 }

@@ -1,5 +1,5 @@
-// sprite_form.glsl - what a pipeline of sprites is made for. Software Vulkan works out what every kind of sprite would
-// cover for each pixel of any, so that each has its own.
+// sprite_form.glsl - what a pipeline of sprites is specialised for. Each kind has its own, because software Vulkan
+// would compute the coverage of every kind for each pixel.
 layout(constant_id = 0) const uint SPRITES_OF = uint(VIRGA_SPLASH_SPRITES_DEPTH);
 const bool HAS_DEPTH = (SPRITES_OF & uint(VIRGA_SPLASH_SPRITES_DEPTH)) != 0u,
            LINES = (SPRITES_OF & uint(VIRGA_SPLASH_SPRITES_LINES)) != 0u,

@@ -1,5 +1,5 @@
-// sprite_mark.glsl - which kind of sprite one is on the picture: all that a droplet or a splash may show. Many droplets
-// and splashes have a dispatch each, as software Vulkan runs every lane through all branches.
+// sprite_mark.glsl - which sprites a droplet or a splash shows on the picture. Many droplets and many splashes have a
+// dispatch each, because software Vulkan runs every lane through all branches.
 #define IN_FORMS
 #include "sprite.glsl"
 #include "compact.glsl"
@@ -8,7 +8,7 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
-// In the film's style the second kind shows what is behind it; in the paper's it is a pyramid.
+// In the film's style the second kind shows the background through it; in the paper's style it is a pyramid.
 uint kind_of(Sprite sprite, Projected p)
 {
     const bool pile = sprite.kind == VIRGA_SPRITE_PILE;
@@ -16,19 +16,19 @@ uint kind_of(Sprite sprite, Projected p)
     return p.coverage <= 0.0 ? NOT_PICKED : second ? SECOND_KIND : FIRST_KIND;
 }
 
-// As thin as droplets are drawn, so that all lines have one width.
+// Whether a droplet is as thin as droplets can be, so that all lines have the same width.
 bool is_line(Projected p)
 {
     return look.lines != 0u && p.width_px <= view.min_width_px &&
            is_whole(p.head.xy / p.head.w, p.tail.xy / p.tail.w, 0.5 * view.min_width_px + 0.5);
 }
 
-// A droplet's as a line, and else; and its pile's.
-uint[3] droplet_kinds(uint place)
+// Picks of a droplet: as a line, as another sprite, and of its pile.
+uint[3] droplet_kinds(uint slot)
 {
-    if (place >= state.staying)
+    if (slot >= state.staying)
         return uint[3](NOT_PICKED, NOT_PICKED, NOT_PICKED);
-    const virga_droplet_gpu droplet = droplet_of(place);
+    const virga_droplet_gpu droplet = droplet_of(slot);
     const Sprite flies = droplet_sprite(droplet, 0.0), pile = pile_sprite(droplet, 0.0);
     const Projected p = project_sprite(flies);
     const uint kind = kind_of(flies, p);
@@ -42,7 +42,7 @@ uint[3] droplet_sets()
     return uint[3](0u, groups, 2u * groups);
 }
 
-// In the film's style by its sheet; in the paper's by its pyramids, a crown where it is large enough.
+// In the film's style by its sheet; in the paper's style by its pyramids, where a crown is large enough.
 bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
 {
     return is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE ? is_sheet(splash, crown) : splash.kind >> 16 != 0u;
@@ -61,18 +61,18 @@ uint sheet_kind(virga_splash_gpu splash, Crown crown)
     const Crown before = crown_at(splash, view.time_open_s);
     if (max(crown.height, before.height) <= 0.0 || !on_picture(crown))
         return NOT_PICKED;
-    // The paper has no sheets but crowns, which are pyramids.
+    // The paper has no sheets except crowns, which are pyramids.
     const bool drawn = is_film() || crown.model == VIRGA_SPLASH_CROWN_CONE;
     return drawn && is_sheet(splash, crown) ? FIRST_KIND : NOT_PICKED;
 }
 
-// A splash's seen from afar, and its sheet's where that is large enough on the picture to be drawn as such.
+// Picks of a splash: its puff, and its sheet where that is large enough on the picture.
 uint[2] splash_kinds(uint entry)
 {
-    const uint place = splash_place(entry);
-    if (place == NO_PLACE)
+    const uint slot = splash_slot(entry);
+    if (slot == NO_SLOT)
         return uint[2](NOT_PICKED, NOT_PICKED);
-    const virga_splash_gpu splash = splash_of(place);
+    const virga_splash_gpu splash = splash_of(slot);
     const Crown crown = crown_at(splash, view.time_close_s);
     const Sprite sprite = puff_sprite(splash, 0.0);
     const uint puff = is_shown_otherwise(splash, crown) ? NOT_PICKED : kind_of(sprite, project_sprite(sprite));

@@ -9,63 +9,65 @@
 layout(location = 5) noperspective in vec2 motion;
 #endif
 
-layout(location = 0) noperspective in vec4 place;
+layout(location = 0) noperspective in vec4 sprite_position;
 layout(location = 1) flat in vec4 centre_alpha;
 layout(location = 2) flat in vec4 rim_kind;
 layout(location = 3) flat in vec4 shape;
-layout(location = 4) flat in vec4 turn;
+layout(location = 4) flat in vec4 axis_chance;
 layout(location = 0) out vec4 radiance;
 
-// px from the middle line, of which a line's ends know nothing.
-float from_middle() { return LINES ? dot(turn.xyz, vec3(gl_FragCoord.xy, 1.0)) : place.x; }
+// px from the center line; the ends of a line do not know it.
+float from_middle() { return LINES ? dot(axis_chance.xyz, vec3(gl_FragCoord.xy, 1.0)) : sprite_position.x; }
 
-// The share of the time for which a disc covers a place while it goes its way: of the chord through it there, what lies
-// on the way, over the way. One that hardly moves goes a pixel, and so has soft ends.
+// The fraction of the time for which a moving disc covers the pixel: the part of its chord there that is on the path,
+// over the path. One that hardly moves has a path of a pixel, which gives soft ends.
 float droplet_cover()
 {
-    const float half_width = shape.x, way = max(shape.z, 1.0), y = place.y + 0.5 * (way - shape.z);
+    const float half_width = shape.x, path = max(shape.z, 1.0), y = sprite_position.y + 0.5 * (path - shape.z);
     const float across = streak_profile(abs(from_middle()), half_width);
     const float chord = max(shape.w, 0.0) * across;
-    const float passed = clamp(min(y + 0.5 * chord, way) - max(y - 0.5 * chord, 0.0), 0.0, way) / way;
+    const float passed = clamp(min(y + 0.5 * chord, path) - max(y - 0.5 * chord, 0.0), 0.0, path) / path;
     return min(passed, 1.0);
 }
 
-// A pile narrows from its foot like a flame, a cone on its wide foot like a hyperbola: it leaves the water level.
+// A pile narrows from its foot like a flame, a cone on a wide foot like a hyperbola: it rises from the water level.
 bool is_cone() { return shape.y > 4.0 * shape.x; }
 
 #define CONE_FOOT 0.08 // of its height
 
 float pile_half_width()
 {
-    const float up = clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0), v = 1.0 - up;
+    const float up = clamp(sprite_position.y / max(shape.z, 1e-3), 0.0, 1.0), v = 1.0 - up;
     const float cone = CONE_FOOT / (1.0 + CONE_FOOT), level = CONE_FOOT / (up + CONE_FOOT);
     return mix(shape.x, shape.y, is_cone() ? (level - cone) / (1.0 - cone) : v * v);
 }
 
-// Its tip is there for a part of the time. What of a cone's foot is nearly level shows what the water beside it shows.
+// Its tip is there for a part of the time. The nearly flat part of a cone's foot looks like the water beside it.
 float pile_cover()
 {
-    const float v = clamp(place.y / max(shape.z, 1e-3), 0.0, 1.0), solid = turn.z;
+    const float v = clamp(sprite_position.y / max(shape.z, 1e-3), 0.0, 1.0), solid = axis_chance.z;
     const float tip = solid < 1.0 ? clamp((1.0 - v) / (1.0 - solid), 0.0, 1.0) : 1.0;
-    // Its foot flows out into the water that it stands on.
+    // Its foot merges with the water that it stands on.
     const float foot = max(0.8 * shape.y, 1.0);
-    const float ends = smoothstep(0.0, 1.0, (place.y + 0.5) / foot) * clamp(shape.z + 0.5 - place.y, 0.0, 1.0);
+    const float ends =
+        smoothstep(0.0, 1.0, (sprite_position.y + 0.5) / foot) * clamp(shape.z + 0.5 - sprite_position.y, 0.0, 1.0);
     const float half_width = pile_half_width(), level = half_width / max(shape.x, 1e-3);
     const float flat_foot = is_cone() ? 1.0 - smoothstep(1.5, 6.0, level) : 1.0;
-    return clamp(half_width + 0.5 - abs(place.x), 0.0, 1.0) * tip * ends * flat_foot;
+    return clamp(half_width + 0.5 - abs(sprite_position.x), 0.0, 1.0) * tip * ends * flat_foot;
 }
 
-// A crown from afar, of 1 in all: its wall flares from a circle to a wider rim, both of which are ellipses on the
-// picture, so there is a near wall and behind it a far one; seen level they are one. Its sides are looked along and so
-// are thicker, its rim has fingers: no two crowns have as many or as far apart. Small ones are but soft flecks.
-float crown_cover(vec2 at, float half_wide, float high, float sine, vec4 chance)
+// A distant crown, with a total coverage of 1. Its wall flares from a circle to a wider rim, both ellipses on the
+// picture, so there are a near and a far wall; seen from the side they are one. At the sides the view is along the
+// wall, which makes it thicker there. Number and spacing of the fingers differ between crowns. Small ones are soft
+// spots.
+float one_crown_cover(vec2 at, float half_wide, float high, float sine, vec4 chance)
 {
     const float hollow = clamp(0.3 * half_wide - 0.75, 0.0, 1.0), rim = sine * half_wide;
     const float up = clamp((at.y + rim) / (high + 2.0 * rim + 1e-3), 0.0, 1.0);
     const float thin = 1.0 / (half_wide * (1.0 - 0.35 * hollow * (1.0 - up)));
     const float x = clamp(at.x * thin, -1.0, 1.0), xx = x * x;
     const float depth = rim * sqrt(1.0 - xx);
-    // Parabolas do for a sine. Fingers lean.
+    // Parabolas approximate a sine. Fingers lean.
     const float lean = chance.w - 0.5;
     const float wave = fract((0.5 + 0.8 * chance.y) * (x + 0.6 * lean * up) + 7.0 * chance.x) - 0.5;
     const float fingers = 8.0 * wave * (1.0 - 2.0 * abs(wave)), lower = hollow * (0.25 + 0.2 * xx);
@@ -74,53 +76,54 @@ float crown_cover(vec2 at, float half_wide, float high, float sine, vec4 chance)
     const float near_by = 1.0 / (abs(half_near - 0.15 * depth) + 0.5), far_by = 1.0 / (half_far + 0.15 * depth + 0.5);
     const float to_near = (at.y - half_near + 0.85 * depth) * near_by,
                 to_far = (at.y - half_far - 0.85 * depth) * far_by;
-    const float walls =
-        max(1.0 - to_near * to_near, 0.0) * near_by + max(1.0 - to_far * to_far, 0.0) * far_by;
+    const float walls = max(1.0 - to_near * to_near, 0.0) * near_by + max(1.0 - to_far * to_far, 0.0) * far_by;
     const float across = (1.0 - xx) * mix(1.875 * (1.0 - xx), (1.2 + 1.5 * xx) * (1.0 + 0.8 * lean * x), hollow);
     return 0.1875 * walls * across * thin;
 }
 
-#define MOST_HIDDEN 0.42 // of what is behind a crown, whose wall is thin
+#define MAX_OPACITY 0.42 // max opacity of a crown, whose wall is thin
 
-// Several stand on an ellipse, each in a place of its own. They are of larger and smaller drops, and of an earlier and
-// a later time; what one covers more than the mean, that at the opposite place covers less. They cover half of their
-// rectangle. The eye does not tell apart small ones close to each other: half of what they cover is a veil.
+// Several crowns on an ellipse, each at its own position. They differ in size and age; the one at the opposite position
+// covers less by what one covers more than the mean. Together they cover half of their rectangle. Small ones close
+// together are not told apart by the eye: half of their coverage is drawn as a uniform veil.
 float puff_cover()
 {
-    const float columns = floor(turn.w), column_px = 2.0 * shape.x / columns, rows = floor(turn.x);
-    const float column = clamp(floor((place.x + shape.x) / column_px), 0.0, columns - 1.0);
+    const float columns = floor(axis_chance.w), column_px = 2.0 * shape.x / columns, rows = floor(axis_chance.x);
+    const float column = clamp(floor((sprite_position.x + shape.x) / column_px), 0.0, columns - 1.0);
     const float from_middle = (column + 0.5) * 2.0 / columns - 1.0, aside = from_middle * from_middle;
-    // Each column begins elsewhere, or they would stand in rows.
+    // Each column has its own offset, or they would form rows.
     const float room = rows > 1.5 ? 0.85 - 0.3 * aside : 1.0, row_px = shape.z * room / rows;
-    const float lowest = shape.z * (1.0 - room) * fract(0.618 * column + turn.w);
-    const float row = clamp(floor((place.y - lowest) / row_px), 0.0, rows - 1.0);
+    const float lowest = shape.z * (1.0 - room) * fract(0.618 * column + axis_chance.w);
+    const float row = clamp(floor((sprite_position.y - lowest) / row_px), 0.0, rows - 1.0);
 
     const float number = row * columns + column, opposite = columns * rows - 1.0 - number;
-    // Of whole numbers, so that all forms of the shader have the same: a large angle's sine depends on what is fused.
-    const uint pair = virga_hash1(uint(1024.0 * fract(turn.w)) << 6 | uint(min(number, opposite)));
+    // From integers, so that all variants of the shader get the same: the sine of a large angle depends on how
+    // operations are fused.
+    const uint pair = virga_hash1(uint(1024.0 * fract(axis_chance.w)) << 6 | uint(min(number, opposite)));
     const float more = sign(opposite - number), several = columns > 1.5 ? 1.0 : 0.0;
     const float covers = 1.0 + 0.9 * more * unpackUnorm4x8(pair).x, size = 0.35 + 0.65 * covers;
     const float close = clamp(1.6 - 0.1 * column_px * row_px, 0.0, 1.0) * several;
     const float veil = close * clamp(1.25 - 0.5 * shape.w, 0.0, 0.5);
     const vec4 chance = unpackUnorm4x8(more < 0.0 ? pair * 0x9e3779b1u : pair);
-    const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(turn.x) - 1.0;
-    const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = turn.z * shape.z;
+    const float ahead = several * (2.0 * chance.y - 1.0), late = 2.0 * fract(axis_chance.x) - 1.0;
+    const float one_px = 0.5 * min(shape.w, 2.0 * shape.x) + 0.25, one_high = axis_chance.z * shape.z;
     const float half_wide = min(one_px * (1.0 + veil) * size * (1.0 - 0.25 * ahead), 0.5 * column_px + 0.25);
-    const float depth = turn.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
+    const float depth = axis_chance.y * half_wide, tall = min(size * (1.0 + 0.55 * ahead * late), 2.0) * one_high;
     const float high = columns > 1.5 ? min(tall, max(row_px - 2.0 * depth - 1.5, 0.3 * row_px)) : one_high;
     const float up = max(row_px - high - 2.0 * depth, 0.0);
     const float foot = up * (0.5 + (chance.z - 0.5) * (rows > 1.5 ? 1.0 : 1.0 - aside)) + depth;
     const float beside = several * max(0.5 * column_px - half_wide, 0.0) * (2.0 * chance.w - 1.0);
-    const vec2 at = vec2(place.x + shape.x - (column + 0.5) * column_px - beside,
-                         place.y - lowest - row * row_px - foot);
+    const vec2 at = vec2(sprite_position.x + shape.x - (column + 0.5) * column_px - beside,
+                         sprite_position.y - lowest - row * row_px - foot);
     const float deep = max(shape.z, 0.1), each = 1.0 / (shape.x * deep);
-    const vec2 on_ellipse = vec2(place.x * deep, 2.0 * place.y * shape.x) * each - vec2(0.0, 1.0);
-    const float evenly = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
-    return one_px * (one_high + 1.0) * mix(covers * crown_cover(at, half_wide, high, turn.y, chance), evenly, veil);
+    const vec2 on_ellipse = vec2(sprite_position.x * deep, 2.0 * sprite_position.y * shape.x) * each - vec2(0.0, 1.0);
+    const float uniform_cover = max(1.0 - dot(on_ellipse, on_ellipse), 0.0) * 1.27 * columns * rows * each;
+    return one_px * (one_high + 1.0) *
+           mix(covers * one_crown_cover(at, half_wide, high, axis_chance.y, chance), uniform_cover, veil);
 }
 
 float sprite_cover()
 {
     const float cover = PUFFS ? puff_cover() : LINES || rim_kind.w < 0.5 ? droplet_cover() : pile_cover();
-    return min(centre_alpha.a * cover, PUFFS ? MOST_HIDDEN : 1.0) * (HAS_DEPTH ? soft_edge(place.z) : 1.0);
+    return min(centre_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * (HAS_DEPTH ? soft_edge(sprite_position.z) : 1.0);
 }

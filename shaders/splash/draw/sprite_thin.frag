@@ -1,4 +1,6 @@
-// sprite_thin.frag - a sprite that is too thin to show what is behind it: its mean colour, premultiplied.
+// sprite_thin.frag - a sprite that is too narrow to show the background through it (below WIDE_PX): its mean colour,
+// premultiplied.
+// One invocation per pixel of such a sprite. Reads: the scene's depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

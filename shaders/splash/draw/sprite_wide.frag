@@ -1,4 +1,6 @@
-// sprite_wide.frag - a sprite that shows what is behind it: balls and necks of water, premultiplied.
+// sprite_wide.frag - a sprite that is at least WIDE_PX wide and shows the background through it: balls and necks of
+// water, premultiplied.
+// One invocation per pixel of such a sprite. Reads: the scene's picture and depth. Writes: radiance, motion, reactive.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,14 +17,14 @@ layout(scalar, set = 0, binding = 1) uniform View { virga_view_gpu view; };
 
 #define WIDE_PX 3.0 // as in view.glsl
 
-// A neck flows into the ball on its tip, which is this much wider (see pile_widths), and ends in its lower half: beyond
-// it the ball alone is seen, and not a rod with a flat end in it. One that has let its ball go ends as softly.
+// A neck merges with the ball on its tip, which is wider by this factor (see pile_widths), and ends in the ball's lower
+// half, so that its flat end does not show. The neck of a ball that has left ends as softly.
 #define BALL_OF_NECK (1.0 / 0.7)
 
 float outside_ball()
 {
     const float radius = BALL_OF_NECK * shape.x;
-    return 1.0 - smoothstep(shape.z - radius, shape.z - 0.25 * radius, place.y);
+    return 1.0 - smoothstep(shape.z - radius, shape.z - 0.25 * radius, sprite_position.y);
 }
 
 void main()
@@ -32,13 +34,15 @@ void main()
         discard;
     const bool pile = rim_kind.w > 0.5;
     const float half_width = pile ? pile_half_width() : shape.x;
-    const float u = clamp(place.x / max(half_width, 0.25), -1.0, 1.0);
-    // A droplet that went its own width and more while the shutter was open shows no picture, nor a rim: at each place
-    // all of it passed by.
+    const float u = clamp(sprite_position.x / max(half_width, 0.25), -1.0, 1.0);
+    // A droplet that moved by its own width or more while the shutter was open shows neither an image nor a rim: at
+    // each pixel all of it passed.
     const float smeared = pile ? 0.0 : clamp(0.5 * shape.z / max(half_width, 0.25), 0.0, 1.0);
-    const float beyond = pile ? 0.0 : place.y < 0.0 ? place.y : max(place.y - shape.z, 0.0);
+    const float beyond = pile                      ? 0.0
+                         : sprite_position.y < 0.0 ? sprite_position.y
+                                                   : max(sprite_position.y - shape.z, 0.0);
     const float v = clamp(beyond / max(half_width, 0.25), -1.0, 1.0) * (1.0 - smeared);
-    const vec2 along = turn.xy, side = vec2(-along.y, along.x), screen = side * u + along * v;
+    const vec2 along = axis_chance.xy, side = vec2(-along.y, along.x), screen = side * u + along * v;
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec3 across = normalize(to_vec(view.right)) * screen.x - normalize(to_vec(view.up)) * -screen.y;
     const vec3 unlit = torn_light(environment(d, vec2(0.97, 0.90)), pile ? TORN_PILE : TORN_DROPLET);

@@ -1,4 +1,5 @@
-// sprite_write.comp - a sprite for each thing that a view sees: where it is on the picture, and the light in it.
+// sprite_write.comp - writes a sprite for each entry of the list: its position on the picture, and its light.
+// One invocation per entry. Reads: the list, droplets, splashes, the view. Writes: sprites, motions.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,11 +14,11 @@
 
 layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 const bool FULL = (FORM & uint(VIRGA_SPLASH_FORM_FULL)) != 0u;
-// Four for each of `max_sprites` virga_sprite_gpu, behind which lies each one's motion.
+// Four texels for each of `max_sprites` virga_sprite_gpu, behind them a texel for each one's motion.
 layout(scalar, set = 0, binding = 13) writeonly buffer Sprites { uvec4 sprites[]; };
 
-// A droplet is a lens: near its middle rays are bent by up to 16 degrees, at its rim by 50 and more (Legendre: cosines
-// of those).
+// A droplet is a lens: near its middle rays are deflected by up to 16 degrees, at its rim by 50 and more (Legendre
+// moments: their cosines).
 uvec3 light_of(vec3 middle, float torn)
 {
     const vec3 d = normalize(middle);
@@ -28,8 +29,7 @@ uvec3 light_of(vec3 middle, float torn)
     return uvec3(halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
 }
 
-// From where its ends are on the picture to where they were when the previous frame was drawn. What has not been there
-// then comes from where it began.
+// Motion of both ends since the previous frame. Something that did not exist then comes from where it began.
 void write_motion(uint index, Slot slot, Sprite sprite)
 {
     const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);

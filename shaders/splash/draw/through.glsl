@@ -1,9 +1,9 @@
-// through.glsl - what is seen through and on water: the scene behind it where the host gives its picture, else the
+// through.glsl - what is seen through water and reflected on it: the scene where the host gives its picture, else the
 // environment.
 layout(set = 0, binding = 17) uniform sampler2D scene_color;
 
-// The environment, which what stands and lies around hides below, at, and somewhat above the horizon: there the picture
-// just behind is what is known of it.
+// The environment. The surroundings hide it below, at, and somewhat above the horizon: there the picture just behind
+// the pixel stands for them.
 vec3 around_of(vec3 direction)
 {
     const vec3 open = environment(direction, vec2(1.0));
@@ -13,8 +13,8 @@ vec3 around_of(vec3 direction)
     return mix(min(behind, open), open, smoothstep(-0.2, 0.4, direction.y));
 }
 
-// What lies in a direction. The scene is taken to be far away: it is looked up where a ray from the camera itself in
-// that direction meets the picture; towards the picture's edges what is around takes over.
+// The light from a direction. The scene is taken as far away: it is looked up where the ray from the camera in that
+// direction meets the picture, and fades into the environment towards the picture's edges.
 vec3 seen(vec3 direction)
 {
     const vec3 around = around_of(direction);
@@ -24,7 +24,7 @@ vec3 seen(vec3 direction)
     const vec2 ndc = clip.xy / max(clip.w, 1e-4);
     const float inside = clip.w > 1e-4 ? clamp(8.0 - 8.0 * max(abs(ndc.x), abs(ndc.y)), 0.0, 1.0) : 0.0;
     if (inside <= 0.0)
-        return around; // whatever the picture holds there
+        return around; // independent of the picture
     const vec2 pixel =
         vec2(view.viewport[0], view.viewport[1]) + (0.5 * ndc + 0.5) * vec2(view.viewport[2], view.viewport[3]);
     return mix(around, textureLod(scene_color, pixel / vec2(textureSize(scene_color, 0)), 0.0).rgb, inside);
@@ -32,13 +32,13 @@ vec3 seen(vec3 direction)
 
 float fresnel(float cosine) { return 0.0204 + 0.9796 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0); }
 
-// What a ball of water shows at `side`, the way of its surface's normal across the line of sight, of length r = sin i:
-// the ray is bent by 2 (i - t) towards the other side, so the world stands on its head in it; at the rim it reflects.
+// What a ball of water shows at `side`, the part of the surface's normal across the line of sight, with the length r =
+// sin i. The ray is deflected by 2 (i - t) towards the other side, so the world appears upside down; the rim reflects.
 vec3 through_ball(vec3 d, vec3 side)
 {
     const float r = min(length(side), 0.999);
     const float bend = 2.0 * (asin(r) - asin(r / 1.333)), reflected = 3.14159265 - 2.0 * asin(r);
     const vec3 out_of = r > 1e-3 ? side / r : vec3(0.0);
-    return mix(seen(d * cos(bend) - out_of * sin(bend)),
-               around_of(d * cos(reflected) + out_of * sin(reflected)), fresnel(sqrt(1.0 - r * r)));
+    return mix(seen(d * cos(bend) - out_of * sin(bend)), around_of(d * cos(reflected) + out_of * sin(reflected)),
+               fresnel(sqrt(1.0 - r * r)));
 }

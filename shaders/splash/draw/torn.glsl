@@ -1,5 +1,5 @@
-// torn.glsl - the light of water that is torn: its faces have all directions, half of which show the sky. That comes
-// near to what is white and lies level, whose lobe is the cosine (moments 2/3 and 1/4).
+// torn.glsl - the light of torn water: its faces have all directions, and half of them show the sky. That is close to a
+// horizontal white surface, whose lobe is the cosine (moments 2/3 and 1/4).
 #define TORN_PUFF 0.8
 #define TORN_PILE 0.5
 #define TORN_DROPLET 0.25

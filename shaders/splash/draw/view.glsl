@@ -10,18 +10,18 @@ layout(scalar, set = 0, binding = 1) uniform View
 #include "gpu/view.glsl"
 #include "splash/shape.glsl"
 
-// What covers less than this is below what the eye and 8 bits see.
-#define LEAST_COVERAGE (1.0 / 400.0)
-#define MOST_COVERAGE 0.3 // of what stands for many
-#define WIDE_PX 3.0       // from here on a sprite shows what is in it
-#define MOST_COLUMNS 16   // puffs beside each other in one sprite,
-#define MOST_ROWS 4       // and behind each other
-#define APART 1.4         // so much farther from each other than their water lies: clusters run into each other
-#define LEAST_APART 3.0   // of the least width drawn
-#define FLATTEST 0.3      // the ellipse on which they lie, as high over wide, where they may lie
-#define MOST_LONGER 6.0   // so much farther behind each other than beside each other,
-#define MOST_REACH 0.2    // and within this share of their distance
-#define MESH_PX 4.0       // crowns that are at least as high on the picture are sheets
+// Coverage below this is invisible to the eye and in 8 bits.
+#define MIN_COVERAGE (1.0 / 400.0)
+#define MAX_COVERAGE 0.3 // of a sprite that stands for many
+#define WIDE_PX 3.0      // from this width on a sprite shows what is behind it
+#define MAX_COLUMNS 16   // max puffs beside each other in one sprite,
+#define MAX_ROWS 4       // and behind each other
+#define SPACING 1.4      // distance between puffs, relative to their water: clusters merge
+#define MIN_SPACING 3.0  // min distance between puffs, of the min width that is drawn
+#define MIN_FLATNESS 0.3 // min height over width of the ellipse on which they are scattered
+#define MAX_STRETCH 6.0  // max ratio of their distance in depth to that sideways,
+#define MAX_REACH 0.2    // and within this fraction of their distance from the camera
+#define MESH_PX 4.0      // crowns at least this high on the picture are drawn as sheets
 
 #ifdef IN_FORMS
 layout(constant_id = 0) const uint FORM = 0u; // VIRGA_SPLASH_FORM_...
@@ -35,7 +35,7 @@ bool is_upright(virga_droplet_gpu droplet)
     return VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE && VIRGA_DROPLET_INDEX(droplet.kind) == 0u;
 }
 
-// Relative to the camera. Within a tick gravity is all that matters besides the velocity.
+// Relative to the camera. Within a tick only velocity and gravity matter.
 vec3 droplet_at(virga_droplet_gpu droplet, float time_s)
 {
     const float since = max(time_s, -droplet.age_s);
@@ -45,8 +45,8 @@ vec3 droplet_at(virga_droplet_gpu droplet, float time_s)
 
 vec3 base_of(virga_droplet_gpu droplet) { return to_vec(droplet.base) + to_vec(view.origin_offset); }
 
-// The tip of a droplet's pile at a time, and how much of the pile is left, 0 for none. One that has let its droplet go
-// sinks in as long as it took to rise.
+// The tip of a droplet's pile at a time, and how much of the pile is left; 0: nothing. A pile whose droplet has left
+// sinks in for as long as it rose.
 vec4 pile_tip(virga_droplet_gpu droplet, float time_s)
 {
     const float age = droplet.age_s + time_s, free_s = unpackHalf2x16(droplet.weight_free).y;
@@ -54,7 +54,7 @@ vec4 pile_tip(virga_droplet_gpu droplet, float time_s)
     if (!free)
         return vec4(droplet_at(droplet, time_s), age > 0.0 ? 1.0 : 0.0);
     const float since = age - free_s;
-    // Where it left: back along the orbit, which is a parabola for so short a time.
+    // Where it left: back along its path, a parabola for such a short time.
     const vec3 tip = droplet_at(droplet, time_s - since), base = base_of(droplet);
     const float rise_s = is_upright(droplet) ? sqrt(max(2.0 * (tip.y - base.y), 0.0) / GRAVITY) : max(free_s, 0.004);
     const float t = since / max(rise_s, 1e-4), left = max(1.0 - t * t, 0.0);
@@ -67,15 +67,15 @@ float near_fade(vec3 p) { return view.near_m > 0.0 ? clamp(length(p) / view.near
 
 // ---- crowns and sheets
 
-// Sheets are listed by where they come behind the oldest splash.
-uint splash_place(uint entry) { return ring_place(state.first_splash, state.end_splash, look.max_splashes, entry); }
+// Sheets are listed by their index behind the oldest splash.
+uint splash_slot(uint entry) { return ring_slot(state.first_splash, state.end_splash, look.max_splashes, entry); }
 
 struct Crown {
-    vec3 centre;         // relative to the camera
+    vec3 centre; // relative to the camera
     vec3 normal;
     vec2 lean;
-    float radius, height; // at the time
-    float share;         // of its life
+    float radius, height; // at that time
+    float share;          // fraction of its life
     uint model, droplets, random;
     float diameter, weight;
 };
@@ -90,10 +90,10 @@ float splash_weber(virga_splash_gpu splash)
     return 998.2 * splash.speed_m_s * splash.speed_m_s * splash.diameter_m / 0.0728;
 }
 
-// The low sheet of a scattering splash is as high as the water under it lets it be.
+// The low sheet of a scattering splash is as high as the water depth allows.
 float sheet_share(uint state)
 {
-    return state == VIRGA_GROUND_PUDDLE_5 ? MOST_SHEET : state == VIRGA_GROUND_PUDDLE_3 ? 0.6 : 0.4;
+    return state == VIRGA_GROUND_PUDDLE_5 ? MAX_SHEET : state == VIRGA_GROUND_PUDDLE_3 ? 0.6 : 0.4;
 }
 
 Crown crown_at(virga_splash_gpu splash, float time_s)
@@ -122,7 +122,7 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     crown.height = age < 0.0 || age > life ? 0.0 : highest * crown_rise(crown.share);
     crown.radius = widest * crown_spread(crown.share);
     if (crown.model == VIRGA_SPLASH_DISK) {
-        // It spreads at once, draws back to two thirds, and dries away at last.
+        // It spreads at once, shrinks to two thirds, and dries in the end.
         const float spread = smoothstep(0.0, 0.004, age), back = smoothstep(0.006, 0.05, age);
         crown.share = age / splash.life_s;
         crown.radius = disk_radius(splash.diameter_m, weber) * spread * (1.0 - 0.35 * back);
@@ -133,5 +133,5 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
     return crown;
 }
 
-// Pixels that a length takes at a view depth.
+// Length in pixels at a view depth.
 float pixels(float length_m, float distance) { return length_m / (max(distance, NEAR_W) * view.pixel_angle); }

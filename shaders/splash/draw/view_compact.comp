@@ -1,4 +1,5 @@
-// view_compact.comp - writes what a view sees into its lists.
+// view_compact.comp - compaction of a view's sprites and sheets, third pass: writes both lists.
+// One invocation per word of 32 slots. Reads: picks. Writes: the lists.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

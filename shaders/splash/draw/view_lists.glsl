@@ -1,7 +1,8 @@
-// view_lists.glsl - a view's two lists: whose picks they take, and what is written of them.
+// view_lists.glsl - the two lists of a view, sprites and sheets: which words of picks belong to each, and where their
+// entries are.
 struct Words {
-    uint first, count; // words
-    uint entry, most;  // of their list
+    uint first, count;    // first word of picks, and the number of words
+    uint entry, capacity; // first entry in the list buffer, and room for entries
 };
 
 Words words_of(uint kind)
@@ -12,5 +13,5 @@ Words words_of(uint kind)
     return Words(sprites, sheets, look.max_sprites, look.max_crowns);
 }
 
-// Entries at the front that are drawn without a sprite: the paper's pyramids look at their droplets.
+// Entries at the front that have no sprite: the paper's pyramids read their droplets directly.
 uint unwritten(virga_list_gpu sprites) { return is_film() ? 0u : sprites.second_kind; }

@@ -1,12 +1,13 @@
-// view_scan.comp - gives what a view sees its places, and writes the arguments of their draws. A workgroup for sprites
-// and one for sheets. Where there is little it lists them too, and spares the pass that else does.
+// view_scan.comp - compaction of a view's sprites and sheets, second pass: prefix sums, and the arguments of the draws.
+// For few picks it also writes the lists, which saves a dispatch.
+// One workgroup for sprites and one for sheets. Reads: picks. Writes: picks, lists, draw arguments.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "splash/state.glsl"
 #include "view.glsl"
 #include "compact.glsl"
-#define COMPACT_ACCESS coherent // the first lane looks at what others have written, see first_of_set
+#define COMPACT_ACCESS coherent // invocation 0 reads what others wrote, see first_of_set
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/compact_scan.glsl"
 #include "gpu/compact_write.glsl"
@@ -15,15 +16,15 @@
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 layout(scalar, set = 0, binding = 14) buffer Prepared { virga_splash_prepared_gpu prepared; };
 
-#define LITTLE 512u // words that are listed here: a dispatch costs software Vulkan as much as these
+#define FEW_WORDS 512u // up to this many words are written here: a dispatch costs software Vulkan as much
 
-// Where in the list those begin that only show one colour and are of a set (see droplet_sets and splash_sets).
+// Index of the first entry of the first kind from a set (see droplet_sets and splash_sets).
 uint first_of_set(uint groups_before, virga_list_gpu head)
 {
     return min(groups_before < state.sprite_groups[0] ? picks[groups_before * GROUP_WORDS].z : head.count, head.count);
 }
 
-// Six indices a sprite, two a line, or twelve a pyramid; those of the second kind come first in the list, then lines.
+// Six indices per sprite, two per line, twelve per pyramid. The second kind comes first in the list, then lines.
 void draw_sprites(virga_list_gpu head)
 {
     const uint each = is_film() ? 6u : 12u, second = head.second_kind;
@@ -38,8 +39,8 @@ void draw_sprites(virga_list_gpu head)
 
 void draw_sheets(virga_list_gpu head)
 {
-    const uint quads = 6u * look.max_sprites, pyramids = 12u * look.max_sprites; // indices before the sheet's
-    if (is_film()) // an instance each
+    const uint quads = 6u * look.max_sprites, pyramids = 12u * look.max_sprites; // indices before those of the sheet
+    if (is_film())                                                               // one instance each
         prepared.crowns = virga_splash_draw_gpu(VIRGA_CROWN_INDICES, head.count, quads + pyramids, 0, 0u);
     else
         prepared.crowns = virga_splash_draw_gpu(12u * VIRGA_CROWN_PYRAMIDS * head.count, 1u, quads, 0, 0u);
@@ -49,9 +50,9 @@ void main()
 {
     const uint kind = gl_WorkGroupID.x, all = words_of(SPRITES).count + words_of(SHEETS).count;
     const Words words = words_of(kind);
-    const uvec2 found = scan_words(words.first, words.count, words.most);
-    const virga_list_gpu head = list_head(found, words.most);
-    const bool listed_here = all <= LITTLE;
+    const uvec2 found = scan_words(words.first, words.count, words.capacity);
+    const virga_list_gpu head = list_head(found, words.capacity);
+    const bool listed_here = all <= FEW_WORDS;
     const uvec2 own = listed_here ? lane_words(words.first, words.count) : uvec2(0u);
     memoryBarrierBuffer();
     barrier();

@@ -1,7 +1,7 @@
-// chance.glsl - numbers between two ends.
+// chance.glsl - random numbers in a range.
 
-// The normal distribution cut at two deviations, from a uniform number: z in [-2; 2]. The inverse error function is
-// M. Giles, "Approximating the erfinv function", 2010, the branch for |x| < 0.9963.
+// The normal distribution, cut at two deviations, from a uniform number: z in [-2; 2]. The inverse error function is
+// from M. Giles, "Approximating the erfinv function", 2010, the branch for |x| < 0.9963.
 float normal_cut(float uniform_number)
 {
     const float x = (2.0 * uniform_number - 1.0) * 0.9544997; // erf(2 / sqrt 2)
@@ -18,7 +18,7 @@ float normal_cut(float uniform_number)
     return clamp(1.41421356 * p * x, -2.0, 2.0);
 }
 
-// Between two ends that are two deviations from the mean.
+// Normally distributed; the ends of the range are two deviations from the mean.
 float normal_between(float low, float high, uint hash)
 {
     return clamp(0.5 * (low + high) + 0.25 * (high - low) * normal_cut(virga_unit(hash)), low, high);

@@ -1,4 +1,4 @@
-// counters.glsl - counts that only grow, in 64 bits.
+// counters.glsl - counters of 64 bits that only grow.
 
 void count(uint index, uint amount)
 {

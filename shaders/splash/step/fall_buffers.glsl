@@ -1,6 +1,6 @@
-// fall_buffers.glsl - which droplets have fallen, and which are alive: a bit each, 32 to a word; then, of the droplets
-// before the word, how many have fallen and how many are alive.
+// fall_buffers.glsl - marks: a bit per droplet for fallen and for alive, 32 in a word; and for each word the number of
+// fallen and of living droplets before it (prefix sum).
 #ifndef MARKS_ACCESS
-#define MARKS_ACCESS // coherent where lanes look at what others have written
+#define MARKS_ACCESS // coherent where invocations read what others wrote
 #endif
 layout(scalar, set = 0, binding = 7) MARKS_ACCESS buffer Marks { uvec4 marks[]; };

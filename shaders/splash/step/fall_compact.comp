@@ -1,4 +1,5 @@
-// fall_compact.comp - places the droplets that fell in this tick and those that stay, where they are many.
+// fall_compact.comp - compaction of droplets, where they are many: moves those that fell and those that are alive.
+// One invocation per droplet. Reads: droplets, marks. Writes: droplets, returns.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +13,7 @@ layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
-    if (place < state.end_droplet)
-        place_droplet(place, droplet_of(place), state.returns_before, state.returns - state.returns_before);
+    const uint slot = gl_GlobalInvocationID.x;
+    if (slot < state.end_droplet)
+        compact_droplet(slot, droplet_of(slot), state.returns_before, state.returns - state.returns_before);
 }

@@ -1,17 +1,17 @@
-// fall_compact.glsl - what fell in this tick gives its water back; what stays moves up into the other buffer, in its
-// order. The buffer that it leaves is left without a living droplet.
+// fall_compact.glsl - moves a droplet of this tick: one that fell becomes a return (its water goes to the ground); one
+// that is alive moves to its index in the other buffer, in order. The buffer that it leaves keeps no living droplet.
 layout(scalar, set = 0, binding = 12) writeonly buffer Staying { uvec4 staying[]; };
 
-// `room`: for so many returns, from `first` on; more wait in the air.
-void place_droplet(uint place, virga_droplet_gpu droplet, uint first, uint room)
+// There is `room` for that many returns, from `first` on; other fallen droplets wait in the air.
+void compact_droplet(uint slot, virga_droplet_gpu droplet, uint first, uint room)
 {
-    const uvec4 word = marks[place / 32u];
-    const uint bit = 1u << (place & 31u);
+    const uvec4 word = marks[slot / 32u];
+    const uint bit = 1u << (slot & 31u);
     if ((word.y & bit) == 0u)
         return;
     const uint fallen = word.z + bitCount(word.x & (bit - 1u)), alive = word.w + bitCount(word.y & (bit - 1u));
     const uvec4 texels[4] = texels_of(droplet);
-    droplets[4u * place + 3u] = uvec4(0u, texels[3].yzw);
+    droplets[4u * slot + 3u] = uvec4(0u, texels[3].yzw);
     if ((word.x & bit) == 0u || fallen >= room) {
         const uint texel = 4u * (alive - min(fallen, room));
         for (uint i = 0u; i < 4u; i++)

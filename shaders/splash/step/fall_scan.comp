@@ -1,6 +1,6 @@
-// fall_scan.comp - counts what fell in this tick and what stays, before each word of marks: that gives both their
-// places. One workgroup; each lane takes a run of words. Where droplets are few it steps and places them too, and
-// spares the passes that else do.
+// fall_scan.comp - compaction of droplets: prefix sum of the marks. Where droplets are few it also moves them through
+// the tick and compacts them, which saves two dispatches.
+// One workgroup, in which each invocation takes a run of words. Reads: marks, droplets. Writes: marks, state, droplets.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -19,9 +19,10 @@
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
-#define FEW_GROUPS 8u    // as many of droplets and of splashes are found in one dispatch for both
+#define FEW_GROUPS 8u // up to this many workgroups, one dispatch marks both droplets and splashes
 
-// Spawns of this step's later ticks, which lie last. Each may find no room in the air and give its water back at once.
+// The spawns of the step's later ticks, which are at the end. Each may find no room in the air and return its water at
+// once.
 uint spawns_to_come()
 {
     uint low = 0u, high = spawn_count();
@@ -35,15 +36,15 @@ uint spawns_to_come()
     return spawn_count() - low;
 }
 
-// All of `end` droplets, which are few.
+// Steps all `end` droplets, which are few.
 void step_few(uint lane, uint end)
 {
     clear_bits(lane);
     barrier();
-    for (uint place = lane; place < end; place += VIRGA_SPLASH_LANES) {
-        const virga_droplet_gpu droplet = droplet_of(place);
+    for (uint slot = lane; slot < end; slot += VIRGA_SPLASH_LANES) {
+        const virga_droplet_gpu droplet = droplet_of(slot);
         if ((droplet.kind & VIRGA_DROPLET_ALIVE) != 0u)
-            step_droplet(place, droplet, place);
+            step_droplet(slot, droplet, slot);
     }
     barrier();
     if (32u * lane < end)
@@ -69,12 +70,12 @@ void main()
         marks[i].zw = before;
         before += uvec2(bitCount(word.xy));
     }
-    const uint taken = min(returned + spawns_to_come(), tick.max_returns);
-    const uint fallen = min(all.x, tick.max_returns - taken); // more than there is room for wait
+    const uint reserved_returns = min(returned + spawns_to_come(), tick.max_returns);
+    const uint fallen = min(all.x, tick.max_returns - reserved_returns); // if there are more, they wait in the air
     memoryBarrierBuffer();
     barrier();
-    for (uint place = lane; place < few; place += VIRGA_SPLASH_LANES) // not as texels, as they were written here
-        place_droplet(place, stored_droplet(place), returned, fallen);
+    for (uint slot = lane; slot < few; slot += VIRGA_SPLASH_LANES) // not read as texels, because they were written here
+        compact_droplet(slot, stored_droplet(slot), returned, fallen);
     if (lane != 0u)
         return;
     state.returns_before = returned;
@@ -83,9 +84,9 @@ void main()
     state.fall_groups = state.droplet_groups;
     state.view_groups = ring_groups(0u, all.y - fallen);
     state.sprite_groups = uint[3](3u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
-    const uint most = max(state.view_groups[0], state.splash_groups[0]);
-    const bool both = most <= FEW_GROUPS;
-    state.find_groups = uint[3](both ? most : 0u, 1u, 1u);
+    const uint max_groups = max(state.view_groups[0], state.splash_groups[0]);
+    const bool both = max_groups <= FEW_GROUPS;
+    state.find_groups = uint[3](both ? max_groups : 0u, 1u, 1u);
     state.find_droplet_groups = uint[3](both ? 0u : state.view_groups[0], 1u, 1u);
     state.find_splash_groups = uint[3](both ? 0u : state.splash_groups[0], 1u, 1u);
     count(VIRGA_SPLASH_FALLEN, fallen);

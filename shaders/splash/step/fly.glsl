@@ -1,7 +1,7 @@
-// fly.glsl - a tick of a droplet: it flies, leaves its pile, and falls. The includer says in STEP_WORDS for how many
-// words of 32 droplets its workgroup has room.
-#define MOST_PARTS 4   // of a tick
-#define MOST_AGE_S 3.0 // what flies longer is blown about: its water counts as fallen where it is
+// fly.glsl - a tick of a droplet: it flies, leaves its pile, and falls. The includer defines STEP_WORDS: for how many
+// words of 32 droplets its workgroup has shared memory.
+#define MAX_PARTS 4   // max parts of a tick
+#define MAX_AGE_S 3.0 // older droplets are blown away: their water counts as fallen where they are
 
 shared uint fallen_bits[STEP_WORDS], alive_bits[STEP_WORDS];
 
@@ -10,8 +10,8 @@ bool is_cone(virga_droplet_gpu droplet)
     return VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE && VIRGA_DROPLET_INDEX(droplet.kind) == 0u;
 }
 
-// Share of a part of a tick after which the droplet leaves its pile; above 1: not in it. A pile stops growing when it
-// has grown for the unit time or over the unit distance (section 4.1, step 5), a cone when it is highest (4.2, step 3).
+// The fraction of a part of the tick at which the droplet leaves its pile; above 1: not in it. A pile stops growing
+// after the unit time or at the unit height (section 4.1, step 5), a cone when it is highest (section 4.2, step 3).
 float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s, float part_s, vec2 rise)
 {
     if (is_cone(droplet))
@@ -24,18 +24,18 @@ float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s,
     return max(min(by_time, by_way), 0.0);
 }
 
-// Height above the surface that it came from.
+// Height above the surface that the droplet came from.
 float height_above(virga_droplet_gpu droplet, vec3 position)
 {
     const vec3 base = to_vec(droplet.base);
     return position.y - base.y - dot(unpackHalf2x16(droplet.slopes), position.xz - base.xz);
 }
 
-// As drag asks for; of a droplet on its pile as many as tell when it leaves that.
+// The number of parts of a tick: by its drag; on a pile enough to find when it leaves the pile.
 int parts_of(virga_droplet_gpu droplet, float against_air, float time_s)
 {
     const float by_drag = ceil(12.0 * drag_rate(droplet.diameter_m, against_air) * time_s);
-    return (droplet.kind & VIRGA_DROPLET_FREE) == 0u ? MOST_PARTS : int(clamp(by_drag, 1.0, float(MOST_PARTS)));
+    return (droplet.kind & VIRGA_DROPLET_FREE) == 0u ? MAX_PARTS : int(clamp(by_drag, 1.0, float(MAX_PARTS)));
 }
 
 void move(inout virga_droplet_gpu droplet, float time_s)
@@ -67,33 +67,33 @@ void move(inout virga_droplet_gpu droplet, float time_s)
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
 }
 
-// Writes what may have changed: all but its base.
-void store(uint place, virga_droplet_gpu droplet)
+// Writes what may have changed: everything but the base.
+void store(uint slot, virga_droplet_gpu droplet)
 {
     const uvec4 texels[4] = texels_of(droplet);
-    droplets[4u * place] = texels[0];
-    droplets[4u * place + 1u] = texels[1];
-    droplets[4u * place + 3u] = texels[3];
+    droplets[4u * slot] = texels[0];
+    droplets[4u * slot + 1u] = texels[1];
+    droplets[4u * slot + 3u] = texels[3];
 }
 
-// `bit`: of the invocation's workgroup.
-void step_droplet(uint place, virga_droplet_gpu droplet, uint bit)
+// `bit`: the droplet's bit in the workgroup's words.
+void step_droplet(uint slot, virga_droplet_gpu droplet, uint bit)
 {
     if ((droplet.kind & VIRGA_DROPLET_FALLEN) == 0u) {
         droplet.age_s += tick.tick_s;
         const float time_s = min(tick.tick_s, droplet.age_s);
         if (time_s > 0.0)
             move(droplet, time_s);
-        if (droplet.age_s > MOST_AGE_S)
+        if (droplet.age_s > MAX_AGE_S)
             droplet.kind |= VIRGA_DROPLET_FALLEN;
-        store(place, droplet);
+        store(slot, droplet);
     }
     atomicOr(alive_bits[bit >> 5], 1u << (bit & 31u));
     if ((droplet.kind & VIRGA_DROPLET_FALLEN) != 0u)
         atomicOr(fallen_bits[bit >> 5], 1u << (bit & 31u));
 }
 
-// Before droplets are stepped; a barrier has to follow.
+// Call it before droplets are stepped, followed by a barrier.
 void clear_bits(uint lane)
 {
     if (lane < STEP_WORDS)

@@ -1,4 +1,5 @@
-// rebase.comp - the anchor of positions has moved: all of them count from the new one.
+// rebase.comp - the anchor of positions has moved: all positions become relative to the new one.
+// One invocation per slot. Reads: tick. Writes: droplets, splashes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,11 +11,11 @@ uvec3 shifted(uvec3 position) { return floatBitsToUint(uintBitsToFloat(position)
 
 void main()
 {
-    const uint place = gl_GlobalInvocationID.x;
-    if (place < tick.max_splashes)
-        splashes[4u * place].xyz = shifted(splashes[4u * place].xyz);
-    if (place < tick.max_droplets) {
-        droplets[4u * place].xyz = shifted(droplets[4u * place].xyz);
-        droplets[4u * place + 2u].xyz = shifted(droplets[4u * place + 2u].xyz); // its base
+    const uint slot = gl_GlobalInvocationID.x;
+    if (slot < tick.max_splashes)
+        splashes[4u * slot].xyz = shifted(splashes[4u * slot].xyz);
+    if (slot < tick.max_droplets) {
+        droplets[4u * slot].xyz = shifted(droplets[4u * slot].xyz);
+        droplets[4u * slot + 2u].xyz = shifted(droplets[4u * slot + 2u].xyz); // its base
     }
 }

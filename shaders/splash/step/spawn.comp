@@ -1,4 +1,5 @@
-// spawn.comp - this tick's splashes, where they are many.
+// spawn.comp - starts this tick's splashes, where they are many.
+// One invocation per spawn. Reads: spawns, ranks. Writes: splashes, droplets, returns.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,6 +18,7 @@ void main()
     const uint index = gl_GlobalInvocationID.x;
     if (index >= spawn_count() || spawns[index].tick != tick.tick)
         return;
-    start_splash(spawns[index], places[index], Starts(state.tick_splash, state.tick_droplet, state.returns_before,
-                                                      state.first_splash, state.crowded_from));
+    start_splash(
+        spawns[index], spawn_ranks[index],
+        Starts(state.tick_splash, state.tick_droplet, state.returns_before, state.first_splash, state.crowded_from));
 }

@@ -8,17 +8,19 @@ layout(scalar, set = 0, binding = 3) readonly buffer Spawns
     virga_spawns_gpu spawns_head;
     virga_spawn_gpu spawns[];
 };
-layout(scalar, set = 0, binding = 8) buffer Places
+layout(scalar, set = 0, binding = 8) buffer SpawnRanks
 {
     uvec2
-        places[]; // by spawn: rank in its tick; first droplet from the tick's first, and from bit 24 how many droplets
+        // per spawn: x: its rank in its tick; y: its first droplet from the tick's first, and from bit 24 on its
+        // droplets' number
+        spawn_ranks[];
 };
 
-// Both are decided once, by spawn_scan.comp: floats may come out otherwise in another shader.
-uint first_droplet(uint place) { return place & 0xffffffu; }
-uint placed_droplets(uint place) { return place >> 24; }
+// Both are decided once, by spawn_scan.comp: floats may differ between shaders.
+uint first_droplet(uint packed_rank) { return packed_rank & 0xffffffu; }
+uint droplet_count_of(uint packed_rank) { return packed_rank >> 24; }
 
-// A host's own list is not trusted: what is an index is kept in range.
+// A host's own list is not trusted: indices are clamped.
 uint spawn_model(virga_spawn_gpu spawn) { return min((spawn.kind >> 16) & 255u, VIRGA_SPLASH_MODELS - 1u); }
 
 uint spawn_count() { return min(spawns_head.count, tick.max_spawns); }
@@ -48,10 +50,10 @@ uint droplet_count(virga_spawn_gpu spawn)
     if (!is_physical())
         return clamp(whole_between(rule.count[0], rule.count[1], hash), 1u,
                      min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
-    // A crown on deep water lets few go from its rim, and its cone one more.
+    // A crown on deep water sheds few droplets from its rim, and its cone one more.
     const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
     const float mean = 5.0 * splash_excess(spawn.diameter_m, drop_speed(spawn), is_wet(spawn)) * rule.strength;
-    const float share = 0.5 + virga_unit(hash); // from drop to drop
+    const float share = 0.5 + virga_unit(hash); // varies from drop to drop
     const uint rim = uint(floor(mean * share * (cone ? 0.25 : 1.0) + virga_unit(virga_hash1(hash))));
     return clamp(rim + (cone ? 1u : 0u), 1u, min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
 }

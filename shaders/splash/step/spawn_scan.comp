@@ -1,5 +1,7 @@
-// spawn_scan.comp - gives this tick's splashes and droplets their places, in the order of spawns. One workgroup; each
-// lane takes a run of spawns. Where that is one spawn it starts its splash too, and spares the pass that else does.
+// spawn_scan.comp - prefix sum over the tick's spawns: the index of each splash, and of its droplets, in the order of
+// spawns. One workgroup, in which each invocation takes a run of spawns. If that is one spawn, it also starts its
+// splash, which saves a dispatch.
+// One invocation per run of spawns. Reads: spawns. Writes: ranks, state, splashes, droplets.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +19,7 @@ layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
 shared uint crowded_rank, crowded_droplets, expired;
 
-// The oldest splashes that are over make room. Returns the first that is not.
+// Releases the oldest splashes that are over. Returns the first that is not.
 uint forget_splashes(uint lane)
 {
     uint first = state.first_splash;
@@ -25,10 +27,10 @@ uint forget_splashes(uint lane)
         if (lane == 0u)
             expired = VIRGA_SPLASH_LANES;
         barrier();
-        const uint place = first + lane;
-        bool live = place - first >= state.end_splash - first;
+        const uint index = first + lane;
+        bool live = index - first >= state.end_splash - first;
         if (!live) {
-            const virga_splash_gpu splash = splash_of(place & (tick.max_splashes - 1u));
+            const virga_splash_gpu splash = splash_of(index & (tick.max_splashes - 1u));
             live = (float(tick.tick - splash.tick) - splash.share) * tick.tick_s <= splash.life_s;
         }
         if (live)
@@ -54,40 +56,41 @@ void main()
     uvec2 sum = uvec2(0u);
     for (uint i = begin; i < end; i++)
         if (spawns[i].tick == tick.tick) {
-            places[i].y = droplet_count(spawns[i]);
-            sum += uvec2(1u, places[i].y);
+            spawn_ranks[i].y = droplet_count(spawns[i]);
+            sum += uvec2(1u, spawn_ranks[i].y);
         }
     if (lane == 0u)
-        crowded_rank = NO_PLACE;
+        crowded_rank = NO_SLOT;
     uvec2 found;
-    uvec2 place = scan_group(sum, found);
+    uvec2 index = scan_group(sum, found);
     const uint room = tick.max_droplets - staying;
     for (uint i = begin; i < end; i++) {
         if (spawns[i].tick != tick.tick)
             continue;
-        const uint droplets = places[i].y;
-        if (place.y + droplets > room)
-            atomicMin(crowded_rank, place.x);
-        places[i] = uvec2(place.x, min(place.y, 0xffffffu) | droplets << 24);
-        place += uvec2(1u, droplets);
+        const uint droplets = spawn_ranks[i].y;
+        if (index.y + droplets > room)
+            atomicMin(crowded_rank, index.x);
+        spawn_ranks[i] = uvec2(index.x, min(index.y, 0xffffffu) | droplets << 24);
+        index += uvec2(1u, droplets);
     }
     barrier();
     if (lane == 0u)
         crowded_droplets = found.y;
     barrier();
     for (uint i = begin; i < end; i++)
-        if (spawns[i].tick == tick.tick && places[i].x == crowded_rank)
-            crowded_droplets = first_droplet(places[i].y); // one invocation at most
+        if (spawns[i].tick == tick.tick && spawn_ranks[i].x == crowded_rank)
+            crowded_droplets = first_droplet(spawn_ranks[i].y); // at most one invocation
     barrier();
     const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
     if (end_after - (first_splash & ~block) > tick.max_splashes)
         first_splash = (end_after - tick.max_splashes + block) & ~block;
     const bool few = all <= VIRGA_SPLASH_LANES;
     if (few && lane < all && spawns[lane].tick == tick.tick)
-        start_splash(spawns[lane], places[lane], Starts(end_splash, staying, returned, first_splash, crowded_rank));
+        start_splash(spawns[lane], spawn_ranks[lane],
+                     Starts(end_splash, staying, returned, first_splash, crowded_rank));
     if (lane != 0u)
         return;
-    const uint crowded = crowded_rank == NO_PLACE ? 0u : found.x - crowded_rank;
+    const uint crowded = crowded_rank == NO_SLOT ? 0u : found.x - crowded_rank;
     state.first_splash = first_splash;
     state.end_splash = end_after;
     state.tick_splash = end_splash;

@@ -1,13 +1,13 @@
-// spawn_start.glsl - a splash and its droplets at the start of their orbits, from a spawn.
+// spawn_start.glsl - starts a splash and its droplets from a spawn.
 
-// Where this tick's splashes, droplets and returns begin.
+// The first slots of this tick's splashes, droplets and returns.
 struct Starts {
     uint splash, droplet, returned;
-    uint first_splash; // the oldest that is kept
+    uint first_splash; // the oldest splash that is kept
     uint crowded_from; // rank among this tick's spawns from which on there is no room for droplets
 };
 
-// Streams of chance of a splash, and of each of its droplets.
+// Random streams of a splash, and of each of its droplets.
 #define TURN_HASH 1u
 #define CONE_HASH 2u
 #define BESIDE_HASH 3u
@@ -15,7 +15,7 @@ struct Starts {
 
 #define BESIDE_M 0.3
 
-struct Frame { // of the surface
+struct Frame { // axes of the surface
     vec3 normal, side, across;
 };
 
@@ -28,7 +28,7 @@ Frame surface_frame(vec3 normal)
     return frame;
 }
 
-// What the drop's way along the surface adds to its droplets (section 4.5).
+// What the drop's motion along the surface adds to its droplets (section 4.5).
 vec3 lean_of(virga_spawn_gpu spawn)
 {
     const vec3 velocity = to_vec(spawn.velocity), normal = to_vec(spawn.normal);
@@ -38,23 +38,20 @@ vec3 lean_of(virga_spawn_gpu spawn)
 float splash_life(virga_spawn_gpu spawn)
 {
     switch (spawn_model(spawn)) {
-    case VIRGA_SPLASH_CROWN_CONE:
-        return crown_time(crown_height(spawn.diameter_m, weber_number(spawn)));
-    case VIRGA_SPLASH_DISK:
-        return DISK_S;
-    case VIRGA_SPLASH_DOT:
-        return DOT_S;
+    case VIRGA_SPLASH_CROWN_CONE: return crown_time(crown_height(spawn.diameter_m, weber_number(spawn)));
+    case VIRGA_SPLASH_DISK: return DISK_S;
+    case VIRGA_SPLASH_DOT: return DOT_S;
     }
-    return max(SHEET_S, crown_time(MOST_SHEET * crown_height(spawn.diameter_m, weber_number(spawn))));
+    return max(SHEET_S, crown_time(MAX_SHEET * crown_height(spawn.diameter_m, weber_number(spawn))));
 }
 
-// Height a metre of the surface in x and z.
+// Slope of the surface along x and z.
 vec2 slopes_of(vec3 normal) { return clamp(-normal.xz / max(normal.y, 0.02), vec2(-50.0), vec2(50.0)); }
 
-void write_splash(uint place, uint first, virga_spawn_gpu spawn, vec3 position, uint droplets)
+void write_splash(uint index, uint first, virga_spawn_gpu spawn, vec3 position, uint droplets)
 {
-    if (place - first >= tick.max_splashes)
-        return; // newer ones of this very tick have its place
+    if (index - first >= tick.max_splashes)
+        return; // newer splashes of this tick have its slot
     const vec3 lean = lean_of(spawn);
     virga_splash_gpu splash;
     splash.position = float[3](position.x, position.y, position.z);
@@ -70,14 +67,14 @@ void write_splash(uint place, uint first, virga_spawn_gpu spawn, vec3 position, 
     splash.kind = spawn_model(spawn) | ((spawn.kind >> 8) & 31u) << 3 | (spawn.kind & 7u) << 8 | droplets << 16;
     splash.id = spawn.id;
     const uvec4 texels[4] = texels_of(splash);
-    const uint texel = 4u * (place & (tick.max_splashes - 1u));
+    const uint texel = 4u * (index & (tick.max_splashes - 1u));
     for (uint i = 0u; i < 4u; i++)
         splashes[texel + i] = texels[i];
 }
 
-// Speed of droplets by the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, some goes into
-// their surfaces, n pi d^2 sigma, the rest moves their mass. Most are slower than that mean of squares, and none that
-// has been filmed leaves at more than a third of the drop's speed (2 m/s at 4.4 to 6.5 m/s: table 1 of Mizukami et
+// Speed of droplets from the energy that is left (Bai, Rusche and Gosman 2002): four fifths are lost, a part goes into
+// their surfaces, n pi d^2 sigma, the rest is kinetic. Most droplets are slower than that root mean square, and no
+// filmed droplet leaves with more than a third of the drop's speed (2 m/s at 4.4 to 6.5 m/s: table 1 of Mizukami et
 // al.).
 float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
 {
@@ -90,17 +87,16 @@ float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
     return clamp(fastest * normal_between(0.08, 0.5, hash), 0.1, max(0.35 * speed, 0.1));
 }
 
-// A pile on the circle: the bases are spread evenly, and each strays normally by up to six tenths of the way to the
-// next.
+// A pile on the circle: the bases are evenly spaced, each with a normal deviation of up to six tenths of the spacing.
 void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 centre, uint i, uint n)
 {
     const virga_splash_rule_gpu rule = rule_of(spawn);
     const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
     const float turn = virga_unit(virga_hash2(spawn.random, TURN_HASH));
-    // In [-pi, pi], where sine and cosine are exact to 2^-11 on any device.
+    // In [-pi, pi], where sine and cosine have an error below 2^-11 on any device.
     const float turns = (float(i) + turn + 0.3 * normal_cut(virga_unit(hash))) / float(n);
     const float azimuth = 6.2831853 * (turns - floor(turns + 0.5));
-    // What a crown lets go leaves the way that its rim flares, whatever its cone does.
+    // Droplets of a crown leave in the direction of its flaring rim, independent of its cone.
     const bool crown = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
     const vec2 angles = crown ? vec2(0.87, 1.4) : vec2(rule.angle[0], rule.angle[1]);
     const float elevation = normal_between(angles.x, angles.y, virga_hash1(hash));
@@ -108,7 +104,7 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     float speed =
         is_physical() ? physical_speed(spawn, n, chance) : normal_between(rule.speed[0], rule.speed[1], chance);
     if (crown)
-        speed *= 0.4; // deep water takes more of it
+        speed *= 0.4; // deep water absorbs more of it
     const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
     vec3 base = centre + rule.circle * spawn.diameter_m * outward, start = base;
     const vec3 velocity = speed * (cos(elevation) * outward + sin(elevation) * frame.normal) + lean_of(spawn);
@@ -125,7 +121,7 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     droplet.velocity = float[3](velocity.x, velocity.y, velocity.z);
 }
 
-// The droplet of the cone goes straight up and down.
+// The droplet of the cone moves vertically.
 void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 centre)
 {
     const virga_splash_rule_gpu rule = rule_of(spawn);
@@ -136,10 +132,10 @@ void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 cen
     droplet.base = float[3](centre.x, centre.y, centre.z);
     droplet.position = droplet.base;
     droplet.velocity = float[3](0.0, speed, 0.0);
-    droplet.age_s -= crown_time(crown_height(spawn.diameter_m, weber)); // when the crown is over
+    droplet.age_s -= crown_time(crown_height(spawn.diameter_m, weber)); // it starts when the crown is over
 }
 
-// Parts of the water, in tenths: a droplet has between 1 and 4 times the least.
+// Parts of the water, in tenths: a droplet has between 1 and 4 times the smallest part.
 uint part_of(virga_spawn_gpu spawn, uint i, uint n)
 {
     const uint u = virga_hash2(spawn.random, DROPLET_HASH + 4u * i + 1u) >> 16;
@@ -155,12 +151,12 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
     uint parts = 0u, left = spawn.water_nl;
     for (uint i = 0u; i < n; i++)
         parts += part_of(spawn, i, n);
-    // Each has a nanolitre at least, or it would have no size; the parts are of what is left.
+    // Each droplet has at least one nanolitre, or it would have no size; the parts divide the rest.
     const uint unit = (spawn.water_nl - n) / parts, rest = spawn.water_nl - n - unit * parts;
     for (uint i = 0u; i < n; i++) {
         virga_droplet_gpu droplet;
         const uint part = part_of(spawn, i, n);
-        // Below 2^32: parts are at most 64 x 40, and what does not divide is below parts.
+        // Below 2^32: parts are at most 64 x 40, and the remainder is less than the parts.
         const uint water = i + 1u == n ? left : 1u + unit * part + rest * part / parts;
         left -= water;
         droplet.water_nl = water;
@@ -181,8 +177,8 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
     }
 }
 
-// Pieces of an impact whose own places are no ground lie in the impact's: their splashes would stand in each other.
-// Those with droplets stay where these start.
+// Pieces of an impact whose own positions are not on ground are at the impact's position, where their splashes would
+// overlap. Splashes with droplets stay where their droplets start.
 vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
 {
     if (spawn.kind >> 24 == 0u || droplets > 0u)
@@ -194,17 +190,17 @@ vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
     return away * (cos(angle) * frame.side + sin(angle) * frame.across);
 }
 
-void start_splash(virga_spawn_gpu spawn, uvec2 place, Starts starts)
+void start_splash(virga_spawn_gpu spawn, uvec2 rank, Starts starts)
 {
     const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
-    const bool crowded = place.x >= starts.crowded_from;
-    const uint n = crowded ? 0u : placed_droplets(place.y);
-    write_splash(starts.splash + place.x, starts.first_splash, spawn, centre + shown_beside(spawn, n), n);
+    const bool crowded = rank.x >= starts.crowded_from;
+    const uint n = crowded ? 0u : droplet_count_of(rank.y);
+    write_splash(starts.splash + rank.x, starts.first_splash, spawn, centre + shown_beside(spawn, n), n);
     count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
     count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
     if (n > 0u)
-        start_droplets(spawn, centre, starts.droplet + first_droplet(place.y), n);
-    const uint at = starts.returned + (place.x - starts.crowded_from);
+        start_droplets(spawn, centre, starts.droplet + first_droplet(rank.y), n);
+    const uint at = starts.returned + (rank.x - starts.crowded_from);
     if (crowded && at < tick.max_returns) {
         write_return(at, centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
         count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
