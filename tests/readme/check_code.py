@@ -6,6 +6,7 @@ differ. And engine/README.md must show every line in which rain_triangle.c diffe
 follows it alone gets from the one program to the other.
 """
 import difflib
+import os
 import re
 import sys
 
@@ -22,8 +23,9 @@ def lines_of(text):
 def check_block(page, block):
     first, _, rest = block.partition("\n")
     named = re.fullmatch(r"/\* ([\w./-]+\.\w+)(:.*)? \*/", first.strip())
-    report.expect(named, f"{page}: the block that begins with '{first}' does not name its file")
-    if not named:
+    is_file = named and os.path.exists(f"{root}/{named.group(1)}")
+    report.expect(is_file, f"{page}: the block that begins with '{first}' does not name a file")
+    if not is_file:
         return
     wanted, there = lines_of(rest), lines_of(pages.read(root, named.group(1)))
     is_there = any(there[i:i + len(wanted)] == wanted for i in range(len(there)))

@@ -34,7 +34,7 @@ for page in pages.names(root):
         if not target.startswith(("https://", "http://")):
             linked.add(check_link(page, target))
     for path in pages.spans(text):
-        if path.startswith(FOLDERS) and re.fullmatch(r"[\w./-]+", path):
+        if path.startswith(FOLDERS) and re.fullmatch(r"[\w./-]+", path) and "NAME" not in path:
             report.expect(os.path.exists(f"{root}/{path}"), f"{page}: there is no {path}")
 
 for page in pages.names(root):

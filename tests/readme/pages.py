@@ -21,13 +21,13 @@ def read(root, page):
 
 
 def blocks(text, language):
-    """Contents of the code blocks that are marked with a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)
+    """Contents of the code blocks that are marked with a language; a block in a list is indented."""
+    return re.findall(rf"^ *```{language}\n(.*?)^ *```$", text, re.M | re.S)
 
 
 def prose(text):
     """The text without its marked code blocks."""
-    return re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    return re.sub(r"^ *```.*?^ *```$", "", text, flags=re.M | re.S)
 
 
 def spans(text):
