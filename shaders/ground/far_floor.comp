@@ -1,5 +1,6 @@
-// far_floor.comp - what the cells of the far map are: eight times as wide as the window's, and without state of their
-// own. Of what stands above one only is asked whether rain gets past it.
+// far_floor.comp - the cells of the far map: eight times as wide as the window's, and without state. For each:
+// material, unevenness, and whether something above it keeps the rain off.
+// One invocation per far cell. Reads: height maps, the material map. Writes: far floors.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,10 +12,10 @@
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 23) writeonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };
 layout(set = 0, binding = 17) uniform usampler2D material_map;
-layout(set = 0, binding = 24) uniform sampler2DArray far_depth; // of ground; of all meshes
+layout(set = 0, binding = 24) uniform sampler2DArray far_depth; // layers: of ground; of all meshes
 layout(set = 0, binding = 25) uniform usampler2DArray far_surface;
 
-#define COVER_M 0.5 // what stands lower above the ground keeps no rain off it
+#define COVER_M 0.5 // what is lower above the ground keeps no rain off it
 
 void main()
 {
@@ -27,8 +28,8 @@ void main()
         const uint material = material_of(material_map, surface, texel, float(VIRGA_GROUND_FAR_CELL),
                                           vec2(tick.far_material_offset[0], tick.far_material_offset[1]));
         const virga_soil_gpu soil = tick.soils[material];
-        const ivec2 middle = (ivec2(tick.far_low[0], tick.far_low[1]) + texel) * VIRGA_GROUND_FAR_CELL +
-                             VIRGA_GROUND_FAR_CELL / 2;
+        const ivec2 middle =
+            (ivec2(tick.far_low[0], tick.far_low[1]) + texel) * VIRGA_GROUND_FAR_CELL + VIRGA_GROUND_FAR_CELL / 2;
         const float open = (depth - top) * tick.survey_height_m > COVER_M ? 0.0 : 1.0;
         const float height_m = tick.survey_top_m - depth * tick.survey_height_m;
         made = virga_far_floor_gpu(int(round(height_m * 1e6)),

@@ -1,7 +1,9 @@
-// far_map.comp - what hosts' materials read beyond the window: ground that has stood in the rain as long as the rest.
+// far_map.comp - what the host's materials read outside the window: ground that has been in the rain for as long as the
+// rest.
+// One invocation per far cell. Reads: far floors, standing water. Writes: the far map.
 //
-// Puddles lie in the same hollows as in the window. Far away, where a pixel is wider than they are, there is their
-// mean. A row below the map has level open ground by material.
+// Puddles are in the same hollows as in the window. In the distance, where pixels are wider than puddles, there is
+// their mean. A row below the map has level open ground of each material.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,21 +16,21 @@ layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 23) readonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };
 layout(set = 0, binding = 26, rgba16f) uniform writeonly image2DArray far_map;
 
-// Variance of slope that steady rain keeps up.
+// Variance of slope in steady rain.
 float stirred(float water_m, float open_share)
 {
-    const float drops = tick.rain_per_m2_s * tick.cell_m * tick.cell_m * open_share; // on a cell
+    const float drops = tick.rain_per_m2_s * tick.cell_m * tick.cell_m * open_share; // drops per cell and second
     const float kept = drops * crater_variance(crater_depth(tick.rain_drop_m, water_m)) * calm_time(water_m);
     return min(kept, 0.1);
 }
 
-// Wetness, depth (m), and 1 where that carries waves.
+// Wetness, depth (m), and 1 where the water is deep enough for waves.
 vec3 look_of(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
 {
     const virga_cell_gpu cell = water_standing(standing, soil, bump_um);
     const float depth_m = float(cell.free_nl - min(hidden_nl(soil), cell.free_nl)) * tick.m_per_nl;
     const float held = min(float(cell.held_nl) / max(float(soil.capacity_nl), 1.0), 1.0);
-    return vec3(max(held, clamp(depth_m / 0.00005, 0.0, 1.0)), depth_m, float(depth_m >= LEAST_WATER_M));
+    return vec3(max(held, clamp(depth_m / 0.00005, 0.0, 1.0)), depth_m, float(depth_m >= MIN_WATER_M));
 }
 
 void main()
@@ -37,10 +39,10 @@ void main()
     const uint side = max(tick.far_cells, 1u), count = tick.far_cells * tick.far_cells;
     if (index >= count + VIRGA_GROUND_MATERIALS)
         return;
-    const bool is_place = index < count;
-    const ivec2 texel = is_place ? ivec2(index % side, index / side) : ivec2(index - count, tick.far_cells);
-    virga_far_floor_gpu own = far_floors[is_place ? index : 0u];
-    own.traits = is_place ? own.traits : far_traits(index - count, 1.0, 1.0, 0.0);
+    const bool in_map = index < count;
+    const ivec2 texel = in_map ? ivec2(index % side, index / side) : ivec2(index - count, tick.far_cells);
+    virga_far_floor_gpu own = far_floors[in_map ? index : 0u];
+    own.traits = in_map ? own.traits : far_traits(index - count, 1.0, 1.0, 0.0);
     const uint material = own.traits & 255u;
     vec4 wet = vec4(0.0, 0.0, 0.0, -60000.0); // as in map.comp
     if (material != NO_GROUND) {
@@ -52,7 +54,7 @@ void main()
         for (int i = 0; i < 4; i++)
             mean += 0.25 * look_of(standing, soil, quarters[i] * soil.bumps_um);
         const vec2 away = vec2(texel) + 0.5 - vec2(tick.far_camera[0], tick.far_camera[1]);
-        const float even = is_place ? smoothstep(tick.far_even[0], tick.far_even[1], length(away)) : 1.0;
+        const float even = in_map ? smoothstep(tick.far_even[0], tick.far_even[1], length(away)) : 1.0;
         const vec3 look = mix(look_of(standing, soil, far_bump_um(own.traits)), mean, even);
         const float spots = 1.0 - exp(-standing.spots);
         wet = vec4(look.x, look.y * 1e3, look.y > 0.0 ? look.z * stirred(look.y, open) : -spots,

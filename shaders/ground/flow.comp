@@ -1,11 +1,12 @@
-// flow.comp - between rains: water runs downhill, sinks and dries, over all of the window.
+// flow.comp - water flows downhill, seeps away and evaporates, over all of the window.
+// One invocation per pair of cells. Reads: floors. Writes: cells, flow averages, counters.
 //
-// A thin sheet whose inertia does not matter (the diffusive wave): through the side that two cells share flows
-//   q = h^(5/3) sqrt(S) / n   per metre of width (Manning), h the water above what the roughness of the upper cell
-//   holds back, S the slope of the surface.
-// A pass looks at one side of each cell: cells in pairs along x or z, first pairs whose lower cell is even, then odd
-// (PAIRS, pushed). So an invocation has a pair for itself and changes both in place, nothing is made or lost, and a
-// quarter of the work is done at a time. Four passes are a round; each lets water flow for the time of a round.
+// A thin sheet without inertia (diffusive wave). Through the side shared by two cells flows q = h^(5/3) sqrt(S) / n
+// per metre of width (Manning), with h the water above what the roughness of the upper cell holds back, and S the slope
+// of the surface. A pass handles one side of each cell: pairs of cells along x or z, first pairs whose lower cell is
+// even, then odd ones (PAIRS, in the push constants). So an invocation owns its pair and changes both cells in place,
+// no water is made or lost, and each pass does a quarter of the work. Four passes are a round; each lets water flow for
+// the time of the round.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,11 +14,11 @@
 #include "flow_average.glsl"
 
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
-layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z, not x; bit 1: the lower cell is odd
+layout(push_constant) uniform Push { uint pairs; }; // bit 0: along z instead of x; bit 1: the lower cell is odd
 
-shared uint group_sunk, group_dried; // a few thousand nl a cell at most
+shared uint group_sunk, group_dried; // at most a few thousand nl per cell
 
-// Of the invocation's own pairs: software Vulkan works off what invocations share lane by lane.
+// Sums of the invocation's own pairs: software Vulkan handles shared variables lane by lane.
 struct Lost {
     uint sunk, dried;
     virga_ground_count_gpu drained;
@@ -28,13 +29,13 @@ struct Surface {
     uint material, free_nl;
 };
 
-// What flows through the side from the higher of two surfaces to the lower one, `difference` (nl) below it.
+// The flow from the higher of two surfaces to the lower one, which is `difference` (nl) below it.
 //
-// m0, the height that Manning's flow at the start of the pass moves, lessens that flow: by m, the upper cell sinks and
-// the lower one rises. The flow in the middle of the pass, at h - m / 2 and D - m (D: the difference), linear in m:
-//   m = m0 (1 - m (5 / (6 h) + 1 / (2 D)))   so   m = m0 / (1 + m0 (5 / (6 h) + 1 / (2 D))).
-// With m0 itself a sheet would be too fast by 13 % (2 mm on 1 % slope, rounds of 1/60 s) to 54 % (of 4/60 s), as pairs
-// swing; so it is right within 2 %. And no more than levels the two, nor than half of what is mobile.
+// m0 is the height that Manning's flow at the start of the pass moves. A flow m lowers the upper cell and raises the
+// lower one. The flow in the middle of the pass, at h - m / 2 and D - m (D: the difference), linear in m, is m = m0 (1
+// - m (5 / (6 h) + 1 / (2 D)))   so   m = m0 / (1 + m0 (5 / (6 h) + 1 / (2 D))). With m0 alone a sheet would be too
+// fast by 13 % (2 mm on 1 % slope, rounds of 1/60 s) to 54 % (rounds of 4/60 s), because pairs oscillate; this is right
+// within 2 %. The flow is at most what levels the two, and half of the mobile water.
 int flow_down(Surface upper, int difference)
 {
     const uint material = min(upper.material, uint(VIRGA_GROUND_MATERIALS - 1));
@@ -47,13 +48,13 @@ int flow_down(Surface upper, int difference)
     return min(int(min(m / tick.m_per_nl, 1e9)), min(mobile, difference) / 2);
 }
 
-// Into the cell `low` out of `high`; negative: out of it.
+// Flow from the cell `high` into the cell `low`; negative: the other way.
 int flow_between(Surface low, Surface high)
 {
-    const int most_um = MOST_STEP_NL / tick.nl_per_um;
-    const int rise_um = clamp(high.height_um - low.height_um, -most_um, most_um);
-    const int difference = rise_um * tick.nl_per_um + int(min(high.free_nl, uint(MOST_STEP_NL))) -
-                           int(min(low.free_nl, uint(MOST_STEP_NL)));
+    const int max_um = MAX_STEP_NL / tick.nl_per_um;
+    const int rise_um = clamp(high.height_um - low.height_um, -max_um, max_um);
+    const int difference =
+        rise_um * tick.nl_per_um + int(min(high.free_nl, uint(MAX_STEP_NL))) - int(min(low.free_nl, uint(MAX_STEP_NL)));
     const bool comes = difference > 0;
     Surface upper = low;
     upper.material = comes ? high.material : low.material;
@@ -62,25 +63,25 @@ int flow_between(Surface low, Surface high)
     return comes ? flow : -flow;
 }
 
-// Each cell is the lower one of two of a round's pairs. It loses water then, each time for half of the round.
+// Each cell is the lower one of two pairs in a round. Only then it loses water, each time for half of the round.
 float loss_s() { return 0.5 * tick.flow_s; }
 
-// Evaporation takes what lies on the cell, then, ever slower, what is in its pores.
+// Evaporation first removes water on the cell, then, more and more slowly, water in its pores.
 uint dry(inout virga_cell_gpu cell, virga_soil_gpu soil, uint hash)
 {
     const float share = cell.free_nl > 0u ? 1.0 : float(cell.held_nl) / max(float(soil.capacity_nl), 1.0);
-    const uint wanted = round_fairly(tick.evaporation_nl_s * soil.drying * share * loss_s(), hash);
+    const uint wanted = round_randomly(tick.evaporation_nl_s * soil.drying * share * loss_s(), hash);
     const uint from_free = min(wanted, cell.free_nl), from_pores = min(wanted - from_free, cell.held_nl);
     cell.free_nl -= from_free;
     cell.held_nl -= from_pores;
     return from_free + from_pores;
 }
 
-// What leaves a cell of ground but to its neighbours.
-void lose_water(inout virga_cell_gpu cell, uint material, uint hash, inout Lost lost)
+// Water that leaves a cell of ground, except to its neighbours.
+void drain_cell(inout virga_cell_gpu cell, uint material, uint hash, inout Lost lost)
 {
     const virga_soil_gpu soil = tick.soils[material];
-    const uint sunk = min(round_fairly(soil.sink_nl_s * loss_s(), hash), cell.free_nl);
+    const uint sunk = min(round_randomly(soil.sink_nl_s * loss_s(), hash), cell.free_nl);
     cell.free_nl -= sunk;
     const uint drained = soil.drain != 0u ? cell.free_nl : 0u;
     cell.free_nl -= drained;
@@ -91,9 +92,9 @@ void lose_water(inout virga_cell_gpu cell, uint material, uint hash, inout Lost 
     lost.drained.high += lost.drained.low < drained ? 1u : 0u;
 }
 
-// The place of the lower cell of a pair. Tiles have an even number of cells along a side, so what is even in a tile is
-// even in the world.
-uint low_place(uint pair, bool along_z, uint odd)
+// The index of the lower cell of a pair. Tiles have an even number of cells per side, so an even cell of a tile is even
+// in the world.
+uint low_index(uint pair, bool along_z, uint odd)
 {
     const uint tile = pair / (VIRGA_GROUND_TILE_CELLS / 2), inside = pair % (VIRGA_GROUND_TILE_CELLS / 2);
     const uint row_bits = along_z ? TILE_SHIFT : TILE_SHIFT - 1;
@@ -104,19 +105,19 @@ uint low_place(uint pair, bool along_z, uint odd)
 
 void run_pair(uint pair, bool along_z, inout Lost lost)
 {
-    const uint place = low_place(pair, along_z, pairs >> 1);
-    const ivec2 where = cell_at_place(place);
-    const uint found = cell_place(where + (along_z ? ivec2(0, 1) : ivec2(1, 0)));
-    const uint other = found == NO_CELL ? place : found;
-    const uvec2 own_words = cell_words[place], other_words = cell_words[other];
+    const uint cell_index = low_index(pair, along_z, pairs >> 1);
+    const ivec2 low_cell = cell_at_index(cell_index);
+    const uint found = index_of_cell(low_cell + (along_z ? ivec2(0, 1) : ivec2(1, 0)));
+    const uint other = found == NO_CELL ? cell_index : found;
+    const uvec2 own_words = cell_words[cell_index], other_words = cell_words[other];
     virga_cell_gpu cell = virga_cell_gpu(own_words.x, own_words.y);
-    const virga_floor_gpu low_floor = floor_of(place), high_floor = floor_of(other);
+    const virga_floor_gpu low_floor = floor_of(cell_index), high_floor = floor_of(other);
     const Surface low = Surface(low_floor.height_um, low_floor.material, cell.free_nl);
     const Surface high = Surface(high_floor.height_um, high_floor.material, other_words.x);
     const bool both = found != NO_CELL && low.material != NO_GROUND && high.material != NO_GROUND;
     const int inflow = both ? flow_between(low, high) : 0;
     const int half_um = inflow / (2 * tick.nl_per_um);
-    swings[place] = with_swing(swings[place], along_z, half_um);
+    swings[cell_index] = with_swing(swings[cell_index], along_z, half_um);
     if (both) {
         cell_words[other].x = uint(int(high.free_nl) - inflow);
         swings[other] = with_swing(swings[other], along_z, -half_um);
@@ -124,9 +125,9 @@ void run_pair(uint pair, bool along_z, inout Lost lost)
     if (low.material != NO_GROUND) {
         cell.free_nl = uint(int(cell.free_nl) + inflow);
         const uint hash = virga_hash2(tick.seed + 0x9e3779b9u * (4u * tick.tick + pairs),
-                                      uint(where.x) * 0x85ebca6bu ^ uint(where.y) * 0xc2b2ae35u);
-        lose_water(cell, low.material, hash, lost);
-        cell_words[place] = uvec2(cell.free_nl, cell.held_nl);
+                                      uint(low_cell.x) * 0x85ebca6bu ^ uint(low_cell.y) * 0xc2b2ae35u);
+        drain_cell(cell, low.material, hash, lost);
+        cell_words[cell_index] = uvec2(cell.free_nl, cell.held_nl);
     }
 }
 

@@ -1,9 +1,8 @@
-// flow_average.glsl - what a cell swings by in flow.comp's pairs: in an even sheet each pass moves a round's flow
-// out of every
-// second cell into its neighbour, and the next pass of that axis moves it on. What cells hold after a pass is up to a
-// sixth beside what the sheet has; what they hold in the middle of their last passes is not. So that is what is shown:
-// each cell without half of what it gained in the last pass along x and in the last along z.
-layout(scalar, set = 0, binding = 20) buffer Swings { uint swings[]; }; // those halves (um), two int16: x, z
+// flow_average.glsl - removes the oscillation of flow.comp's pairs from the depth that is shown. In an even sheet each
+// pass moves a round's flow from every second cell to its neighbour, and the next pass along that axis moves it on.
+// After a pass, cells deviate from the sheet by up to a sixth; in the middle of their last passes they do not. So the
+// depth shown is that without half of what the cell gained in its last pass along x and in its last along z.
+layout(scalar, set = 0, binding = 20) buffer Swings { uint swings[]; }; // these halves (um) as two int16: x, z
 
 uint with_swing(uint packed, bool along_z, int half_um)
 {

@@ -1,6 +1,8 @@
-// land.comp - the drops of a tick arrive: water by cell, what each met there, and the dark spots that they leave.
+// land.comp - the drops of a tick land: water by cell, what each drop met there, and the dark spots that they leave.
+// One invocation per impact. Reads: impacts, cells as before this tick. Writes: arrivals, landings, spots, slope
+// variance, spawns.
 //
-// Everything is read as it was before this tick, and sums are of integers, so the order of drops does not matter.
+// Everything is read as before this tick, and sums are integers, so the order of drops does not matter.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +16,7 @@ layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arriva
 layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
-// Bits that a spot covers: all within its radius; one that it covers in part, as often as its share.
+// The bits that a spot covers: all within its radius; a bit covered in part, with that probability.
 void leave_spot(Piece piece, float diameter_m, uint hash)
 {
     const float bit_m = tick.cell_m / float(VIRGA_GROUND_SPOTS);
@@ -33,74 +35,75 @@ void leave_spot(Piece piece, float diameter_m, uint hash)
             }
         }
     if (bits.x != 0u)
-        atomicOr(spots[piece.place].x, bits.x);
+        atomicOr(spots[piece.cell_index].x, bits.x);
     if (bits.y != 0u)
-        atomicOr(spots[piece.place].y, bits.y);
+        atomicOr(spots[piece.cell_index].y, bits.y);
 }
 
 void record_landing(uint index, Piece piece, virga_impact_gpu impact)
 {
-    landings[index].cell = piece.place;
-    landings[index].state = state_at(piece.place);
-    landings[index].depth_m = depth_at(piece.place);
-    landings[index].material = material_at(piece.place, impact);
+    landings[index].cell = piece.cell_index;
+    landings[index].state = state_at(piece.cell_index);
+    landings[index].depth_m = depth_at(piece.cell_index);
+    landings[index].material = material_at(piece.cell_index, impact);
     if (tick.max_spawns == 0u)
         landings[index].first_spawn = NO_SPAWN;
 }
 
 void write_spawn(uint index, virga_impact_gpu impact, Piece piece, uint i, Spawning plan, float drops)
 {
-    const uint state = state_at(piece.place);
+    const uint state = state_at(piece.cell_index);
     virga_spawn_gpu spawn;
     const vec3 moved = vec3(head.origin[0], head.origin[1], head.origin[2]) -
                        vec3(spawns_head.origin[0], spawns_head.origin[1], spawns_head.origin[2]);
     const vec3 position = plan.position + moved;
     spawn.position = float[3](position.x, position.y, position.z);
-    spawn.share = fract(impact.time_s / tick.tick_s) + later_ticks(impact, plan.hash);
+    spawn.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, plan.hash);
     spawn.velocity = impact.velocity;
     spawn.diameter_m = impact.diameter_m;
     spawn.normal = impact.normal;
-    spawn.depth_m = depth_at(piece.place);
+    spawn.depth_m = depth_at(piece.cell_index);
     spawn.weight = drops / plan.keep;
     spawn.drops = drops;
     spawn.id = impact.id;
     spawn.tick = tick.tick;
     spawn.water_nl = plan.water_nl;
     spawn.random = virga_hash2(plan.hash, 1u);
-    spawn.kind = state | material_at(piece.place, impact) << 8 | plan.model << 16 | i << 24;
+    spawn.kind = state | material_at(piece.cell_index, impact) << 8 | plan.model << 16 | i << 24;
     spawns[index] = spawn;
 }
 
-// An equal share of a piece's water and of what it stirs to each cell around, which keeps it; its own has the rest.
-void lie_around(Piece piece, int spread, uint water_nl, uint stir)
+// Gives an equal share of a piece's water, and of its slope variance, to each cell around, which keeps it; its own cell
+// gets the rest.
+void spread_water(Piece piece, int spread, uint water_nl, uint stir)
 {
     const uint side = uint(2 * spread + 1), share = water_nl / (side * side), stir_share = stir / (side * side);
-    const int floor_um = floor_of(piece.place).height_um;
+    const int floor_um = floor_of(piece.cell_index).height_um;
     uint rest = water_nl, rest_stir = stir;
     for (int z = -spread; z <= spread; z++)
         for (int x = -spread; x <= spread; x++) {
-            const uint place = x == 0 && z == 0 ? NO_CELL : place_beside(piece, ivec2(x, z), floor_um);
-            if (place == NO_CELL)
+            const uint cell_index = x == 0 && z == 0 ? NO_CELL : index_beside(piece, ivec2(x, z), floor_um);
+            if (cell_index == NO_CELL)
                 continue;
-            atomicAdd(arrivals[place].given_nl, share);
+            atomicAdd(arrivals[cell_index].given_nl, share);
             if (stir_share > 0u)
-                atomicAdd(stirs[place], stir_share);
+                atomicAdd(stirs[cell_index], stir_share);
             rest -= share;
             rest_stir -= stir_share;
         }
-    atomicAdd(arrivals[piece.place].landed_nl, rest);
+    atomicAdd(arrivals[piece.cell_index].landed_nl, rest);
     if (rest_stir > 0u)
-        atomicAdd(stirs[piece.place], rest_stir);
+        atomicAdd(stirs[piece.cell_index], rest_stir);
 }
 
-// Water that stays, and its traces. Returns what came to cells.
+// Water that stays on the ground, and its traces. Returns what came to cells.
 uint arrive(virga_impact_gpu impact, Piece piece, uint water_nl, float drops, uint i)
 {
-    if (piece.place == NO_CELL)
+    if (piece.cell_index == NO_CELL)
         return 0u;
-    const float water_m = float(cell_of(piece.place).free_nl) * tick.m_per_nl;
+    const float water_m = float(cell_of(piece.cell_index).free_nl) * tick.m_per_nl;
     const float stir = drops * crater_variance(crater_depth(impact.diameter_m, water_m)) * 1e6;
-    lie_around(piece, spread_of(drops), water_nl, water_m >= LEAST_WATER_M ? uint(stir) : 0u);
+    spread_water(piece, spread_of(drops), water_nl, water_m >= MIN_WATER_M ? uint(stir) : 0u);
     leave_spot(piece, impact.diameter_m, virga_hash4(tick.seed, impact.id, impact.tick, 64u + i));
     return water_nl;
 }

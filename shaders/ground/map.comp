@@ -1,4 +1,5 @@
-// map.comp - what hosts' materials read: wetness, depth of water, height, and the dark spots of first drops.
+// map.comp - what the host's materials read: wetness, depth of water, height, and the dark spots of the first drops.
+// One invocation per cell of the window. Reads: cells, floors, flow averages. Writes: the maps, spots, slope variance.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,44 +13,43 @@ layout(scalar, set = 0, binding = 7) buffer Spots { uvec2 spots[]; };
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2DArray wet_map;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray spot_map;
 
-// Spots are gone with the water that made them: those of the next rain are others.
-uvec2 spots_left(uint place, float held_share)
+// Spots disappear with the water that made them; the next rain makes new ones.
+uvec2 spots_left(uint cell_index, float held_share)
 {
-    const uvec2 bits = spots[place];
+    const uvec2 bits = spots[cell_index];
     if (held_share <= 0.0 && (bits.x | bits.y) != 0u)
-        spots[place] = uvec2(0u);
+        spots[cell_index] = uvec2(0u);
     return held_share > 0.0 ? bits : uvec2(0u);
 }
 
-// What the step's drops stirred calms down, in all cells at once: a pass that has cells by turns leaves their pattern.
-uint calmed(uint place, float water_m)
+// Waves calm down in all cells at once: updating some of the cells per step would show their pattern.
+uint calm_variance(uint cell_index, float water_m)
 {
-    const float step_s = tick.tick > 0u ? float(tick.tick_in_step + 1u) * tick.tick_s : 0.0; // 0: no tick was run
-    return uint(float(stirs[place]) * exp(-step_s / calm_time(water_m)));
+    const float step_s = tick.tick > 0u ? float(tick.tick_in_step + 1u) * tick.tick_s : 0.0; // 0: there was no tick
+    return uint(float(stirs[cell_index]) * exp(-step_s / calm_time(water_m)));
 }
 
 void main()
 {
-    const uint place = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
+    const uint cell_index = group_index() * VIRGA_GROUND_GROUP + gl_LocalInvocationIndex;
     const uint side = tick.tiles * VIRGA_GROUND_TILE;
-    const ivec2 cell = cell_at_place(place);
+    const ivec2 cell = cell_at_index(cell_index);
     const ivec2 texel = cell & int(side - 1u);
-    const virga_floor_gpu own = floor_of(place);
-    vec4 wet = vec4(0.0, 0.0, 0.0, -60000.0); // far below everything: nothing wet there
+    const virga_floor_gpu own = floor_of(cell_index);
+    vec4 wet = vec4(0.0, 0.0, 0.0, -60000.0); // far below everything: no water there
     uvec2 bits = uvec2(0u);
     if (own.material != NO_GROUND) {
-        const virga_cell_gpu state = cell_of(place);
+        const virga_cell_gpu state = cell_of(cell_index);
         const uint capacity = tick.soils[own.material].capacity_nl;
         const float held = float(state.held_nl) / max(float(capacity), 1.0);
         const uint open_nl = state.free_nl - min(hidden_nl(tick.soils[own.material]), state.free_nl);
         const float free_mm = float(open_nl) * tick.m_per_nl * 1e3;
-        const float depth_mm = open_nl > 0u ? max(free_mm - float(swing_um(swings[place])) * 1e-3, 0.0) : 0.0;
-        const uint stir = calmed(place, depth_mm * 1e-3);
-        stirs[place] = stir;
+        const float depth_mm = open_nl > 0u ? max(free_mm - float(swing_um(swings[cell_index])) * 1e-3, 0.0) : 0.0;
+        const uint stir = calm_variance(cell_index, depth_mm * 1e-3);
+        stirs[cell_index] = stir;
         const float film = clamp(depth_mm / 0.05, 0.0, 1.0);
-        wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stir) * 1e-6, 0.1),
-                   float(own.height_um) * 1e-6);
-        bits = spots_left(place, capacity > 0u ? held : film);
+        wet = vec4(max(min(held, 1.0), film), depth_mm, min(float(stir) * 1e-6, 0.1), float(own.height_um) * 1e-6);
+        bits = spots_left(cell_index, capacity > 0u ? held : film);
     }
     imageStore(wet_map, ivec3(texel, 0), wet);
     imageStore(spot_map, ivec3(2 * texel.x, texel.y, 0), uvec4(bits.x, 0u, 0u, 0u));

@@ -1,20 +1,21 @@
-// measure.comp - counts the water of all cells, and the cells by state. The measured counts were cleared before.
+// measure.comp - sums the water of all cells, and counts cells by state. The sums were cleared before.
+// One workgroup per tile. Reads: cells, floors. Writes: counters.
 //
-// A workgroup has a tile, and each invocation adds up sixteen cells of it for itself before it adds to what the
-// workgroup shares: software Vulkan works those sums off lane by lane.
+// Each invocation sums sixteen cells by itself before it adds to shared variables, which software Vulkan handles lane
+// by lane.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "cells.glsl"
 
 #define CELLS_EACH (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
-#define STATE_BITS 5 // of a word with counts of up to CELLS_EACH for each state
+#define STATE_BITS 5 // bits per state in a word that counts up to CELLS_EACH cells of each state
 
-layout(constant_id = 0) const bool KEPT_TILES = false; // not those of the window
+layout(constant_id = 0) const bool KEPT_TILES = false; // measures kept tiles instead of the window
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 8) readonly buffer Kept { virga_cell_gpu kept[]; };
 
-// Sums of a tile as 64 bits, in two halves of 16 bits a cell: 4096 x 65535 fits a word.
+// The sums of a tile in 64 bits, as two words of 16-bit halves: 4096 x 65535 fits into a word.
 #define FILM 0
 #define PUDDLES 1
 #define HELD 2
@@ -60,7 +61,7 @@ void measure_cell(virga_cell_gpu cell, uint material, inout Sums sums)
     sums.of_state += 1u << (STATE_BITS * state);
 }
 
-// `first`: a texel, of two cells.
+// `first`: a texel, which is two cells.
 void measure_window(uint first)
 {
     const Sum none = Sum(0u, 0u);

@@ -1,13 +1,14 @@
-// ring.comp - drops of this tick that fell on water start rings. One workgroup, so that places are handed out in the
-// order of impacts: the newest rings take the places of the oldest.
+// ring.comp - drops of this tick that fell on water start rings.
+// One workgroup, so that ring slots are given in the order of impacts; the newest rings replace the oldest. Reads:
+// impacts, landings, cells. Writes: rings.
 //
-// An impact that stands for many drops starts a ring for each of its pieces. Where more fall than there are places for,
-// those that make the most waves are taken by lot: with a chance p in proportion to the variance of slope that they
-// bring, drops crater^2, and at most 1. The ring of one that is taken is sqrt(drops / p) times as steep, so that all
-// rings bring the variance that all drops would,
+// An impact that stands for many drops starts a ring for each of its pieces. If there are more than ring slots, rings
+// are sampled by importance: each with a probability p proportional to the slope variance that it brings, drops
+// crater^2, and at most 1. A sampled ring is sqrt(drops / p) times as steep, so that all rings together bring the
+// variance of all drops:
 //     E = sum p (crater sqrt(drops / p))^2 = sum drops crater^2
-// (importance sampling). Were all taken with the same chance, one in fifty in heavy rain, nearly all rings would be
-// those of the smallest drops, and puddles too calm by far.
+// With equal probabilities (one in fifty in heavy rain) nearly all rings would be those of the smallest drops, and
+// puddles far too calm.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,18 +19,18 @@
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 10) readonly buffer Landings { virga_landing_gpu landings[]; };
 
-#define FIRST_RING_HASH 96u // of the numbers of hashes for whether a piece starts a ring
-#define MOST_TAKEN 2048 // in a tick: ten times the quota of a tick of 1 / 60 s
+#define FIRST_RING_HASH 96u // first hash number for whether a piece starts a ring
+#define MAX_NEW_RINGS 2048  // max rings in a tick: ten times the quota of a tick of 1 / 60 s
 
 shared uint sums[VIRGA_GROUND_GROUP];
 shared uvec3 parts[VIRGA_GROUND_GROUP];
-shared uint taken[MOST_TAKEN]; // impact * VIRGA_GROUND_SCATTER + piece; in order
+shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_SCATTER + piece; in order
 
 float drops_of_piece(uint index) { return impacts[index].weight / float(piece_count(impacts[index])); }
 
-// Measure of the waves of a piece: its crater in units of 20 um, squared, times its drops. Above that of 2.54 mm all
-// are alike, so that the sum over four million impacts fits.
-uint measure_of(uint index)
+// Weight of a piece: its crater in units of 20 um, squared, times its drops. All craters above that of 2.54 mm count
+// the same, so that the sum over four million impacts fits.
+uint weight_of(uint index)
 {
     const float units = crater_depth(impacts[index].diameter_m, landings[index].depth_m) * 5e4;
     return uint(clamp(units * units * drops_of_piece(index), 1.0, 16129.0));
@@ -39,8 +40,9 @@ bool on_water(uint index)
 {
     if (!is_of_tick(index))
         return false;
-    const vec2 at_m = in_window(impacts[index]) * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]);
-    return landings[index].cell != NO_CELL && landings[index].depth_m >= LEAST_WATER_M && min(at_m.x, at_m.y) > 0.0 &&
+    const vec2 at_m =
+        cells_in_window_of(impacts[index]) * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]);
+    return landings[index].cell != NO_CELL && landings[index].depth_m >= MIN_WATER_M && min(at_m.x, at_m.y) > 0.0 &&
            max(at_m.x, at_m.y) < tick.ripple_side_m;
 }
 
@@ -48,15 +50,15 @@ struct Census {
     float pieces, measure;
 };
 
-// Of those on water whose measure is below a bar: how many pieces there are, and the sum of their measures. Sums of
-// integers, so that the order of drops does not matter.
+// Of the pieces on water with a weight below a bar: their number, and the sum of their weights. Integer sums, so that
+// the order of drops does not matter.
 Census census_below(float bar)
 {
     const uint lane = gl_LocalInvocationIndex;
     uvec3 own = uvec3(0u);
     for (uint first = 0u; first < head_count(); first += VIRGA_GROUND_GROUP)
         if (on_water(first + lane)) {
-            const uint measure = measure_of(first + lane), pieces = piece_count(impacts[first + lane]);
+            const uint measure = weight_of(first + lane), pieces = piece_count(impacts[first + lane]);
             if (float(measure) < bar)
                 own += uvec3(pieces, (pieces * measure) & 1023u, (pieces * measure) >> 10);
         }
@@ -72,21 +74,21 @@ Census census_below(float bar)
     return Census(float(all.x), float(all.y) + 1024.0 * float(all.z));
 }
 
-// Measure from which on a piece is sure of its ring; one below has a chance of measure / bar. The chances of all add up
-// to no more than the quota.
+// The bar: a piece with at least this weight always gets a ring, one below with the probability weight / bar. The
+// probabilities add up to the quota at most.
 float find_bar()
 {
-    // So that those which live, and those still to fall, are never more than there are places for.
-    const float quota = 0.95 * float(VIRGA_RINGS) * tick.tick_s / (VIRGA_RING_TIME_S + PIECES_LATER_S);
+    // So that living rings and those still to fall never exceed the ring slots.
+    const float quota = 0.95 * float(VIRGA_RINGS) * tick.tick_s / (VIRGA_RING_TIME_S + PIECES_DELAY_S);
     const Census all = census_below(1e30);
     if (all.pieces <= quota)
         return 0.0;
-    // Those above the first bar leave chances over, which go to the others.
+    // Pieces above the first bar leave a part of the quota to the others.
     const Census low = census_below(all.measure / quota);
     return low.measure / max(quota - (all.pieces - low.pieces), 1.0);
 }
 
-float chance_of(uint index, float bar) { return min(float(measure_of(index)) / max(bar, 1e-6), 1.0); }
+float chance_of(uint index, float bar) { return min(float(weight_of(index)) / max(bar, 1e-6), 1.0); }
 
 // A bit for each piece of an impact that starts a ring.
 uint choose_pieces(uint index, float bar)
@@ -100,8 +102,8 @@ uint choose_pieces(uint index, float bar)
     return chosen;
 }
 
-// Lists the pieces that start a ring, in order, and returns how many there are.
-uint list_taken(float bar)
+// Lists the pieces that start a ring, in order; returns their number.
+uint list_new_rings(float bar)
 {
     const uint lane = gl_LocalInvocationIndex;
     uint total = 0u;
@@ -116,41 +118,40 @@ uint list_taken(float bar)
             sums[lane] += lower;
         }
         barrier();
-        for (uint place = total + sums[lane] - bitCount(chosen); chosen != 0u; chosen &= chosen - 1u, place++)
-            if (place < MOST_TAKEN)
-                taken[place] = index * VIRGA_GROUND_SCATTER + uint(findLSB(chosen));
+        for (uint at = total + sums[lane] - bitCount(chosen); chosen != 0u; chosen &= chosen - 1u, at++)
+            if (at < MAX_NEW_RINGS)
+                new_rings[at] = index * VIRGA_GROUND_SCATTER + uint(findLSB(chosen));
         total += sums[VIRGA_GROUND_GROUP - 1];
         barrier();
     }
-    return min(total, MOST_TAKEN);
+    return min(total, MAX_NEW_RINGS);
 }
 
-void start_ring(uint place, uint index, uint i, float chance)
+void start_ring(uint ring_index, uint index, uint i, float chance)
 {
     const virga_impact_gpu impact = impacts[index];
     const Piece piece = get_piece(impact, first_piece(impact), i, piece_count(impact));
-    const float water_m = i == 0u ? landings[index].depth_m : depth_at(piece.place);
+    const float water_m = i == 0u ? landings[index].depth_m : depth_at(piece.cell_index);
     virga_ring_gpu ring;
     ring.cell = int[2](piece.cell.x, piece.cell.y);
     ring.in_cell = float[2](piece.in_cell.x, piece.in_cell.y);
     ring.tick = impact.tick;
-    ring.share = fract(impact.time_s / tick.tick_s) + later_ticks(impact, piece_hash(impact, i));
-    ring.crater_m = water_m < LEAST_WATER_M
-                        ? 0.0
-                        : crater_depth(impact.diameter_m, water_m) * sqrt(drops_of_piece(index) / chance);
+    ring.share = fract(impact.time_s / tick.tick_s) + delay_ticks(impact, piece_hash(impact, i));
+    ring.crater_m =
+        water_m < MIN_WATER_M ? 0.0 : crater_depth(impact.diameter_m, water_m) * sqrt(drops_of_piece(index) / chance);
     ring.depth_m = water_m;
     ring.id = impact.id;
-    rings[place % VIRGA_RINGS] = ring;
+    rings[ring_index % VIRGA_RINGS] = ring;
 }
 
 void main()
 {
     const uint lane = gl_LocalInvocationIndex;
     const float bar = find_bar();
-    const uint count = list_taken(bar), total = rings_head.total;
+    const uint count = list_new_rings(bar), total = rings_head.total;
     for (uint i = lane; i < count; i += VIRGA_GROUND_GROUP) {
-        const uint index = taken[i] / VIRGA_GROUND_SCATTER;
-        start_ring(total + i, index, taken[i] % VIRGA_GROUND_SCATTER, chance_of(index, bar));
+        const uint index = new_rings[i] / VIRGA_GROUND_SCATTER;
+        start_ring(total + i, index, new_rings[i] % VIRGA_GROUND_SCATTER, chance_of(index, bar));
     }
     barrier();
     if (lane == 0u)

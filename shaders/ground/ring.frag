@@ -1,11 +1,12 @@
-// ring.frag - the slope of a ring's waves at a place, added to that of the others.
+// ring.frag - the slope of a ring's waves, added to that of other rings.
+// One invocation per texel of the ripple map around a ring. Reads: the ring table. Writes: slope (additive).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "shared/ground_limits.h"
 
-// Slope over radius (cm). A texel: this radius and the next, then both a time later. That they were filtered cost
-// software Vulkan a third more.
+// Slope over radius (cm). A texel holds this radius and the next, then both at the next time. Filtering instead was a
+// third slower on software Vulkan.
 layout(set = 0, binding = 16) uniform sampler2DArray waves;
 layout(location = 0) noperspective in vec2 offset_m;
 layout(location = 1) flat in vec3 moment; // see ring.vert

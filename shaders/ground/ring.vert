@@ -1,4 +1,5 @@
-// ring.vert - a square around each living ring in the ripple map, as wide as its fastest waves have come.
+// ring.vert - a square around each living ring in the ripple map, as wide as its fastest waves have travelled.
+// One invocation per vertex, six per ring. Reads: rings. Writes: offset, constants of the ring.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -8,23 +9,24 @@
 #include "gpu/vectors.glsl"
 
 layout(location = 0) noperspective out vec2 offset_m; // from where the drop fell
-// Radii of the table to a metre; how far between two of its times; crater (cm), less as it opens and where waves end
+// x: table radii per metre; y: position between two times of the table; z: crater (cm), reduced while it opens and
+// where the waves end.
 layout(location = 1) flat out vec3 moment;
-layout(location = 2) flat out vec2 row; // of the table: its time, as a share of all, and layer
+layout(location = 2) flat out vec2 row; // x: time in the table, as a fraction; y: its layer
 
 int layer_of(float depth_m)
 {
     const float depths[VIRGA_RING_DEPTHS] = float[VIRGA_RING_DEPTHS](VIRGA_RING_DEPTH_LIST);
     int layer = 0;
     for (int i = 1; i < VIRGA_RING_DEPTHS; i++)
-        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? i : layer; // nearest by ratio
+        layer = depth_m * depth_m > depths[i - 1] * depths[i] ? i : layer; // the nearest by ratio
     return layer;
 }
 
 void main()
 {
-    const uint place = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
-    const virga_ring_gpu ring = rings[place];
+    const uint ring_index = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
+    const virga_ring_gpu ring = rings[ring_index];
     const float age = (float(tick.last_tick - ring.tick) + 1.0 - ring.share) * tick.tick_s;
     const float radius = VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * age;
     const vec2 side = vec2((corner & 1u) != 0u ? 1.0 : -1.0, corner == 0u || corner == 1u || corner == 5u ? -1.0 : 1.0);
@@ -35,7 +37,7 @@ void main()
     const vec2 at =
         (cell * tick.cell_m - vec2(tick.ripple_low_m[0], tick.ripple_low_m[1]) + offset_m) / tick.ripple_side_m;
     const float time = clamp(age / VIRGA_RING_TIME_S, 0.0, 1.0) * float(VIRGA_RING_TIMES - 1);
-    // The table begins with the crater, which its drop opens as the crown around it rises: one that were there at once
+    // The table begins with the crater, which opens while the crown around it rises. A crater that is there at once
     // would pop up in pictures that are a few milliseconds apart.
     const float ends = 1.0 - smoothstep(0.7, 1.0, age / VIRGA_RING_TIME_S);
     const float there = smoothstep(0.0, VIRGA_RING_OPENS_S, age) * ends;

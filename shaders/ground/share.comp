@@ -1,13 +1,13 @@
-// share.comp - what fell on a cell in this tick goes into its pores, and what they do not take is shared with the four
-// neighbours: Mizukami et al., section 4.6.1 and figure 7, from a line to the plane.
+// share.comp - what fell on a cell in this tick fills its pores, and the rest is shared with the four neighbours.
+// One invocation per impact. Reads: floors, cells as before this tick. Writes: arrivals.
+// Paper: Mizukami et al., section 4.6.1 and figure 7, extended from a line to the plane.
 //
-// All drops of a tick on one cell count as one. Of W that is left for a saturated cell 0 with n neighbours that are
-// ground (a wall takes nothing), heights of water surfaces H before the tick:
-//   (1) D is the rise by W / n (half of the drop on a line, a quarter on the plane).
-//   (2) H0 > max(Hi + D): each neighbour gets W / n.
-//   (3) else: W fills the five from the lowest up until their surfaces are level (where they already are level that is
-//       a fifth each, figure 7 (a)).
-// The paper's (3) can be met only as far as W goes: who is higher than the level gets nothing.
+// All drops of a tick on a cell count as one. W is left for a saturated cell 0 with n neighbours that are ground (a
+// wall accepts nothing), H are the heights of the water surfaces before the tick: (1) D is the rise by W / n (half of
+// the drop on a line, a quarter on the plane). (2) H0 > max(Hi + D): each neighbour gets W / n. (3) else: W fills the
+// five cells from the lowest up until their surfaces are level (if they already are, each gets a
+//       fifth, figure 7 (a)).
+// The paper's (3) holds only as far as W is enough: a cell that is higher than the level gets nothing.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -19,14 +19,14 @@ layout(scalar, set = 0, binding = 6) buffer Arrivals { virga_arrivals_gpu arriva
 
 const ivec2 around[5] = ivec2[5](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
-void give(uint place, int nl)
+void give(uint cell_index, int nl)
 {
     if (nl > 0)
-        atomicAdd(arrivals[place].given_nl, uint(nl));
+        atomicAdd(arrivals[cell_index].given_nl, uint(nl));
 }
 
-// The level to which `water` fills cells of these heights, from the lowest up (heights of who takes nothing: very
-// high).
+// The level to which `water` fills cells of these heights, from the lowest up. A cell that accepts nothing has a very
+// large height.
 int level_of(int heights[5], int water)
 {
     for (int i = 0; i < 4; i++) // insertion sort
@@ -48,16 +48,17 @@ int level_of(int heights[5], int water)
 void share(ivec2 cell, uint own, int water)
 {
     const int floor_um = floor_of(own).height_um;
-    uint places[5];
+    uint cell_indices[5];
     int heights[5];
-    int neighbours = 0, highest = -MOST_STEP_NL;
+    int neighbours = 0, highest = -MAX_STEP_NL;
     for (int i = 0; i < 5; i++) {
-        places[i] = i == 0 ? own : cell_place(cell + around[i]);
-        const bool takes = i == 0 || is_ground(places[i]);
-        // Counted from the deepest step, so that no height is below zero.
-        heights[i] = takes ? MOST_STEP_NL / 2 + surface_above(places[i], floor_um, -MOST_STEP_NL / 2, MOST_STEP_NL / 2)
-                           : 2 * MOST_STEP_NL;
-        if (i > 0 && takes) {
+        cell_indices[i] = i == 0 ? own : index_of_cell(cell + around[i]);
+        const bool accepts = i == 0 || is_ground(cell_indices[i]);
+        // Relative to the lowest possible step, so that no height is negative.
+        heights[i] = accepts
+                         ? MAX_STEP_NL / 2 + surface_above(cell_indices[i], floor_um, -MAX_STEP_NL / 2, MAX_STEP_NL / 2)
+                         : 2 * MAX_STEP_NL;
+        if (i > 0 && accepts) {
             neighbours++;
             highest = max(highest, heights[i]);
         }
@@ -67,12 +68,12 @@ void share(ivec2 cell, uint own, int water)
     const int level = level_of(heights, water);
     int given = 0;
     for (int i = 1; i < 5; i++) {
-        const bool takes = heights[i] < 2 * MOST_STEP_NL;
-        const int gift = !takes ? 0 : runs_off ? part : max(level - heights[i], 0);
-        give(places[i], gift);
-        given += gift;
+        const bool accepts = heights[i] < 2 * MAX_STEP_NL;
+        const int part = !accepts ? 0 : runs_off ? part : max(level - heights[i], 0);
+        give(cell_indices[i], part);
+        given += part;
     }
-    give(own, water - given); // with what does not divide
+    give(own, water - given); // and the remainder of the division
 }
 
 void main()
@@ -85,16 +86,16 @@ void main()
     const Piece first = first_piece(impact);
     for (uint i = 0u; i < n; i++) {
         const Piece piece = get_piece(impact, first, i, n);
-        if (piece.place == NO_CELL)
+        if (piece.cell_index == NO_CELL)
             continue;
-        // Of all drops on a cell one invocation gets their sum; which does not matter.
-        const uint landed = atomicExchange(arrivals[piece.place].landed_nl, 0u);
+        // One invocation of all drops on a cell gets their sum; it does not matter which.
+        const uint landed = atomicExchange(arrivals[piece.cell_index].landed_nl, 0u);
         if (landed == 0u)
             continue;
-        const uint room = tick.soils[floor_of(piece.place).material].capacity_nl;
-        const uint taken = min(landed, room - min(cell_of(piece.place).held_nl, room));
-        const uint shared_nl = min(landed - taken, uint(MOST_STEP_NL));
-        give(piece.place, int(landed - shared_nl));
-        share(piece.cell, piece.place, int(shared_nl));
+        const uint room = tick.soils[floor_of(piece.cell_index).material].capacity_nl;
+        const uint absorbed = min(landed, room - min(cell_of(piece.cell_index).held_nl, room));
+        const uint shared_nl = min(landed - absorbed, uint(MAX_STEP_NL));
+        give(piece.cell_index, int(landed - shared_nl));
+        share(piece.cell, piece.cell_index, int(shared_nl));
     }
 }

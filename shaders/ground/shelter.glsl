@@ -1,4 +1,4 @@
-// shelter.glsl - where no rain falls, by the survey of the far map. Needs cells.glsl and standing.glsl.
+// shelter.glsl - where something keeps the rain off, from the far map. Include cells.glsl and standing.glsl before.
 layout(scalar, set = 0, binding = 23) readonly buffer FarFloors { virga_far_floor_gpu far_floors[]; };
 
 float open_at(ivec2 far_cell)
@@ -8,7 +8,7 @@ float open_at(ivec2 far_cell)
     return far_open(found);
 }
 
-// Whether something stands above a cell; nothing is known of what the far map does not hold.
+// Whether something is above a cell; false outside of the far map.
 bool is_sheltered(ivec2 cell)
 {
     const ivec2 far_cell = (cell >> VIRGA_GROUND_FAR_SHIFT) - ivec2(tick.far_low[0], tick.far_low[1]);

@@ -1,4 +1,5 @@
-// spawn_mark.comp - which pieces of each impact of this tick splash.
+// spawn_mark.comp - marks which pieces of each impact of this tick splash.
+// One invocation per impact. Reads: impacts, cells. Writes: landings (a bit per piece).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,6 @@
-// spawn_scan.comp - hands out places among the spawns, in the order of impacts: one workgroup, each lane a run of them.
+// spawn_scan.comp - prefix sum over the pieces that splash: the index of each impact's first spawn, in the order of
+// impacts.
+// One workgroup, in which each invocation takes a run of impacts. Reads: landings. Writes: landings, the spawns' head.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,16 +12,17 @@
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
 layout(scalar, set = 0, binding = 10) buffer Landings { virga_landing_gpu landings[]; };
 
-#define LEAST_NEAR_M 0.25
-#define MOST_NEAR_M 1000.0
+#define MIN_NEAR_M 0.25
+#define MAX_NEAR_M 1000.0
 
 shared uint filled;
 
-// The radius within which all drops splash follows the quota; what is beyond grows with its square too.
+// The radius within which all drops splash follows the quota; the number of splashes beyond it grows with its square
+// too.
 float next_near(float near_m, float found)
 {
     const float wanted = near_m * sqrt(clamp(rules.quota / max(found, 1.0), 0.8, 1.1));
-    return clamp(wanted, LEAST_NEAR_M, MOST_NEAR_M);
+    return clamp(wanted, MIN_NEAR_M, MAX_NEAR_M);
 }
 
 void main()
@@ -35,16 +38,16 @@ void main()
     const uint before_lane = scan_group(uvec2(sum, 0u), all).x, found = all.x;
     const bool first = tick.tick_in_step == 0u && head.is_return == 0u;
     const uint before = first ? 0u : spawns_head.count;
-    uint place = before + before_lane;
+    uint spawn_index = before + before_lane;
     for (uint i = begin; i < end; i++) {
         if (!is_of_tick(i))
             continue;
         const uint count = uint(bitCount(landings[landing_index(i)].splashing));
-        const bool fits = place + count <= tick.max_spawns;
+        const bool fits = spawn_index + count <= tick.max_spawns;
         if (!fits)
-            atomicMin(filled, place); // the first that does not fit, and all after it, get none
-        landings[landing_index(i)].first_spawn = count > 0u && fits ? place : NO_SPAWN;
-        place += count;
+            atomicMin(filled, spawn_index); // impacts from the first that does not fit on get none
+        landings[landing_index(i)].first_spawn = count > 0u && fits ? spawn_index : NO_SPAWN;
+        spawn_index += count;
     }
     barrier();
     if (lane != 0u)
@@ -60,7 +63,7 @@ void main()
         spawns_head.first_tick = tick.tick;
     if (head.is_return == 0u) {
         spawns_head.origin = head.origin;
-        // land.comp weighs by the radius that spawn_mark.comp chose by.
+        // land.comp uses the radius that spawn_mark.comp decided with.
         spawns_head.near_of_tick_m = spawns_head.near_m;
         spawns_head.near_m = next_near(spawns_head.near_m, float(found));
     }

@@ -14,35 +14,35 @@ layout(scalar, set = 0, binding = 19) buffer Spawns
 
 struct Spawning {
     uint model;
-    float distance2; // from the camera
-    uint water_nl;   // that flies up
+    float distance2; // from the camera, squared
+    uint water_nl;   // water that flies up
     uint hash;
-    float keep;      // chance that such a splash had to be shown
-    vec3 position;   // relative to the impacts' (or returns') origin
+    float keep;    // probability with which such a splash is spawned
+    vec3 position; // relative to the impacts' (or returns') origin
 };
 
-uint state_at(uint place)
+uint state_at(uint cell_index)
 {
-    return place == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cell_of(place), floor_of(place).material);
+    return cell_index == NO_CELL ? VIRGA_GROUND_NONE : cell_state(cell_of(cell_index), floor_of(cell_index).material);
 }
 
-uint material_at(uint place, virga_impact_gpu impact)
+uint material_at(uint cell_index, virga_impact_gpu impact)
 {
-    return place == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floor_of(place).material;
+    return cell_index == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floor_of(cell_index).material;
 }
 
-// The first piece lies where the drop met the mesh, the others on their cells' floors.
+// The first piece is where the drop hit the mesh, the others on the floors of their cells.
 vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
 {
     const vec3 own = vec3(impact.position[0], impact.position[1], impact.position[2]);
-    if (i == 0u || piece.place == NO_CELL)
+    if (i == 0u || piece.cell_index == NO_CELL)
         return own;
-    const vec2 moved = (piece.at - in_window(impact)) * tick.cell_m;
-    const float floor_m = float(floor_of(piece.place).height_um) * 1e-6 - above_base(0.0);
+    const vec2 moved = (piece.at - cells_in_window_of(impact)) * tick.cell_m;
+    const float floor_m = float(floor_of(piece.cell_index).height_um) * 1e-6 - above_base(0.0);
     return vec3(own.x + moved.x, floor_m, own.z + moved.y);
 }
 
-// A drop that splashes by its rule; a droplet that falls back on what is wet makes a dot.
+// A drop splashes by its rule; a droplet that falls back on wet ground makes a dot.
 uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, float depth_m)
 {
     if (head.is_return != 0u)
@@ -52,28 +52,28 @@ uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, f
     return splashes ? rule.model : VIRGA_SPLASH_NONE;
 }
 
-// Within the radius that the quota gives, all drops of SHOWN_M splash; beyond, as many as fall on a disc of that radius
-// in each ring of its width. Crowns take an area of D^2.75 of the picture (shape.glsl), and are there for longer the
-// larger they are, so larger drops are shown farther out and smaller ones less far. Had all the same chance, heavy rain
-// would spend its splashes on drops of half a millimetre around the camera's feet, and none be seen on a street.
+// Within the quota's radius all drops of SHOWN_M splash. Beyond it, each ring of that width has as many splashes as a
+// disc of that radius. Crowns cover an area of D^2.75 on the picture (shape.glsl) and last longer the larger they are,
+// so larger drops splash farther away and smaller ones only nearer. With equal probabilities heavy rain would spend its
+// splashes on drops of half a millimetre at the camera's feet, and none would be seen along a street.
 #define SHOWN_M 0.002
 
-float chance_to_show(float distance2, float near_m, float diameter_m)
+float spawn_probability(float distance2, float near_m, float diameter_m)
 {
     const float size = diameter_m / SHOWN_M;
     return min(near_m * near_m * size * size * size / max(distance2, 1e-6), 1.0);
 }
 
-// Of a piece: where it is, the hash of its chances, and the chance that such a splash is shown.
+// Of a piece: its position, its hash, and the probability with which such a splash is spawned.
 Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
 {
     Spawning plan;
     plan.position = piece_position(impact, piece, i);
     plan.hash = piece_hash(impact, i);
-    const vec3 way = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
-                                      vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
-    plan.distance2 = dot(way, way);
-    plan.keep = chance_to_show(plan.distance2, near_m, impact.diameter_m);
+    const vec3 to_piece = plan.position + (vec3(head.origin[0], head.origin[1], head.origin[2]) -
+                                           vec3(tick.camera[0], tick.camera[1], tick.camera[2]));
+    plan.distance2 = dot(to_piece, to_piece);
+    plan.keep = spawn_probability(plan.distance2, near_m, impact.diameter_m);
     plan.water_nl = 0u;
     plan.model = VIRGA_SPLASH_NONE;
     return plan;
@@ -81,29 +81,29 @@ Spawning start_plan(virga_impact_gpu impact, Piece piece, uint i, float near_m)
 
 virga_splash_rule_gpu rule_at(virga_impact_gpu impact, Piece piece)
 {
-    return rules.rules[material_at(piece.place, impact) * VIRGA_GROUND_STATES + state_at(piece.place)];
+    return rules.rules[material_at(piece.cell_index, impact) * VIRGA_GROUND_STATES + state_at(piece.cell_index)];
 }
 
-// The decision, taken once: by spawn_mark.comp.
+// The decision, made once: by spawn_mark.comp.
 bool is_splash(virga_impact_gpu impact, Piece piece, uint i)
 {
-    const uint model = model_of(impact, rule_at(impact, piece), state_at(piece.place), depth_at(piece.place));
+    const uint model = model_of(impact, rule_at(impact, piece), state_at(piece.cell_index), depth_at(piece.cell_index));
     const Spawning plan = start_plan(impact, piece, i, spawns_head.near_m);
     return model != VIRGA_SPLASH_NONE && virga_unit(plan.hash) < plan.keep;
 }
 
-// What a piece makes of which that decided that it splashes.
+// What a piece that splashes makes.
 Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
 {
-    const uint state = state_at(piece.place);
+    const uint state = state_at(piece.cell_index);
     const virga_splash_rule_gpu rule = rule_at(impact, piece);
     Spawning plan = start_plan(impact, piece, i, spawns_head.near_of_tick_m);
-    plan.model = model_of(impact, rule, state, depth_at(piece.place));
+    plan.model = model_of(impact, rule, state, depth_at(piece.cell_index));
     if (plan.model == VIRGA_SPLASH_NONE)
-        plan.model = VIRGA_SPLASH_DOT; // a threshold that came out otherwise this time
+        plan.model = VIRGA_SPLASH_DOT; // a threshold was decided differently in this shader
     const uint chance = virga_hash1(plan.hash);
     const float near = clamp(4.0 - 4.0 * sqrt(plan.distance2) / rules.droplets_m, 0.0, 1.0);
-    // What flies off a wall would fall past the surface that droplets are followed to.
+    // Droplets from a wall would fall past the surface that droplets are tracked to.
     const bool level = impact.normal[1] > 0.6;
     const bool flies = level && (plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE);
     if (flies && virga_unit(chance) < near) {

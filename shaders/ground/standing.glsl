@@ -1,21 +1,22 @@
-// standing.glsl - water on ground where no drop was counted: what stood in the same rain for as long has as much. Needs
-// cells.glsl. engine/ground/standing.c keeps count of it, material by material, in the open and under cover.
+// standing.glsl - water on ground where no drops were counted: as much as on all ground that was in the same rain for
+// as long. Include cells.glsl before. engine/ground/standing.c tracks it, per material, in the open and under cover.
 #define FAR_BUMP_UM 10.0
 
-// `open_share`: of the rain that reaches the place. Hollows fill with rain where the place is level.
+// `open_share`: the part of the rain that reaches the position. `level_share`: how level it is; only level ground has
+// puddles.
 virga_standing_gpu standing_at(uint material, float open_share, float level_share)
 {
     const virga_standing_gpu open = tick.standing[material];
-    virga_standing_gpu place = tick.standing[VIRGA_GROUND_MATERIALS + material];
-    // Written so that it is exact where both are the same.
-    place.held += (open.held - place.held) * open_share;
-    place.film_nl += (open.film_nl - place.film_nl) * open_share;
-    place.level_um += (open.level_um - place.level_um) * (open_share * level_share);
-    place.spots += (open.spots - place.spots) * open_share;
-    return place;
+    virga_standing_gpu local = tick.standing[VIRGA_GROUND_MATERIALS + material];
+    // Written so that it is exact where both are equal.
+    local.held += (open.held - local.held) * open_share;
+    local.film_nl += (open.film_nl - local.film_nl) * open_share;
+    local.level_um += (open.level_um - local.level_um) * (open_share * level_share);
+    local.spots += (open.spots - local.spots) * open_share;
+    return local;
 }
 
-// Rain that fell before stands in the hollows; on the humps is only what their roughness holds.
+// Earlier rain stands in the hollows; humps have only what their roughness holds.
 virga_cell_gpu water_standing(virga_standing_gpu standing, virga_soil_gpu soil, float bump_um)
 {
     const float hump_um = max(bump_um + 0.5 * soil.bumps_um, 0.0);
@@ -27,8 +28,8 @@ virga_cell_gpu water_standing(virga_standing_gpu standing, virga_soil_gpu soil, 
     return cell;
 }
 
-// Of 8 x 8 bits as many as spots cover, by lot: each bit of that share, from the lowest on, halves what there is and
-// adds a half or not.
+// Random bits of 8 x 8, with the fraction that spots cover. For each bit of that fraction, from the lowest on: OR with
+// random bits if it is set, else AND.
 uvec2 spots_standing(float spots, uint hash)
 {
     const uint share = uint(round((1.0 - exp(-spots)) * 64.0));
@@ -40,7 +41,7 @@ uvec2 spots_standing(float spots, uint hash)
     return share >= 64u ? uvec2(0xffffffffu) : bits;
 }
 
-// ---- a cell of the far map, packed
+// ---- a packed cell of the far map
 
 uint far_traits(uint material, float open_share, float level_share, float bump_um)
 {

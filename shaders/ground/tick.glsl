@@ -1,4 +1,4 @@
-// tick.glsl - what all of ground's shaders are told of a tick.
+// tick.glsl - data of the tick, for all shaders of ground.
 #define VIRGA_GLSL
 #include "shared/ground_gpu.h"
 

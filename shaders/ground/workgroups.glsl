@@ -1,4 +1,4 @@
-// workgroups.glsl - the number of a workgroup in passes over cells.
+// workgroups.glsl - number of the workgroup in passes over cells.
 
-// Of passes over cells: a device may take no more than 65,535 workgroups in a row, so they come in rows.
+// A device may allow no more than 65,535 workgroups in x, so passes over cells are dispatched in rows.
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
