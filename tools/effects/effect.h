@@ -10,6 +10,7 @@
 
 #include "exr.h"
 #include "jsonl.h"
+#include "options.h"
 #include "ply.h"
 #include "scene_schema.h"
 #include "shot_state.h"
@@ -115,6 +116,18 @@ typedef struct tool_budget {
     uint32_t row_count;
 } tool_budget;
 
+/* ---- virga bench */
+
+struct bench;
+
+typedef struct tool_bench {
+    const char *help; /* lines, each with its end */
+    const option_row *rows; /* its options */
+    size_t row_count;
+    bool (*check)(const options *parsed); /* its options, before a device is opened; may be NULL */
+    bool (*run)(struct bench *b, const options *parsed);
+} tool_bench;
+
 /* ---- the effect */
 
 typedef struct tool_effect {
@@ -178,6 +191,8 @@ typedef struct tool_effect {
     void (*write_stats)(shot *s, void *state, jsonl *stats);
     /* Sums over several effects, behind the objects of all. */
     void (*write_totals)(shot *s, void *state, jsonl *stats);
+
+    const tool_bench *bench;
 
     /* ---- virga view */
 

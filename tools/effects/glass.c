@@ -479,6 +479,7 @@ const tool_effect glass_effect = {
     .prepare = prepare,
     .points = &glass_points,
     .write_stats = write_stats,
+    .bench = &glass_bench,
     .title = "Panes",
     .print_entry = glass_print_entry,
     .lists_restart = true,

@@ -420,6 +420,7 @@ const tool_effect ground_effect = {
     .layer_count = sizeof layers / sizeof layers[0],
     .before_plate = before_plate,
     .write_totals = write_totals,
+    .bench = &ground_bench,
     .title = "Ground",
     .views = ground_views,
     .view_count = GROUND_VIEWS,

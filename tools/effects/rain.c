@@ -489,6 +489,8 @@ scene_rain *scene_rain_of(const scene_file *scene)
     return scene_file_section(scene, &rain_effect.scene);
 }
 
+extern const tool_bench rain_bench; /* rain/bench.c */
+
 const tool_effect rain_effect = {
     .name = "rain",
     .scene = {.group = SCENE_GROUP(scene_rain, rain_section), .check = check_rain},
@@ -506,6 +508,7 @@ const tool_effect rain_effect = {
     .prepare = prepare,
     .points = &points,
     .write_stats = write_stats,
+    .bench = &rain_bench,
     .title = "Rain",
     .main_setting = main_setting,
     .is_animated = is_animated,

@@ -316,6 +316,8 @@ scene_splash *scene_splash_of(const scene_file *scene)
     return scene_file_section(scene, &splash_effect.scene);
 }
 
+extern const tool_bench splash_bench; /* splash/bench.c */
+
 const tool_effect splash_effect = {
     .name = "splash",
     .scene = {.group = SCENE_GROUP(scene_splash, splash_section), .check = check_splash},
@@ -332,6 +334,7 @@ const tool_effect splash_effect = {
     .prepare = prepare,
     .points = &points,
     .write_stats = write_stats,
+    .bench = &splash_bench,
     .title = "Splashes",
     .counts = counts,
     .count_count = sizeof counts / sizeof counts[0],

@@ -71,6 +71,10 @@ bool glass_main_setting(const scene_file *scene, uint32_t index, char *path, siz
                         size_t caption_size);
 bool glass_fill_budget(const void *state, uint32_t index, tool_budget *budget);
 
+/* ---- bench.c */
+
+extern const tool_bench glass_bench;
+
 /* ---- points.c */
 
 extern const tool_points glass_points;

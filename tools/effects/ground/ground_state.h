@@ -11,6 +11,10 @@ typedef struct ground_state {
     virga_ground_material_map materials; /* likewise */
 } ground_state;
 
+/* ---- bench.c */
+
+extern const tool_bench ground_bench;
+
 /* ---- view.c */
 
 #define GROUND_VIEWS 4

@@ -1,6 +1,6 @@
 /* frames.c - `virga bench frames`: what a player would feel - how long a scene takes to start, with and without
  * what drivers remember, and how even its frames are. */
-#include "bench/bench.h"
+#include "bench/frames.h"
 #include "bench/spread.h"
 #include "options.h"
 #include "progress.h"
@@ -248,7 +248,7 @@ static void print_least(const quantity *q, const frame_times *runs, uint32_t cou
 
 static bool print_common(const quantity *q, const frame_times *runs, uint32_t count)
 {
-    const double *of[BENCH_MOST_PASSES];
+    const double *of[BENCH_MAX_PASSES];
     spread_common common;
     double *times = malloc((size_t)count * FRAMES * sizeof *times);
     for (uint32_t i = 0; times && i < count * FRAMES; i++)

@@ -1,7 +1,8 @@
-/* glass.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits
+/* bench.c - `virga bench glass`: a pane in the rain with two wipers, pass by pass, beside the machine's limits
  * and the 30 to 40 frames a second of Goto, Tanaka and Sagawa 2009 (3,000 metaballs, 1024 x 1024). */
 #include "bench/bench.h"
 #include "camera.h"
+#include "effect.h"
 #include "options.h"
 #include "progress.h"
 
@@ -218,11 +219,40 @@ static bool measure(bench *b, const struct row *row)
     return good;
 }
 
-bool bench_glass(bench *b, uint32_t only)
+static const option_row option_rows[] = {
+    {"--balls", 0, "N", "glass: measure the row of this many metaballs only: 3000, 10000 or 100000", false},
+};
+
+static bool read_balls(const options *parsed, uint32_t *balls)
 {
-    bool good = true;
+    *balls = 0;
+    if (!options_uint(parsed, "--balls", 3000, 100000, balls))
+        return false;
+    return !*balls || *balls == 3000 || *balls == 10000 || *balls == 100000 ||
+           options_complain("bench", "--balls: expected 3000, 10000 or 100000, got %u", *balls);
+}
+
+static bool check(const options *parsed)
+{
+    uint32_t balls;
+    return read_balls(parsed, &balls);
+}
+
+static bool run(bench *b, const options *parsed)
+{
+    uint32_t only;
+    bool good = read_balls(parsed, &only);
     for (size_t i = 0; good && !interrupt_asked() && i < sizeof rows / sizeof rows[0]; i++)
         if (!only || rows[i].balls == only)
             good = measure(b, &rows[i]);
     return good;
 }
+
+const tool_bench glass_bench = {
+    .help = "motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with\n"
+            "two wipers\n",
+    .rows = option_rows,
+    .row_count = sizeof option_rows / sizeof option_rows[0],
+    .check = check,
+    .run = run,
+};

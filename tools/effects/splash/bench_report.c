@@ -1,6 +1,6 @@
-/* splash_report.c - what is said of splashes: a table beside the paper's, and how far from limits passes are. */
+/* bench_report.c - what is said of splashes: a table beside the paper's, and how far from limits passes are. */
 #include "bench/machine_limits.h"
-#include "bench/splash.h"
+#include "splash/bench_splash.h"
 
 #include <math.h>
 #include <stdio.h>

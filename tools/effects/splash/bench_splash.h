@@ -1,8 +1,16 @@
-/* splash.h - what the files of `virga bench splash` share. */
+/* bench_splash.h - what the files of `virga bench splash` share. */
 #ifndef VIRGA_BENCH_SPLASH_H
 #define VIRGA_BENCH_SPLASH_H
 
 #include "bench/bench.h"
+
+/* What is measured. */
+typedef struct bench_splash_choice {
+    uint32_t only; /* splashes; 0: the usual numbers */
+    virga_splash_mode mode;
+    virga_splash_style style;
+    bool film_too; /* a short table in that style after the other */
+} bench_splash_choice;
 
 #define PICTURE      1 /* of bench_sizes */
 #define PAPER_COUNTS 4
@@ -78,15 +86,15 @@ typedef struct splash_bench_row {
     double paper_fps[PAPER_COUNTS];
 } splash_bench_row;
 
-/* ---- splash.c */
+/* ---- bench.c */
 
 extern const splash_bench_row splash_bench_rows[ROWS];
 extern const uint32_t splash_bench_counts[COUNTS]; /* of splashes; the first are the paper's */
 
-/* Complains with the bench's error; false. */
+/* Prints the bench's error. Returns false. */
 bool splash_bench_say(const bench *b, const char *what);
 
-/* ---- splash_picture.c: the picture, and what the machine does with it at best */
+/* ---- bench_picture.c: the picture, and what the machine does with it at best */
 
 bool splash_bench_open_picture(bench *b, picture *p);
 void splash_bench_close_picture(bench *b, picture *p);
@@ -97,7 +105,7 @@ enum { NOTHING, CLEAR, FILL, TINY, MISSING, FRAMES };
 bool splash_bench_time_frame(bench *b, const picture *p, int what, double *ms);
 void splash_bench_begin_picture(const picture *p, VkCommandBuffer cmd);
 
-/* ---- splash_run.c: splashes at a rate, and who of them is live */
+/* ---- bench_run.c: splashes at a rate, and who of them is live */
 
 void splash_bench_fill_view(virga_view *view);
 bool splash_bench_open_splash(run *r, double splashes, double droplets, double rate);
@@ -109,7 +117,7 @@ bool splash_bench_step(run *r, uint32_t spawns, double *ms);
 bool splash_bench_count_air(run *r, census *air);
 bool splash_bench_measure_life(run *r, splash_life *life);
 
-/* ---- splash_report.c: what is said of it, beside the paper and the machine's limits */
+/* ---- bench_report.c: what is said of it, beside the paper and the machine's limits */
 
 double splash_bench_frame_ms(const cell *c);
 void splash_bench_print_head(const bench_splash_choice *choice);

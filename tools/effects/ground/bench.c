@@ -1,5 +1,6 @@
-/* ground.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window. */
+/* bench.c - `virga bench ground`: a wet floor in heavy rain, at three sizes of window. */
 #include "bench/bench.h"
+#include "effect.h"
 #include "options.h"
 #include "progress.h"
 
@@ -103,8 +104,9 @@ static bool measure(bench *b, uint32_t cells)
     return true;
 }
 
-bool bench_ground(bench *b)
+static bool run(bench *b, const options *parsed)
 {
+    (void)parsed;
     static const uint32_t sides[] = {256, 1024, 2048};
     bool good = true;
     b->floor.ground = true;
@@ -113,3 +115,8 @@ bool bench_ground(bench *b)
         good = measure(b, sides[i]);
     return good;
 }
+
+const tool_bench ground_bench = {
+    .help = "landing, flow, ripples, maps and sums at 256^2 to 2048^2 cells in heavy rain\n",
+    .run = run,
+};

@@ -1,12 +1,13 @@
-/* splash.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by
+/* bench.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by
  * what they fall on), on from there to a million, and how far each pass is from what the machine can do.
  *
  * A splash is live from its impact until its last droplet is down. Live ones are rate x mean life (Little 1961): a
  * warm-up measures the life of a row's splashes, and the rate follows from it. How many were live is counted, not taken
  * for granted. */
-#include "bench/splash.h"
+#include "effect.h"
 #include "options.h"
 #include "progress.h"
+#include "splash/bench_splash.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -194,14 +195,60 @@ static bool open_untimed(bench *b, virga_context **context)
     return virga_context_create(&def, context) == VIRGA_OK || splash_bench_say(b, "the device was refused");
 }
 
-bool bench_splash(bench *b, const bench_splash_choice *choice)
+/* Whether the value of an option is the second of its two keywords; the first where it was not given. */
+static bool is_second_keyword(const options *parsed, const char *name, const char *first, const char *second,
+                              bool *is_second)
 {
+    const char *value = options_value(parsed, name);
+    *is_second = value && !strcmp(value, second);
+    return !value || *is_second || !strcmp(value, first) ||
+           options_complain("bench", "%s: expected %s or %s, got '%s'", name, first, second, value);
+}
+
+static bool read_choice(const options *parsed, bench_splash_choice *choice)
+{
+    bool physical, film;
+    *choice = (bench_splash_choice){0};
+    if (!options_uint(parsed, "--splashes", 1, 1000000, &choice->only) ||
+        !is_second_keyword(parsed, "--mode", "paper", "physical", &physical) ||
+        !is_second_keyword(parsed, "--style", "paper", "film", &film))
+        return false;
+    choice->mode = physical ? VIRGA_SPLASH_MODE_PHYSICAL : VIRGA_SPLASH_MODE_PAPER;
+    choice->style = film ? VIRGA_SPLASH_STYLE_FILM : VIRGA_SPLASH_STYLE_PAPER;
+    choice->film_too = !choice->only && !options_value(parsed, "--style");
+    return true;
+}
+
+static bool check(const options *parsed)
+{
+    bench_splash_choice choice;
+    return read_choice(parsed, &choice);
+}
+
+static bool run_bench(bench *b, const options *parsed)
+{
+    bench_splash_choice choice;
     virga_context *timed = b->context, *untimed = NULL;
-    if (!open_untimed(b, &untimed))
+    if (!read_choice(parsed, &choice) || !open_untimed(b, &untimed))
         return false;
     b->context = untimed;
-    const bool good = measure_tables(b, choice);
+    const bool good = measure_tables(b, &choice);
     b->context = timed;
     virga_context_destroy(&untimed);
     return good;
 }
+
+static const option_row option_rows[] = {
+    {"--splashes", 0, "N", "splash: measure this many live splashes only. Default: 100 to 1000000", false},
+    {"--mode", 0, "paper|physical", "splash: where counts and speeds come from. Default: paper", false},
+    {"--style", 0, "paper|film", "splash: how they are drawn. Default: paper, and some in film", false},
+};
+
+const tool_bench splash_bench = {
+    .help = "step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the\n"
+            "paper's\n",
+    .rows = option_rows,
+    .row_count = sizeof option_rows / sizeof option_rows[0],
+    .check = check,
+    .run = run_bench,
+};

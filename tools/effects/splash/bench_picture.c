@@ -1,5 +1,5 @@
-/* splash_picture.c - the picture that splashes are drawn into, and what the machine does with it at best. */
-#include "bench/splash.h"
+/* bench_picture.c - the picture that splashes are drawn into, and what the machine does with it at best. */
+#include "splash/bench_splash.h"
 
 /* machine_limits.c has the same arrays, and they are global. */
 #define fill_frag_spv splash_fill_frag_spv

@@ -1,5 +1,5 @@
-/* splash_run.c - splashes that come at a rate on a kind of ground, and who of them is live. */
-#include "bench/splash.h"
+/* bench_run.c - splashes that come at a rate on a kind of ground, and who of them is live. */
+#include "splash/bench_splash.h"
 
 #include <virga/shared/random.h>
 

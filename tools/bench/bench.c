@@ -1,0 +1,113 @@
+/* bench.c - a device to measure on, and what is timed there. */
+#include "bench/bench.h"
+
+#include "options.h"
+#include "progress.h"
+
+#include <string.h>
+
+const uint32_t bench_sizes[BENCH_SIZES][2] = {{640, 360}, {1280, 720}, {1920, 1080}};
+
+bool bench_fail(bench *b, const char *what)
+{
+    return options_complain("bench", "%s: %s", what, b->error);
+}
+
+static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipelines_when when)
+{
+    virga_context_def def = virga_default_context_def();
+    def.instance = b->instance.instance;
+    def.physical_device = b->device.physical;
+    def.device = b->device.device;
+    def.queue_family = b->device.queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = b->device.wide_lines;
+    def.pipeline_cache = blob;
+    def.pipeline_cache_size = blob_size;
+    def.pipelines = when;
+    return virga_context_create(&def, &b->context) == VIRGA_OK || options_complain("bench", "the device was refused");
+}
+
+bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipelines_when when)
+{
+    host_device_info infos[HOST_MAX_DEVICES];
+    uint32_t index;
+    char *error = b->error;
+    const size_t size = sizeof b->error;
+    if (!host_instance_create(&b->instance, false, error, size))
+        return bench_fail(b, "Vulkan");
+    const uint32_t count = host_devices_list(&b->instance, infos, HOST_MAX_DEVICES);
+    if (!host_device_pick(infos, count, device, &index, error, size) ||
+        !host_device_create(&b->device, &b->instance, &infos[index], error, size))
+        return bench_fail(b, "device");
+    b->info = infos[index];
+    static const float corners[4][3] = {{-200, 0, -200}, {200, 0, -200}, {200, 0, 200}, {-200, 0, 200}};
+    static const uint32_t order[6] = {0, 1, 2, 0, 2, 3};
+    if (!host_buffer_create_with(&b->device, corners, sizeof corners, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "floor",
+                                 &b->vertices, error, size) ||
+        !host_buffer_create_with(&b->device, order, sizeof order, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "floor indices",
+                                 &b->indices, error, size))
+        return bench_fail(b, "floor");
+    b->floor = (virga_occluder){.vertices = b->vertices.buffer,
+                                .vertex_stride = 12,
+                                .indices = b->indices.buffer,
+                                .index_type = VK_INDEX_TYPE_UINT32,
+                                .index_count = 6,
+                                .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    for (int i = 0; i < 3; i++)
+        if (!host_target_create(&b->device, bench_sizes[i][0], bench_sizes[i][1], &b->targets[i], error, size))
+            return bench_fail(b, "picture");
+    return open_context(b, blob, blob_size, when);
+}
+
+void bench_close(bench *b)
+{
+    virga_target_destroy(&b->layer);
+    virga_context_destroy(&b->context);
+    if (b->device.device) {
+        for (int i = 0; i < 3; i++)
+            if (b->targets[i].width)
+                host_target_destroy(&b->device, &b->targets[i]);
+        host_buffer_destroy(&b->device, &b->vertices);
+        host_buffer_destroy(&b->device, &b->indices);
+        host_device_destroy(&b->device);
+    }
+    if (b->instance.instance)
+        host_instance_destroy(&b->instance);
+    memset(b, 0, sizeof *b);
+}
+
+void bench_view(virga_view *view, uint32_t size)
+{
+    static const host_camera_key key = {.position_m = {0, 1.7, 0}, .look_at_m = {0, 2.2, -10}};
+    const host_camera_path path = {&key, 1, 50, 0.1, 1000};
+    host_camera camera;
+    host_camera_at(&path, 0, bench_sizes[size][0], bench_sizes[size][1], NULL, &camera);
+    *view = virga_default_view();
+    host_camera_view(&camera, &camera, 1.0 / 48, view);
+}
+
+double bench_pass_ms(const bench *b, const char *name)
+{
+    virga_pass_time times[32];
+    const uint32_t count = virga_timings_get(b->context, times, 32);
+    for (uint32_t i = 0; i < count; i++)
+        if (!strcmp(times[i].name, name))
+            return times[i].milliseconds;
+    return 0;
+}
+
+bool bench_submit(bench *b, double *milliseconds)
+{
+    const double start = progress_now();
+    if (!host_submit(&b->device, b->error, sizeof b->error) || !host_wait(&b->device, b->error, sizeof b->error))
+        return bench_fail(b, "submit");
+    *milliseconds = (progress_now() - start) * 1e3;
+    return virga_frame_completed(b->context, b->device.completed) == VIRGA_OK;
+}
+
+bool bench_begin(bench *b, VkCommandBuffer *cmd)
+{
+    return (host_begin_frame(&b->device, cmd, b->error, sizeof b->error) || bench_fail(b, "frame")) &&
+           virga_frame_begin(b->context, b->device.frame, b->device.completed) == VIRGA_OK;
+}
