@@ -1,6 +1,6 @@
-/* virga/light.h - the light that effects show in water: what is all around, and lamps. Knows no Vulkan.
+/* virga/light.h - the light that effects show in water: the environment, and lamps. Needs no Vulkan.
  *
- * Radiances are in the unit of the host's own picture. Thread-safety: any thread.
+ * Radiance is in the unit of the host's own picture. Thread-safety: any thread.
  */
 #ifndef VIRGA_LIGHT_H
 #define VIRGA_LIGHT_H
@@ -12,23 +12,36 @@
 extern "C" {
 #endif
 
-/* A light that glitters in water. It counts as 0.1 m wide: what is nearer is lit as there. */
+/* A lamp that glitters in water: a point light or a spot light. It counts as 0.1 m wide: water nearer than that is lit
+ * as at that distance. */
 typedef struct virga_light {
-    double position_m[3];  /* [-1e9; 1e9] */
-    float intensity[3];    /* radiant intensity in the host's radiance unit x m^2 (linear RGB), on the axis */
-    float range_m;         /* beyond it the light is zero, faded smoothly; 0: no end */
-    float direction[3];    /* (spot) where it points, any length; all zero: a point light */
-    float cos_inner, cos_outer; /* (spot) cosines of angles off its direction: full within the first, none beyond the
-                            * second, which is the smaller number. The other way round the edge is hard */
+    /* [-1e9; 1e9] position in the world. */
+    double position_m[3];
+
+    /* Radiant intensity on the axis (linear RGB), in the host's unit of radiance times m^2. */
+    float intensity[3];
+
+    /* Beyond this distance the light is zero; it fades smoothly before. 0: unlimited. */
+    float range_m;
+
+    /* (spot) Where it points, of any length. All zero: a point light. */
+    float direction[3];
+
+    /* (spot) Cosines of angles from its direction. Full light within the angle of cos_inner, none beyond that of
+     * cos_outer, which is the smaller number. If cos_outer is the larger one, the edge is hard. */
+    float cos_inner, cos_outer;
 } virga_light;
 
-/* All light of a place. A part of settings structs, so it has no size and cookie of its own. */
+/* All light at a place: a part of settings structs, so it has no size and cookie of its own. */
 typedef struct virga_lighting {
-    float environment_sh[9][3]; /* radiance of sky and scene around as spherical harmonics of degree 2 (RGB), in the
-                            * real orthonormal basis in the order of virga/shared/sh.h. Default: grey 0.5 above and 0.1
-                            * below */
+    /* Radiance of the sky and the scene around (RGB) as spherical harmonics of degree 2, in the real orthonormal basis
+     * and in the order of virga/shared/sh.h. Default: grey, 0.5 above and 0.1 below. */
+    float environment_sh[9][3];
+
     virga_light lights[VIRGA_MAX_LIGHTS];
-    uint32_t light_count;  /* [0; 16]. Default 0 */
+
+    /* [0; 16] lights in use. Default 0. */
+    uint32_t light_count;
 } virga_lighting;
 
 VIRGA_API virga_lighting virga_default_lighting(void);

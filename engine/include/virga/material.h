@@ -1,5 +1,7 @@
-/* virga/material.h - what surfaces are made of, by number: in virga_occluder.material, in impacts, and in the tables of
- * ground (what water does there) and splash (what drops do there). Knows no Vulkan. */
+/* virga/material.h - numbers of surface materials. Needs no Vulkan.
+ *
+ * They are used in virga_occluder.material, in impacts, in the ground's table (what water does on a material) and in
+ * the splash table (what drops do on a material). */
 #ifndef VIRGA_MATERIAL_H
 #define VIRGA_MATERIAL_H
 
@@ -7,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Materials that ground and splash have defaults for. A host may redefine all of them, or use the free ones. */
+/* Materials for which ground and splash have defaults. A host may change all of them, or use the free numbers. */
 typedef enum virga_material {
     VIRGA_MATERIAL_DEFAULT = 0, /* as concrete */
     VIRGA_MATERIAL_ASPHALT = 1,
@@ -26,7 +28,7 @@ typedef enum virga_material {
     VIRGA_MATERIAL_PLASTIC = 14,
     VIRGA_MATERIAL_TILE = 15,
     VIRGA_MATERIAL_DRAIN = 16,
-    VIRGA_MATERIAL_OWN = 17 /* this one and those above it, up to VIRGA_GROUND_MATERIALS - 1, are free */
+    VIRGA_MATERIAL_OWN = 17 /* first free number: from here to VIRGA_GROUND_MATERIALS - 1 they are the host's */
 } virga_material;
 
 #ifdef __cplusplus

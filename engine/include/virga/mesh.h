@@ -1,4 +1,4 @@
-/* virga/mesh.h - a host's triangles as the effects take them. */
+/* virga/mesh.h - a host's triangle meshes, as the effects use them. */
 #ifndef VIRGA_MESH_H
 #define VIRGA_MESH_H
 
@@ -8,28 +8,45 @@
 extern "C" {
 #endif
 
-/* A mesh with a field out of its range is refused, with all of the call that takes it; one of no indices is not drawn.
- * Offsets are multiples of 4, of 2 for UINT16 indices.
- * A host's triangle mesh (a list): what rain is sheltered by, lands on and wets; from both sides, however its triangles
- * wind. Buffers need VERTEX and INDEX usage and contents that vertex input can see; they live until the frame has
- * completed. */
+/* A triangle list of the host: rain is stopped by it, lands on it and wets it. Both sides count, whatever the winding.
+ *
+ * Buffers need VERTEX and INDEX usage, and contents that are visible to vertex input. They must live until the frame
+ * has completed. Offsets are multiples of 4, or of 2 for UINT16 indices. A field out of its range refuses the whole
+ * call that takes the mesh. A mesh without indices is not drawn. */
 typedef struct virga_occluder {
+    /* Positions: 3 floats at the start of each vertex. */
     VkBuffer vertices;
     VkDeviceSize vertex_offset;
-    uint32_t vertex_stride;    /* bytes between positions (3 floats at the start of each vertex); one of
-                                * the strides named at creation (def.occluder_strides) */
+
+    /* Bytes from one vertex to the next: one of the strides that were named at creation (def.occluder_strides). */
+    uint32_t vertex_stride;
+
     VkBuffer indices;
     VkDeviceSize index_offset;
-    VkIndexType index_type;    /* UINT16 or UINT32 */
+
+    /* UINT16 or UINT32. */
+    VkIndexType index_type;
     uint32_t index_count;
-    int32_t vertex_base;       /* added to each index */
-    float world_from_mesh[12]; /* [-1e9; 1e9] 3 x 4, row-major: three rows of rotation and translation (m). Axes that
-                                * are all 0 are refused */
-    uint32_t material;         /* [0; 255] given to impacts */
-    float cover;               /* [0; 1] share of the surface that stops drops; leaves about 0.6. 0 means 1 */
-    bool ground;               /* its upper side gets cells of the ground effect. Default false */
-    bool moves;                /* it leaves no dry place behind: ground beyond the window is not asked whether this
-                                * keeps rain off it. Cars, people; the camera's own car above all. Default false */
+
+    /* Added to each index. */
+    int32_t vertex_base;
+
+    /* [-1e9; 1e9] 3 x 4 matrix, row-major: three rows of rotation and translation (m). An axis of all zeros is
+     * refused. */
+    float world_from_mesh[12];
+
+    /* [0; 255] number that impacts on it get, see virga/material.h. */
+    uint32_t material;
+
+    /* [0; 1] share of the surface that stops drops; leaves about 0.6. 0 means 1. */
+    float cover;
+
+    /* The upper side gets cells of the ground effect. Default false. */
+    bool ground;
+
+    /* The mesh moves: cars, people, and above all the camera's own car. It then leaves no dry patch behind, because the
+     * ground beyond the window ignores it as shelter. Default false. */
+    bool moves;
 } virga_occluder;
 
 #ifdef __cplusplus
