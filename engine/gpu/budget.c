@@ -1,46 +1,46 @@
 /* gpu/budget.c - an effect that does not fit into what the memory budget has left is made with smaller pools.
  *
- * An estimate is an upper bound, and what is left is cut by pages; so an effect is simply tried, smaller each time,
- * until it fits. Pipelines come last in every create, so that a try costs the making of some buffers and no more. */
+ * An estimate would only be an upper bound, and pages fragment what is left. So an effect is simply created, smaller
+ * each time, until it fits. Every create makes its pipelines last, so an attempt costs no more than some buffers. */
 #include "gpu/budget.h"
 
 #include "gpu/context.h"
 
 #include <stdio.h>
 
-#define SHARE 0.75 /* of the size before, with each try: nine of them come down to a tenth */
+#define SHARE 0.75 /* of the previous size, with each attempt: a tenth after nine */
 
-/* The size of a pool at a share of what it was asked to be: a whole number of units, or a power of two. */
-static uint32_t size_at(const virga_pool *pool, uint32_t asked, double share)
+/* The size of a pool at a share of the requested size: a multiple of its unit, or a power of two. */
+static uint32_t size_at(const virga_pool *pool, uint32_t requested, double share)
 {
-    uint32_t size = (uint32_t)(asked * share), power = 1;
+    uint32_t size = (uint32_t)(requested * share), power = 1;
     while (power <= size / 2)
         power *= 2;
     size = pool->unit ? size / pool->unit * pool->unit : power;
-    size = size > pool->least ? size : pool->least;
-    return size < asked ? size : asked;
+    size = size > pool->min_size ? size : pool->min_size;
+    return size < requested ? size : requested;
 }
 
-/* Whether any of them would be smaller at that share than it is now. */
-static bool can_shrink(const virga_pool *pools, const uint32_t *asked, uint32_t count, double share)
+/* Whether any pool would be smaller at that share than it is now. */
+static bool can_shrink(const virga_pool *pools, const uint32_t *requested, uint32_t count, double share)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (size_at(&pools[i], asked[i], share) < *pools[i].size)
+        if (size_at(&pools[i], requested[i], share) < *pools[i].size)
             return true;
     return false;
 }
 
-/* False where nothing is smaller than it was asked to be. */
-static bool say_shrunk(const virga_context *context, const char *what, const virga_pool *pools, const uint32_t *asked,
-                       uint32_t count)
+/* Logs the pools that are smaller than requested. False if there are none. */
+static bool log_shrunk_pools(const virga_context *context, const char *what, const virga_pool *pools,
+                             const uint32_t *requested, uint32_t count)
 {
     char list[VIRGA_LOG_LINE];
     int at = 0;
     list[0] = 0;
     for (uint32_t i = 0; i < count && at < (int)sizeof list; i++)
-        if (*pools[i].size != asked[i])
+        if (*pools[i].size != requested[i])
             at += snprintf(list + at, sizeof list - (size_t)at, "%s%s %u (of %u)", at ? ", " : "", pools[i].name,
-                           *pools[i].size, asked[i]);
+                           *pools[i].size, requested[i]);
     if (at)
         virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_SHRUNK,
                       "%s is made smaller for the memory budget: %s", what, list);
@@ -51,17 +51,17 @@ virga_result virga_make_in_budget(virga_context *context, const char *what, cons
                                   virga_result (*make)(virga_context *context, const void *def, void **made),
                                   const void *def, void **made)
 {
-    uint32_t asked[VIRGA_MAX_POOLS];
+    uint32_t requested[VIRGA_MAX_POOLS];
     virga_result result;
     double share = 1;
     for (uint32_t i = 0; i < count; i++)
-        asked[i] = *pools[i].size;
+        requested[i] = *pools[i].size;
     for (;;) {
         for (uint32_t i = 0; i < count; i++)
-            *pools[i].size = share < 1 ? size_at(&pools[i], asked[i], share) : asked[i];
-        /* From here on some may have reached their least while others have steps to go. */
+            *pools[i].size = share < 1 ? size_at(&pools[i], requested[i], share) : requested[i];
+        /* Some pools may have reached their minimum already while others can still shrink. */
         share *= SHARE;
-        while (share > 1e-6 && !can_shrink(pools, asked, count, share))
+        while (share > 1e-6 && !can_shrink(pools, requested, count, share))
             share *= SHARE;
         context->making = true;
         context->over_budget = false;
@@ -72,7 +72,7 @@ virga_result virga_make_in_budget(virga_context *context, const char *what, cons
         if (!again)
             break;
     }
-    if (result < 0 || !say_shrunk(context, what, pools, asked, count))
+    if (result < 0 || !log_shrunk_pools(context, what, pools, requested, count))
         return result;
     return VIRGA_DEGRADED;
 }

@@ -9,7 +9,7 @@
 /* A size in an effect's definition that may be reduced. */
 typedef struct virga_pool {
     const char *name;
-    uint32_t *size, least;
+    uint32_t *size, min_size;
     uint32_t unit; /* the size stays a multiple of it; 0: a power of two */
 } virga_pool;
 

@@ -19,7 +19,7 @@ static const virga_feature required[] = {
     FEATURE_12(scalarBlockLayout, "structs shared by C and GLSL are laid out alike"),
 };
 
-/* Formats that must do what their use asks of them, with optimal tiling. */
+/* Formats and the features that their use needs, with optimal tiling. */
 static const struct {
     VkFormat format;
     VkFormatFeatureFlags features;

@@ -58,8 +58,8 @@ virga_result virga_functions_load_instance(virga_functions *functions, const vir
         return missing(log, #name);
     VIRGA_INSTANCE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
-    /* They belong to an extension of the instance, and only here is NULL what the host has not enabled: loaders give
-     * them for any device. */
+    /* They belong to an extension of the instance. Only vkGetInstanceProcAddr returns NULL if the host has not enabled
+     * it; for a device, loaders always return a function. */
 #define VIRGA_LOAD(name) functions->name = (PFN_vk##name)get(instance, "vk" #name);
     VIRGA_OPTIONAL_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD

@@ -1,7 +1,7 @@
 /* gpu/functions.h - the table of Vulkan entry points, all from the host's vkGetInstanceProcAddr. Internal.
  *
- * One line a function. Those of the second list may be missing. A function is asked for by its core name first and,
- * where that gives NULL, by its name with the suffix (a device may know it only as an extension's). */
+ * One line per function. Those of the last list may be missing. A function is looked up by its core name first and, if
+ * that is NULL, by its name with an extension's suffix. */
 #ifndef VIRGA_GPU_FUNCTIONS_H
 #define VIRGA_GPU_FUNCTIONS_H
 

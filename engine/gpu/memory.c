@@ -1,7 +1,7 @@
 /* gpu/memory.c - device memory: few large pages, suballocated first fit; or the host's callbacks.
  *
- * Buffers and images never share a page, so bufferImageGranularity needs no thought. A page keeps its free ranges in
- * order of offset; releasing merges neighbours, and an empty page is given back at once. */
+ * Buffers and images never share a page, so bufferImageGranularity does not matter. A page keeps its free ranges in
+ * order of offset; releasing merges neighbours, and an empty page is freed at once. */
 #include "gpu/memory.h"
 
 #include "gpu/context.h"
@@ -9,9 +9,10 @@
 
 #include <string.h>
 
-#define PAGE_BYTES  ((VkDeviceSize)32 << 20) /* requests above half of it get a page of their own size */
-#define PAGE_ROUND  ((VkDeviceSize)65536)
-#define PAGE_BUDGET 256 /* pages that a budget should hold at least, so that little of it lies in pages unused */
+#define PAGE_BYTES ((VkDeviceSize)32 << 20) /* requests above half of it get a page of their own size */
+#define PAGE_ROUND ((VkDeviceSize)65536)
+#define PAGE_BUDGET \
+    256 /* a budget should hold at least this many pages, so that little of it is unused space in pages */
 #define MAX_RANGES \
     256 /* free ranges a page remembers; beyond, a released range is lost to it
                                              * until the page is empty */
@@ -35,8 +36,8 @@ static bool type_fits(const virga_context *context, uint32_t index, uint32_t bit
     return (bits & (1u << index)) && (context->memory_properties.memoryTypes[index].propertyFlags & wanted) == wanted;
 }
 
-/* The first type with all that is wanted and preferred; else that the host reads through its cache where that is
- * preferred (whoever reads invalidates what is not coherent); else with all that is wanted. UINT32_MAX if none. */
+/* The first type with all wanted and preferred properties; else, if it is preferred, a cached one (readers invalidate
+ * memory that is not coherent); else the first with all wanted properties. UINT32_MAX if there is none. */
 static uint32_t choose_type(const virga_context *context, uint32_t bits, VkMemoryPropertyFlags wanted,
                             VkMemoryPropertyFlags preferred)
 {
@@ -54,7 +55,7 @@ static VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/* Cuts `size` out of the page; false where no range is large enough. */
+/* Takes `size` bytes from the page's free ranges; false where no range is large enough. */
 static bool page_take(virga_memory_page *page, VkDeviceSize size, VkDeviceSize alignment, VkDeviceSize *offset)
 {
     for (uint32_t i = 0; i < page->range_count; i++) {
@@ -160,14 +161,14 @@ error:
     return result;
 }
 
-/* What may be taken in all; 0: no limit. */
+/* Bytes that may be allocated in all; 0: no limit. */
 static VkDeviceSize budget_now(const virga_context *context)
 {
     const VkDeviceSize share = context->budget_share;
     return share && share < context->memory_budget ? share : context->memory_budget;
 }
 
-/* DEVICE_MEMORY where `size` more bytes would pass the budget. */
+/* VIRGA_ERROR_DEVICE_MEMORY where `size` more bytes would exceed the budget. */
 static virga_result check_budget(virga_context *context, VkDeviceSize size, const char *name)
 {
     const VkDeviceSize budget = budget_now(context), taken = context->device_bytes;
@@ -182,7 +183,7 @@ static virga_result check_budget(virga_context *context, VkDeviceSize size, cons
     return VIRGA_ERROR_DEVICE_MEMORY;
 }
 
-/* Size of the page to be made for a request. */
+/* Size of the new page for a request. */
 static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
 {
     const VkDeviceSize budget = budget_now(context), own = align_up(need, PAGE_ROUND);

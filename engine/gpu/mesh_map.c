@@ -1,5 +1,5 @@
 /* gpu/mesh_map.c - a host's meshes seen from above along parallel lines: height, normal and material of what comes
- * first. Rain asks it what shelters, ground asks it what there is to wet. */
+ * first. Rain reads from it what keeps rain off, ground reads what gets wet. */
 #include "gpu/mesh_map.h"
 
 #include "core/settings.h"
@@ -86,7 +86,7 @@ static virga_result create_pass(virga_context *context, virga_mesh_map *map)
                                           .colorAttachmentCount = 1,
                                           .pColorAttachments = &color,
                                           .pDepthStencilAttachment = &depth};
-    /* What read the maps before is done before they are cleared, and what reads them after waits for them. */
+    /* Earlier reads of the maps complete before they are cleared, and later reads wait for them. */
     const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                        VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;

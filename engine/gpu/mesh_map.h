@@ -23,7 +23,7 @@ typedef struct virga_mesh_map {
     VkRenderPass pass;
     VkFramebuffer framebuffers[VIRGA_MAP_MAX_LAYERS];
     VkPipelineLayout layout;
-    virga_pipeline *pipelines[2][VIRGA_MAP_STRIDES]; /* of meshes that cover all, and of those with holes */
+    virga_pipeline *pipelines[2][VIRGA_MAP_STRIDES]; /* for meshes without holes, and with */
 } virga_mesh_map;
 
 /* Where a layer looks, relative to an origin near it. */
@@ -45,14 +45,14 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
                                    virga_pipeline_group *group, virga_mesh_map **map);
 void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map);
 
-/* Layouts that descriptors promise, before anything was drawn. */
+/* Puts the images into the layouts that descriptors expect, before anything was drawn. */
 void virga_mesh_map_first_layouts(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map);
 
-/* Whether meshes can be drawn; logs what is wrong. */
+/* Checks meshes before they are drawn; logs what is wrong. */
 virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh_map *map, const virga_occluder *meshes,
                                   uint32_t count);
 
-/* Clears a layer and draws it. What reads the images after waits for it (compute). */
+/* Clears a layer and draws it, with a barrier for compute passes that read the images. */
 void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, uint32_t layer,
                          const virga_map_view *view, const virga_occluder *meshes, uint32_t count);
 

@@ -8,8 +8,8 @@
 
 #define BLOB_MAGIC UINT32_C(0x31637076) /* "vpc1" in a file */
 
-/* Stands before what the driver wrote. A driver believes what it is given, so that a file cut short or with a flipped
- * bit must be found out here. */
+/* The header in front of the driver's data. Drivers trust their data, so a truncated or damaged file must be detected
+ * here. */
 typedef struct blob_head {
     uint32_t magic;
     uint32_t size; /* of what follows */
@@ -36,7 +36,7 @@ static bool blob_is_whole(const void *blob, size_t size)
            head.hash == hash_bytes((const char *)blob + sizeof head, head.size);
 }
 
-/* Vulkan's own header says whose the data is: that of another driver must not reach this one. */
+/* Vulkan's own header identifies driver and device: data of another one must not be passed on. */
 static bool data_is_ours(const virga_context *context, const void *data, size_t size)
 {
     VkPipelineCacheHeaderVersionOne header;

@@ -20,7 +20,7 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
     virga_free(&context->heap, pipeline);
 }
 
-/* A pipeline of that name, built or asked for. Takes `code` over, which its definition may point to. */
+/* A pipeline of that name, built or requested. Takes ownership of `code`, which its definition may point to. */
 static virga_result pipeline_create(virga_context *context, const char *name, virga_pipeline_group *group,
                                     const virga_compute_def *compute, const virga_graphics_def *graphics,
                                     uint32_t *code, virga_pipeline **created)
@@ -48,10 +48,10 @@ virga_result virga_compute_pipeline_create(virga_context *context, const virga_c
     return pipeline_create(context, def->name, def->group, def, NULL, NULL, pipeline);
 }
 
-/* What shaders are specialised by; one that lacks a constant does without. */
+/* Specialisation constants; a shader may lack some. */
 typedef struct constants {
-    uint32_t own;         /* 0: of the shader, or of both that are a pipeline */
-    VkBool32 small_views; /* 1: see shaders/gpu/texels.glsl */
+    uint32_t own;         /* constant 0: of the compute shader, or of both shaders of a draw */
+    VkBool32 small_views; /* constant 1: see shaders/gpu/texels.glsl */
 } constants;
 
 static const VkSpecializationMapEntry constant_entries[] = {
@@ -120,8 +120,8 @@ void virga_compute_pipelines_retire(virga_context *context, const virga_compute_
         VIRGA_RETIRE(context, *rows[i].pipeline);
 }
 
-/* Everything about a graphics pipeline but its shaders. The state structs point into one another, so they live in
- * the caller's frame. */
+/* Everything about a graphics pipeline except its shaders. The structs point to each other, so they are on the
+ * caller's stack. */
 typedef struct graphics_state {
     VkVertexInputBindingDescription binding;
     VkVertexInputAttributeDescription attribute;
@@ -151,7 +151,7 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
         .alphaBlendOp = VK_BLEND_OP_ADD,
         .colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
-    /* A motion vector is taken or left, as its alpha is 1 or 0; masks lie over one another. */
+    /* A motion vector with alpha 1 replaces the old one, with 0 it does not; masks are blended over each other. */
     if (def->motion_attachment)
         state->attachments[def->motion_attachment] = (VkPipelineColorBlendAttachmentState){
             .blendEnable = VK_TRUE,
@@ -164,7 +164,7 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
                                                   .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
                                                   .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                                   .colorWriteMask = VK_COLOR_COMPONENT_R_BIT};
-    /* The others keep a write mask of zero, which is what the feature independentBlend is required for. */
+    /* The others keep a write mask of zero: for this the feature independentBlend is required. */
     state->blend =
         (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                               .attachmentCount = def->color_count,
@@ -212,7 +212,7 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
                                                         .pDynamicStates = state->dynamics};
 }
 
-/* What is drawn into, where no render pass says it. */
+/* The formats of dynamic rendering, where there is no render pass. */
 static void describe_rendering(const virga_graphics_def *def, graphics_state *state)
 {
     state->rendering = (VkPipelineRenderingCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
@@ -281,7 +281,7 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
 #define LOCATION_MOTION   1
 #define LOCATION_REACTIVE 2
 
-/* Of the SPIR-V specification: words of the header, opcodes, a decoration and a storage class. */
+/* From the SPIR-V specification: length of the header, opcodes, a decoration and a storage class. */
 enum { SPIRV_HEADER_WORDS = 5, OP_VARIABLE = 59, OP_DECORATE = 71, LOCATION = 30, OUTPUT = 3 };
 
 static bool is_output(const uint32_t *code, size_t words, uint32_t id)
@@ -292,8 +292,8 @@ static bool is_output(const uint32_t *code, size_t words, uint32_t id)
     return false;
 }
 
-/* Vulkan can not specialise locations, and which attachment of a pass gets what is the host's: they are changed in the
- * code itself. It is ours, so that all of its instructions are whole. */
+/* The host decides which attachment gets which output, but Vulkan can not specialise locations. So they are patched in
+ * the SPIR-V, which needs no check because it is our own. */
 static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t words)
 {
     for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16) {

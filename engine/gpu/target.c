@@ -20,7 +20,7 @@ virga_target_def virga_default_target_def(void)
                               .depth_attached = true};
 }
 
-/* What is given must be a format that this device can draw into so: `what` says how. */
+/* A given format must support the use that `what` describes on this device. */
 static virga_result check_format(const virga_context *context, const char *name, VkFormat format,
                                  VkFormatFeatureFlags wanted, const char *what)
 {
@@ -35,7 +35,7 @@ static virga_result check_format(const virga_context *context, const char *name,
                                 (int)format);
 }
 
-/* An attachment for motion vectors or the reactive mask: one of the pass, not the colour's, and blended. */
+/* An attachment for motion vectors or the reactive mask: one of the pass, not that of the colour, and blendable. */
 static virga_result check_extra(virga_context *context, const virga_target_def *def, uint32_t index, const char *name)
 {
     if (!index)
@@ -47,9 +47,9 @@ static virga_result check_extra(virga_context *context, const virga_target_def *
     if (format == VK_FORMAT_UNDEFINED && def->kind == VIRGA_TARGET_DYNAMIC)
         return virga_wrong_argument(&context->log, "target_def.color_formats[%u]: expected a format for %s, got none",
                                     index, name);
-    char place[32];
-    snprintf(place, sizeof place, "color_formats[%u]", index);
-    return check_format(context, place, format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, "blend");
+    char member[32];
+    snprintf(member, sizeof member, "color_formats[%u]", index);
+    return check_format(context, member, format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, "blend");
 }
 
 static virga_result check_extras(virga_context *context, const virga_target_def *def)
@@ -65,7 +65,7 @@ static virga_result check_extras(virga_context *context, const virga_target_def 
     return check_extra(context, def, def->reactive_attachment, "reactive_attachment");
 }
 
-/* Without this a pipeline is asked for that cannot be, which few drivers say. */
+/* Otherwise a pipeline that can not work would be created, which few drivers report. */
 static virga_result check_formats(const virga_context *context, const virga_target_def *def)
 {
     virga_result result = check_format(context, "color_formats[0]", def->color_formats[0],

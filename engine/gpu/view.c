@@ -13,8 +13,8 @@
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
 
-/* Of the first two diagonal elements of a projection, the cotangents of half the angles that it sees: from 179.99
- * degrees to a tenth of a microradian. Larger elements have no use, and their products leave the range of floats. */
+/* Limits of the first two diagonal elements of a projection, the cotangents of half its field of view: from 179.99
+ * degrees to a tenth of a microradian. Larger elements are useless, and their products exceed the range of floats. */
 #define LEAST_PROJECTION 1e-4f
 #define MOST_PROJECTION  1e7f
 #define MOST_TIME_S      1e9
@@ -32,8 +32,7 @@ virga_view virga_default_view(void)
     return view;
 }
 
-/* A projection with w = -z: finite, and neither a point nor endless in what it sees, so that rays can
- * be had from it. */
+/* A projection with w = -z that is finite and has a sensible field of view, so that rays can be computed from it. */
 static virga_result check_projection(const virga_log *log, const char *name, const float p[16])
 {
     bool sound = p[11] == -1;
@@ -61,7 +60,7 @@ static virga_result check_camera(const virga_log *log, const virga_view *view)
     return VIRGA_OK;
 }
 
-/* An image of the host's, if there is one. */
+/* An image of the host, if it is given. */
 static virga_result check_image(const virga_log *log, const char *name, const virga_image *image)
 {
     if (!image->image != !image->view)
@@ -86,7 +85,7 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     const float *scale = temporal->motion_scale;
     bool given = false; /* all zero: the open camera */
     for (int i = 0; i < 16; i++)
-        given = given || temporal->clip_from_view[i] != 0; /* not a number, too */
+        given = given || temporal->clip_from_view[i] != 0; /* also true for NaN */
     if (given && (virga_settings_places(log, "view.temporal.position_m", temporal->position_m, 3) ||
                   virga_settings_rotation(log, "view.temporal.view_from_world", temporal->view_from_world, 4) ||
                   check_projection(log, "view.temporal.clip_from_view", temporal->clip_from_view)))
@@ -108,7 +107,7 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     return VIRGA_OK;
 }
 
-/* What Vulkan allows for one of this device. */
+/* Limits of Vulkan for a viewport on this device. */
 static virga_result check_viewport(const virga_context *context, const float box[4])
 {
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
@@ -208,7 +207,7 @@ static void fill_lights(const virga_lighting *lighting, const double camera[3], 
         }
         to->inv_range = light->range_m > 0 ? 1 / light->range_m : 0;
         const float width = light->cos_inner - light->cos_outer;
-        /* A point light has no cone: a cosine that is always passed. */
+        /* A point light has no cone: every cosine passes. */
         to->cos_outer = length > 0 ? light->cos_outer : -2;
         to->inv_cos_width = length > 0 && width > 1e-4f ? 1 / width : 1e4f;
     }
@@ -234,7 +233,7 @@ static void fill_matrices(const virga_view *view, virga_view_gpu *out)
 {
     const double none[3] = {0, 0, 0};
     clip_from_relative(view->clip_from_view, view->view_from_world, none, out->clip_from_rel);
-    /* The open camera may be another time away than the shutter: take the part of its way that the shutter sees. */
+    /* The open camera may be at another time than the shutter opens: use the part of its motion within the shutter. */
     const double share = view->open_camera_s > 0 ? view->shutter_s / view->open_camera_s : view->shutter_s > 0 ? 1 : 0;
     double moved[3];
     for (int i = 0; i < 3; i++)

@@ -6,19 +6,18 @@
 #include <virga/shared/view_gpu.h>
 #include <virga/vulkan.h>
 
-/* VIRGA_OK; VIRGA_ERROR_INVALID with a line for what is not a view, or not a time; VIRGA_NOT_READY with a line for a
- * viewport of no pixels. */
+/* VIRGA_OK; VIRGA_ERROR_INVALID, logged, for an invalid view or time; VIRGA_NOT_READY, logged, for a viewport without
+ * pixels. */
 virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s);
 
-/* Whether the camera of the previous frame is given; else it is the open one. */
+/* Whether the host gave the previous frame's camera; otherwise the open camera is used. */
 bool virga_view_has_previous(const virga_view *view);
 
-/* Where the camera of the previous frame was, and clip coordinates of positions relative to it. */
+/* The position of the previous frame's camera, and the transform of positions relative to it to clip coordinates. */
 void virga_view_previous(const virga_view *view, double position_m[3], float clip_from_rel[16]);
 
-/* What a view sees at `time_s` of a state that is of `state_s` and has positions relative to `origin_m`. View and
- * lighting have been checked. Writes all of *out; what is marked (look) there gets neutral values, which the effect
- * replaces by those of its own settings. */
+/* Fills the GPU's view: at `time_s`, of a state at `state_s` whose positions are relative to `origin_m`. View and
+ * lighting are valid. Members marked (look) get neutral values, which the effect replaces by its settings. */
 void virga_view_fill(const virga_view *view, const virga_lighting *lighting, const double origin_m[3], double state_s,
                      double time_s, virga_view_gpu *out);
 
