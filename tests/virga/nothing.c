@@ -1,5 +1,5 @@
-/* nothing.c - an effect that does nothing, with one setting, one layer, one pass and one statistic: all that the program
- * has to know of a new effect. Its pass counts steps in a buffer on the device; its layer stays empty. */
+/* nothing.c - an effect that does nothing, with one setting, one layer, one pass and one statistic: all that the
+ * program has to know of a new effect. Its pass counts steps in a buffer on the device; its layer stays empty. */
 #include "effect.h"
 #include "scene_rows.h"
 

@@ -1,7 +1,7 @@
 /* effect.h - what the program knows of an effect, as one table.
  *
- * Every effect has one file here that defines its table, and one entry in the list in meson.build. Everything else walks
- * the tables: no other file of the program has to know a new effect. All but `name` may be left out.
+ * Every effect has one file here that defines its table, and one entry in the list in meson.build. Everything else
+ * walks the tables: no other file of the program has to know a new effect. All but `name` may be left out.
  *
  * Functions get the effect's own state, which is all zero when a shot opens. They are called for effects that the scene
  * does not use too, unless it says otherwise. Those that return bool write one line into `error` where they fail. */
@@ -121,7 +121,7 @@ typedef struct tool_budget {
 struct bench;
 
 typedef struct tool_bench {
-    const char *help; /* lines, each with its end */
+    const char *help;       /* lines, each with its end */
     const option_row *rows; /* its options */
     size_t row_count;
     bool (*check)(const options *parsed); /* its options, before a device is opened; may be NULL */

@@ -5,9 +5,9 @@
 #include "ply.h"
 
 /* Members of a struct of a row. */
-#define POINT_MEMBERS                            \
-    float position[3], velocity[3], radius_m;    \
-    uint32_t id;                                 \
+#define POINT_MEMBERS                         \
+    float position[3], velocity[3], radius_m; \
+    uint32_t id;                              \
     float age_s
 
 /* The columns of such a struct. */

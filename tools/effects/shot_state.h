@@ -1,4 +1,5 @@
-/* shot_state.h - a scene file on a device, as the effects of the program see it. What is done with it: tools/virga/shot. */
+/* shot_state.h - a scene file on a device, as the effects of the program see it. tools/virga/shot opens, steps and
+ * draws it. */
 #ifndef VIRGA_EFFECTS_SHOT_STATE_H
 #define VIRGA_EFFECTS_SHOT_STATE_H
 
@@ -59,19 +60,19 @@ typedef struct shot {
 
     virga_context *context;
     virga_scene *simulation;
-    virga_lighting lighting; /* lamps and sky of the scene */
+    virga_lighting lighting;        /* lamps and sky of the scene */
     void *states[SHOT_MAX_EFFECTS]; /* of each effect, see tool_effect.state_size */
     shot_layer layers[HOST_MAX_LAYERS];
     uint32_t layer_count;
     virga_target *layer_target;  /* what effects draw into, each into layers of its own */
     virga_target *moving_target; /* of the pass that draws the velocity of water; NULL where it is not wanted */
 
-    struct plate *plate;      /* NULL: none */
-    host_buffer plate_buffer; /* its pixels on their way to the device */
-    uint32_t frame_index;     /* scene frame that the simulation stands at; first - 1 before any */
-    uint32_t preroll;         /* frames of the scene's pre-roll that are still to come */
-    bool began;               /* time has begun, with the first step */
-    double camera_time_s;     /* of the frame that the simulation stands at */
+    struct plate *plate;         /* NULL: none */
+    host_buffer plate_buffer;    /* its pixels on their way to the device */
+    uint32_t frame_index;        /* scene frame that the simulation stands at; first - 1 before any */
+    uint32_t preroll;            /* frames of the scene's pre-roll that are still to come */
+    bool began;                  /* time has begun, with the first step */
+    double camera_time_s;        /* of the frame that the simulation stands at */
     host_camera_key eye_keys[2]; /* (live) a camera of its own that replaces the path: a frame ago, and now */
     bool eye_free;               /* it is in use */
     char warning[512];           /* newest line that the library logged as warning or error */

@@ -30,7 +30,7 @@ static bool read_picture(const scene_file *scene, const char *key, const char *f
 
 /* A height map of bumps in metres, rows from below: needs free(). NULL where the pane has none. */
 static bool read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, float **bumps_m,
-                     char *error, size_t error_size)
+                       char *error, size_t error_size)
 {
     const scene_bumps *from = &scene_glass_of(scene)->panes[pane].bumps;
     char key[64];
@@ -52,7 +52,7 @@ static bool read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns
 
 /* Where it has no glass is 0, rows from below: needs free(). NULL where it has no such picture. */
 static bool read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, uint8_t **mask,
-                    char *error, size_t error_size)
+                      char *error, size_t error_size)
 {
     char key[64];
     uint8_t *numbers;
@@ -210,8 +210,8 @@ bool glass_create_shape(shot *s, glass_pane *pane, uint32_t index, char *error, 
     if (!meshed)
         virga_glass_windshield((float)from->width_m, (float)from->height_m, bent ? (float)from->rake_deg : 0,
                                bent ? (float)from->bend_m : 0, pane->columns, pane->rows, pane->positions);
-    const bool made =
-        (!meshed || shape_of_mesh(s, pane, index, mask, error, error_size)) && set_shape(s, pane, index, mask, error, error_size);
+    const bool made = (!meshed || shape_of_mesh(s, pane, index, mask, error, error_size)) &&
+                      set_shape(s, pane, index, mask, error, error_size);
     free(mask);
     return made;
 }

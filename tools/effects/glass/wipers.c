@@ -103,7 +103,7 @@ static void put_frame(maker *m)
                 const double(*c)[2] = out ? beyond : corners;
                 double point[3], normal[3], inward[3];
                 glass_point(m->pane, c[side][0] + t * (c[side + 1][0] - c[side][0]),
-                                c[side][1] + t * (c[side + 1][1] - c[side][1]), point, normal);
+                            c[side][1] + t * (c[side + 1][1] - c[side][1]), point, normal);
                 for (int i = 0; i < 3; i++)
                     inward[i] = -normal[i];
                 put(m, point, inward);

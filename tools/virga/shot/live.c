@@ -18,8 +18,7 @@ bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *ca
 {
     const bool first = !s->began; /* the state is filled, no time passes */
     const double time_s = s->camera_time_s + (first ? 0 : dt_s);
-    if (!follow_scene(s, error, error_size) ||
-        !shot_record_time(s, cmd, time_s, first ? 0 : dt_s, error, error_size) ||
+    if (!follow_scene(s, error, error_size) || !shot_record_time(s, cmd, time_s, first ? 0 : dt_s, error, error_size) ||
         !shot_record_sample(s, cmd, 0, time_s, error, error_size))
         return false;
     s->began = true;

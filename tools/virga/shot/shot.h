@@ -1,4 +1,5 @@
-/* shot.h - a scene file on a device: what the commands step and draw, frame by frame. The struct: effects/shot_state.h. */
+/* shot.h - a scene file on a device: what the commands step and draw, frame by frame. The struct is in
+ * effects/shot_state.h. */
 #ifndef VIRGA_TOOL_SHOT_H
 #define VIRGA_TOOL_SHOT_H
 

@@ -61,8 +61,7 @@ bool shot_open_effects(shot *s, char *error, size_t error_size)
     for (uint32_t i = 0; tool_effects[i]; i++)
         if (tool_effects[i]->open && !tool_effects[i]->open(s, s->states[i], error, error_size))
             return false;
-    return !s->options.draw ||
-           (shot_resize_effects(s, error, error_size) && attach_targets(s, error, error_size));
+    return !s->options.draw || (shot_resize_effects(s, error, error_size) && attach_targets(s, error, error_size));
 }
 
 void shot_close_effects(shot *s)

@@ -61,7 +61,10 @@ vec3 layer_color(vec4 texel)
     return to_display(clamp(texel.rgb * view.picture.z + grey * (1.0 - texel.a), 0.0, 1.0));
 }
 
-vec3 offset_color(vec4 offset) { return mix(vec3(0.05), vec3(0.5 + offset.xy / (2.0 * view.picture.xy), 0.5), offset.a); }
+vec3 offset_color(vec4 offset)
+{
+    return mix(vec3(0.05), vec3(0.5 + offset.xy / (2.0 * view.picture.xy), 0.5), offset.a);
+}
 
 vec3 depth_color(ivec2 texel)
 {
