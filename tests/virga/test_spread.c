@@ -67,7 +67,7 @@ static void quantiles_of_a_row_of_numbers(void **state)
     for (uint32_t i = 0; i < FRAMES; i++)
         times[0][i] = (i * 7 + 3) % FRAMES; /* 0 to 1999 in a mixed order */
     const spread s = spread_of(times[0], FRAMES, sorted);
-    assert_true(s.median == 1000 && s.most_of_100 == 1980 && s.most_of_1000 == 1998 && s.worst == 1999);
+    assert_true(s.median == 1000 && s.percent_99 == 1980 && s.percent_99_9 == 1998 && s.max == 1999);
 }
 
 static void noise_of_the_machine_is_not_the_frames_own(void **state)
@@ -76,7 +76,7 @@ static void noise_of_the_machine_is_not_the_frames_own(void **state)
     make_runs(nothing);
     const spread_common common = find_common(RUNS);
     assert_true(common.seen > 0.06);
-    assert_true(common.own < common.least);
+    assert_true(common.own < common.noise);
 }
 
 static void what_every_fourth_frame_has_more_is_found(void **state)
@@ -86,7 +86,7 @@ static void what_every_fourth_frame_has_more_is_found(void **state)
     for (uint32_t runs = 2; runs <= RUNS; runs++) {
         const spread_common common = find_common(runs);
         assert_true(fabs(common.own - 0.1 * sqrt(3) / 4) < 0.1 * 0.1);
-        assert_true(common.own > 2 * common.least);
+        assert_true(common.own > 2 * common.noise);
     }
 }
 

@@ -46,7 +46,7 @@ static bool unknown(const options *parsed, const char *text, size_t length)
 }
 
 /* Takes the option at argv[*at], with its value from behind '=' or from the next argument. */
-static bool take_option(options *parsed, int argc, char **argv, int *at)
+static bool read_option(options *parsed, int argc, char **argv, int *at)
 {
     const char *text = argv[*at], *equals = strchr(text, '=');
     const size_t length = equals ? (size_t)(equals - text) : strlen(text);
@@ -83,7 +83,7 @@ bool options_parse(options *parsed, const char *command, const option_row *rows,
     parsed->row_count = row_count;
     for (int i = 0; i < argc; i++) {
         if (argv[i][0] == '-' && argv[i][1]) {
-            if (!take_option(parsed, argc, argv, &i))
+            if (!read_option(parsed, argc, argv, &i))
                 return false;
         } else if (parsed->argument_count == sizeof parsed->arguments / sizeof parsed->arguments[0]) {
             return options_complain(command, "too many arguments from '%s' on", argv[i]);

@@ -70,7 +70,7 @@ static void on_signal(int signal_number)
         return;
     }
     asked = 1;
-    static const char line[] = "\nvirga: finishing the work in hand; once more to stop at once\n";
+    static const char line[] = "\nvirga: stopping after the current frame; press again to stop at once\n";
     if (write(STDERR_FILENO, line, sizeof line - 1) < 0)
         return;
 }

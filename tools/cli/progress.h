@@ -1,4 +1,4 @@
-/* progress.h - how far a long work is: a bar with the time left on a terminal, plain lines elsewhere; and Ctrl-C. */
+/* progress.h - progress of long work: a bar with the time left on a terminal, plain lines elsewhere; and Ctrl-C. */
 #ifndef VIRGA_TOOL_PROGRESS_H
 #define VIRGA_TOOL_PROGRESS_H
 
@@ -21,7 +21,7 @@ void progress_end(progress *p);
 /* Seconds on a clock that only goes forward. */
 double progress_now(void);
 
-/* Ctrl-C and SIGTERM: the first asks to stop after the work in hand, the second ends the program at once. */
+/* Ctrl-C and SIGTERM: the first requests a stop after the current frame, the second ends the program at once. */
 void interrupt_install(void);
 bool interrupt_asked(void);
 

@@ -10,11 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_WARMUP 600 /* ticks in which a pane gets wet enough */
-#define AIM_WARMUP  60  /* ticks after which it has to rain harder for that */
-#define LEAST_MM_H  1.0f
-#define PAPER_LOW   30
-#define PAPER_HIGH  40
+#define MAX_WARMUP 600 /* ticks in which a pane gets wet enough */
+#define AIM_WARMUP 60  /* ticks after which it has to rain harder for that */
+#define MIN_MM_H   1.0f
+#define PAPER_LOW  30
+#define PAPER_HIGH 40
 
 enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, PASSES };
 
@@ -123,7 +123,7 @@ static bool frame(bench *b, pane *p)
 }
 
 /* Of the newest frame. Motion is all that has another name than the picture's passes. */
-static void take_times(const bench *b, double ms[PASSES])
+static void read_times(const bench *b, double ms[PASSES])
 {
     virga_pass_time times[64];
     const uint32_t count = virga_timings_get(b->context, times, 64);
@@ -142,8 +142,8 @@ static void take_times(const bench *b, double ms[PASSES])
 static bool get_wet(bench *b, pane *p, uint32_t balls, virga_glass_stats *stats)
 {
     bool good = true;
-    p->rate_mm_h = balls > 50000 ? 100 : LEAST_MM_H;
-    for (int i = 1; good && i <= MOST_WARMUP && stats->balls < balls && !interrupt_asked(); i++) {
+    p->rate_mm_h = balls > 50000 ? 100 : MIN_MM_H;
+    for (int i = 1; good && i <= MAX_WARMUP && stats->balls < balls && !interrupt_asked(); i++) {
         good = frame(b, p);
         virga_glass_stats_get(p->glass, stats);
         if (i % AIM_WARMUP == 0)
@@ -175,7 +175,7 @@ static bool measure_style(bench *b, const struct row *row, pane *p, virga_glass_
     bool good = set_pane(p, row, style);
     for (int i = -2; good && i < BENCH_RUNS; i++) {
         good = frame(b, p);
-        take_times(b, one);
+        read_times(b, one);
         for (int j = 0; j < PASSES && i >= 0; j++)
             times[j][i] = one[j];
     }

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OCCLUSION_TURNS 4
+#define OCCLUSION_INTERVAL 4
 
 /* How long the shutter is open: streaks are as long as drops fall in that time. */
 enum { SHUTTER_DEFAULT, SHUTTER_FILM, SHUTTERS };
@@ -26,7 +26,7 @@ typedef struct draw_result {
 /* What one count of drops costs, in milliseconds. */
 typedef struct bench_result {
     uint32_t slots;
-    double copy, bare, dispatch, step, impacts, occlusion, occlusion_by_turns, shutter_s[SHUTTERS];
+    double copy, bare, dispatch, step, impacts, occlusion, occlusion_by_interval, shutter_s[SHUTTERS];
     draw_result draws[BENCH_SIZES];
 } bench_result;
 
@@ -69,21 +69,21 @@ static bool run_step(rain_run *r, double *step, double *impacts, double *occlusi
 
 static bool measure_step(rain_run *r, bench_result *result)
 {
-    double step[BENCH_RUNS], impacts[BENCH_RUNS], occlusion[BENCH_RUNS], by_turns[BENCH_RUNS], other[2];
+    double step[BENCH_RUNS], impacts[BENCH_RUNS], occlusion[BENCH_RUNS], by_interval[BENCH_RUNS], other[2];
     for (int i = -2; i < BENCH_RUNS; i++) {
         const int at = i < 0 ? 0 : i;
         if (!run_step(r, &step[at], &impacts[at], &occlusion[at]))
             return false;
     }
-    if (!set_rain(r, OCCLUSION_TURNS))
+    if (!set_rain(r, OCCLUSION_INTERVAL))
         return false;
     for (int i = 0; i < BENCH_RUNS; i++)
-        if (!run_step(r, &other[0], &other[1], &by_turns[i]))
+        if (!run_step(r, &other[0], &other[1], &by_interval[i]))
             return false;
     result->step = bench_median(step, BENCH_RUNS);
     result->impacts = bench_median(impacts, BENCH_RUNS);
     result->occlusion = bench_median(occlusion, BENCH_RUNS);
-    result->occlusion_by_turns = bench_median(by_turns, BENCH_RUNS);
+    result->occlusion_by_interval = bench_median(by_interval, BENCH_RUNS);
     return set_rain(r, 1);
 }
 
@@ -177,7 +177,7 @@ static void print_result(const bench_result *r)
     printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
            r->impacts * 1e6 / r->slots);
     printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)  %8.3f in %d turns\n", r->occlusion,
-           r->occlusion_by_turns, OCCLUSION_TURNS);
+           r->occlusion_by_interval, OCCLUSION_INTERVAL);
     for (int i = 0; i < BENCH_SIZES; i++) {
         const draw_result *d = &r->draws[i];
         printf("  %4u x %-4u prepare %8.3f ms %6.2f ns a drop;  fill of the picture %.3f ms\n", bench_sizes[i][0],

@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_TICKS  60 /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
+#define MAX_TICKS   60 /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
 #define USUAL_TICKS 30
-#define LEAST_TICKS 3
+#define MIN_TICKS   3
 #define ENOUGH_S    2.0
 #define PATIENCE_S  10.0
 
@@ -29,7 +29,7 @@ const splash_bench_row splash_bench_rows[ROWS] = {
     {"crown-cone", VIRGA_GROUND_PUDDLE_10, 15e-3f, {534.73, 222.22, 124.38, 45.35}},
 };
 
-bool splash_bench_say(const bench *b, const char *what)
+bool splash_bench_fail(const bench *b, const char *what)
 {
     return options_complain("bench", "splash: %s%s%s", what, b->error[0] ? ": " : "", b->error);
 }
@@ -37,7 +37,7 @@ bool splash_bench_say(const bench *b, const char *what)
 /* ---- timing */
 
 typedef struct tick_times {
-    double empty[MOST_TICKS], clear[MOST_TICKS], step[MOST_TICKS], prepare[MOST_TICKS], draw[MOST_TICKS];
+    double empty[MAX_TICKS], clear[MAX_TICKS], step[MAX_TICKS], prepare[MAX_TICKS], draw[MAX_TICKS];
 } tick_times;
 
 /* A frame with the picture cleared, with or without splashes on it. */
@@ -50,12 +50,12 @@ static bool show(run *r, bool draw, bool count, double *ms)
     if (count)
         vkCmdResetQueryPool(cmd, p->query, 0, 1);
     if (virga_splash_prepare(r->splash, cmd, &r->view, virga_splash_time(r->splash)) != VIRGA_OK)
-        return splash_bench_say(r->b, "a prepare failed");
+        return splash_bench_fail(r->b, "a prepare failed");
     splash_bench_begin_picture(p, cmd);
     if (count)
         vkCmdBeginQuery(cmd, p->query, 0, 0);
     if (draw && virga_splash_draw(r->splash, cmd, p->target) != VIRGA_OK)
-        return splash_bench_say(r->b, "a draw failed");
+        return splash_bench_fail(r->b, "a draw failed");
     if (count)
         vkCmdEndQuery(cmd, p->query, 0);
     vkCmdEndRenderPass(cmd);
@@ -77,12 +77,12 @@ static bool time_ticks(run *r, cell *c)
     tick_times t;
     uint32_t n = 0;
     const double start = progress_now();
-    while (n < MOST_TICKS && !interrupt_asked()) {
+    while (n < MAX_TICKS && !interrupt_asked()) {
         if (!time_tick(r, &t, n))
             return false;
         n++;
         const double passed = progress_now() - start;
-        if ((n >= USUAL_TICKS && passed > ENOUGH_S) || (n >= LEAST_TICKS && passed > PATIENCE_S))
+        if ((n >= USUAL_TICKS && passed > ENOUGH_S) || (n >= MIN_TICKS && passed > PATIENCE_S))
             break;
     }
     const double empty = bench_median(t.empty, n), clear = bench_median(t.clear, n),
@@ -103,12 +103,12 @@ static bool look_around(run *r, cell *c)
         return false;
     if (vkGetQueryPoolResults(r->b->device.device, r->picture.query, 0, 1, sizeof c->pixels, &c->pixels, 8,
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT) != VK_SUCCESS)
-        return splash_bench_say(r->b, "pixels could not be counted");
+        return splash_bench_fail(r->b, "pixels could not be counted");
     virga_splash_stats_get(r->splash, &c->stats);
     c->splashes = r->next_id;
     c->max_droplets = r->max_droplets;
     if (!c->stats.sprites || !c->pixels)
-        return splash_bench_say(r->b, "nothing was drawn");
+        return splash_bench_fail(r->b, "nothing was drawn");
     return true;
 }
 
@@ -192,7 +192,7 @@ static bool open_untimed(bench *b, virga_context **context)
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.wide_lines = b->device.wide_lines;
     def.timings = false;
-    return virga_context_create(&def, context) == VIRGA_OK || splash_bench_say(b, "the device was refused");
+    return virga_context_create(&def, context) == VIRGA_OK || splash_bench_fail(b, "the device was refused");
 }
 
 /* Whether the value of an option is the second of its two keywords; the first where it was not given. */

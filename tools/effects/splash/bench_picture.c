@@ -147,12 +147,12 @@ bool splash_bench_open_picture(bench *b, picture *p)
 {
     if (!create_pass(b, p) || !create_images(b, p) || !create_fill(b, p) || !create_quads(b, p) ||
         !splash_bench_measure_picture(b, p))
-        return splash_bench_say(b, "picture");
+        return splash_bench_fail(b, "picture");
     virga_target_def def = virga_default_target_def();
     def.kind = VIRGA_TARGET_RENDER_PASS;
     def.render_pass = p->pass;
     return virga_target_create(b->context, &def, &p->target) == VIRGA_OK ||
-           splash_bench_say(b, "the picture was refused");
+           splash_bench_fail(b, "the picture was refused");
 }
 
 void splash_bench_close_picture(bench *b, picture *p)

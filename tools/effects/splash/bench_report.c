@@ -64,7 +64,7 @@ void splash_bench_print_cell(const bench_splash_choice *choice, const cell *c)
 /* Triangles of a draw; of the paper's style about, as nothing says which sprites are pyramids. */
 static double triangles_of(const bench_splash_choice *choice, const cell *c)
 {
-    const census *air = &c->air;
+    const air_counts *air = &c->air;
     if (choice->style == VIRGA_SPLASH_STYLE_FILM)
         return 2.0 * c->stats.sprites;
     const double things = fmax(air->flying + air->piles, 1);
@@ -82,7 +82,7 @@ bool splash_bench_measure_limits(run *r, const cell *c, cell_limits *l)
     /* Machines have faster and slower minutes, so this one's best is taken anew. */
     if (!splash_bench_measure_picture(b, &r->picture) ||
         !limits_create(&b->device, &b->targets[PICTURE], 4 * copied, &machine, b->error, sizeof b->error))
-        return splash_bench_say(b, "limits");
+        return splash_bench_fail(b, "limits");
     l->copy_ms = limits_copy_ms(&b->device, machine) * droplets / copied;
     l->bare_ms = limits_bare_ms(&b->device, machine) * droplets / copied;
     l->dispatch_ms = limits_dispatch_ms(&b->device, machine);

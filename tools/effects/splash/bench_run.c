@@ -1,4 +1,4 @@
-/* bench_run.c - splashes that come at a rate on a kind of ground, and who of them is live. */
+/* bench_run.c - splashes that come at a rate on a kind of ground, and counts of those that are live. */
 #include "splash/bench_splash.h"
 
 #include <virga/shared/random.h>
@@ -10,8 +10,8 @@
 #define LIFE_SPLASHES 4096 /* of the warm-up */
 #define LIFE_TICKS    240  /* more than any droplet flies */
 #define TICK_S        (1.0 / 60)
-#define MOST_DROPLETS 4194304u /* virga_splash_def */
-#define MOST_PLACES   1048576u
+#define MAX_DROPLETS  4194304u /* virga_splash_def */
+#define MAX_SLOTS     1048576u
 #define DROPLET_BYTES 72.0 /* of the largest buffer that grows with droplets: their indices */
 
 static uint32_t between(double value, double low, double high)
@@ -44,20 +44,20 @@ bool splash_bench_open_splash(run *r, double splashes, double droplets, double r
         floor((r->b->device.properties.limits.maxStorageBufferRange - 4096.0) / DROPLET_BYTES / 256) * 256;
     virga_splash_def def = virga_default_splash_def();
     def.tick_s = TICK_S;
-    def.max_splashes = between(splashes, 1024, MOST_PLACES);
-    def.max_droplets = between(fmin(droplets, holds), 4096, MOST_DROPLETS);
-    def.max_spawns = between(rate + 2, 1024, MOST_PLACES);
-    def.max_returns = between(fmin(def.max_droplets, holds - 1), def.max_spawns, MOST_DROPLETS);
+    def.max_splashes = between(splashes, 1024, MAX_SLOTS);
+    def.max_droplets = between(fmin(droplets, holds), 4096, MAX_DROPLETS);
+    def.max_spawns = between(rate + 2, 1024, MAX_SLOTS);
+    def.max_returns = between(fmin(def.max_droplets, holds - 1), def.max_spawns, MAX_DROPLETS);
     if (virga_splash_create(r->b->context, &def, &r->splash) < 0)
-        return splash_bench_say(r->b, "no splashes of that many could be made");
+        return splash_bench_fail(r->b, "no splashes of that many could be made");
     virga_splash_droplets(r->splash, NULL, &r->max_droplets, NULL);
     r->max_spawns = def.max_spawns;
     r->tick = r->next_id = 0;
     r->rate = rate;
     r->owed = 0;
     if (virga_splash_set(r->splash, &r->settings) || virga_splash_attach(r->splash, r->picture.target))
-        return splash_bench_say(r->b, "settings or picture were refused");
-    return open_buffers(r) || splash_bench_say(r->b, "buffers");
+        return splash_bench_fail(r->b, "settings or picture were refused");
+    return open_buffers(r) || splash_bench_fail(r->b, "buffers");
 }
 
 void splash_bench_close_splash(run *r)
@@ -88,7 +88,7 @@ void splash_bench_fill_view(virga_view *view)
 }
 
 /* Evenly over the trapezoid of ground that the picture shows between FIRST_M and `far_m`. */
-static void place(float far_m, float u, float v, float position[3])
+static void place_on_ground(float far_m, float u, float v, float position[3])
 {
     const double wide = tan(FOV_DEG * 0.5 * 3.14159265358979 / 180) * bench_sizes[PICTURE][0] / bench_sizes[PICTURE][1];
     const double slope = cos(DOWN_RAD),
@@ -121,7 +121,7 @@ static virga_spawn_gpu make_spawn(const run *r, uint32_t id, float share)
                              .water_nl = (uint32_t)(virga_drop_volume(diameter) * 1e12 * flown),
                              .random = virga_hash2(id, 0x5b1a5u),
                              .kind = splash_bench_rows[r->row].state | VIRGA_MATERIAL_ASPHALT << 8 | row->model << 16};
-    place(r->far_m, chance[2], chance[3], spawn.position);
+    place_on_ground(r->far_m, chance[2], chance[3], spawn.position);
     return spawn;
 }
 
@@ -157,7 +157,7 @@ bool splash_bench_step(run *r, uint32_t spawns, double *ms)
         .camera_m = {0, CAMERA_M, 0}, .spawns = r->spawns.buffer, .first_tick = r->tick, .ticks = 1};
     if (!feed(r, spawns) || !bench_begin(r->b, &cmd) || virga_splash_step(r->splash, cmd, &info) != VIRGA_OK ||
         !bench_submit(r->b, ms))
-        return splash_bench_say(r->b, "a step failed");
+        return splash_bench_fail(r->b, "a step failed");
     r->tick++;
     return true;
 }
@@ -170,7 +170,7 @@ uint32_t splash_bench_next_spawns(run *r)
     return count;
 }
 
-/* ---- who is live */
+/* ---- counts */
 
 static bool read_droplets(run *r)
 {
@@ -206,14 +206,14 @@ static bool has_pile(const virga_droplet_gpu *droplet)
 }
 
 /* Counts splashes that have a droplet in the air, and what else is there. */
-bool splash_bench_count_air(run *r, census *air)
+bool splash_bench_count_air(run *r, air_counts *air)
 {
     const virga_droplet_gpu *droplets = r->readback.mapped;
     uint8_t *seen = calloc(r->next_id + 1u, 1);
-    *air = (census){0};
+    *air = (air_counts){0};
     if (!seen || !read_droplets(r)) {
         free(seen);
-        return splash_bench_say(r->b, "droplets could not be read");
+        return splash_bench_fail(r->b, "droplets could not be read");
     }
     for (uint32_t i = 0; i < r->max_droplets && droplets[i].kind & VIRGA_DROPLET_ALIVE; i++) {
         const bool cone = VIRGA_DROPLET_MODEL(droplets[i].kind) == VIRGA_SPLASH_CROWN_CONE &&
@@ -233,7 +233,7 @@ bool splash_bench_count_air(run *r, census *air)
 bool splash_bench_measure_life(run *r, splash_life *life)
 {
     bool good = splash_bench_open_splash(r, LIFE_SPLASHES, 64.0 * LIFE_SPLASHES, LIFE_SPLASHES);
-    census air = {.live = 1};
+    air_counts air = {.live = 1};
     double ms, lived[LIFE_TICKS];
     *life = (splash_life){0};
     for (uint32_t i = 0; good && air.live && i < LIFE_TICKS; i++) {
@@ -248,5 +248,5 @@ bool splash_bench_measure_life(run *r, splash_life *life)
     while (good && lived[life->settled] < 0.98 * life->mean)
         life->settled++;
     splash_bench_close_splash(r);
-    return good && (life->mean > 0 || splash_bench_say(r->b, "no droplet flew"));
+    return good && (life->mean > 0 || splash_bench_fail(r->b, "no droplet flew"));
 }

@@ -21,10 +21,10 @@ enum { STEP, PREPARE, DRAW, BENCH_PASSES };
 enum { COUNTS = 7 };
 
 /* What is in the air, read back. */
-typedef struct census {
+typedef struct air_counts {
     uint32_t live;                  /* splashes with a droplet that is not down */
     uint32_t flying, piles, crowns; /* droplets; piles and crowns that stand, about */
-} census;
+} air_counts;
 
 /* Of a splash of one row, in ticks: its mean life, those of its droplets added up, that of its crown, and how long it
  * takes until as many go as come, but for a fiftieth. */
@@ -37,7 +37,7 @@ typedef struct splash_life {
 typedef struct cell {
     uint32_t row, wanted, ticks;
     double ms[BENCH_PASSES], clear_ms;
-    census air;
+    air_counts air;
     uint64_t pixels;   /* that the draw blended */
     uint32_t splashes; /* since the start */
     uint32_t max_droplets;
@@ -92,7 +92,7 @@ extern const splash_bench_row splash_bench_rows[ROWS];
 extern const uint32_t splash_bench_counts[COUNTS]; /* of splashes; the first are the paper's */
 
 /* Prints the bench's error. Returns false. */
-bool splash_bench_say(const bench *b, const char *what);
+bool splash_bench_fail(const bench *b, const char *what);
 
 /* ---- bench_picture.c: the picture, and what the machine does with it at best */
 
@@ -105,7 +105,7 @@ enum { NOTHING, CLEAR, FILL, TINY, MISSING, FRAMES };
 bool splash_bench_time_frame(bench *b, const picture *p, int what, double *ms);
 void splash_bench_begin_picture(const picture *p, VkCommandBuffer cmd);
 
-/* ---- bench_run.c: splashes at a rate, and who of them is live */
+/* ---- bench_run.c: splashes at a rate, and counts of those that are live */
 
 void splash_bench_fill_view(virga_view *view);
 bool splash_bench_open_splash(run *r, double splashes, double droplets, double rate);
@@ -114,7 +114,7 @@ void splash_bench_close_splash(run *r);
 /* How many come in the next tick; and that tick. */
 uint32_t splash_bench_next_spawns(run *r);
 bool splash_bench_step(run *r, uint32_t spawns, double *ms);
-bool splash_bench_count_air(run *r, census *air);
+bool splash_bench_count_air(run *r, air_counts *air);
 bool splash_bench_measure_life(run *r, splash_life *life);
 
 /* ---- bench_report.c: what is said of it, beside the paper and the machine's limits */

@@ -231,19 +231,19 @@ static void print_spread(const quantity *q, const double *times)
     static double sorted[FRAMES];
     const spread s = spread_of(times, FRAMES, sorted);
     printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", q->name, s.median,
-           s.most_of_100, s.most_of_1000, s.worst, s.worst / s.median);
+           s.percent_99, s.percent_99_9, s.max, s.max / s.median);
 }
 
 /* Of one run, or the least of several for each frame. */
-static void print_least(const quantity *q, const frame_times *runs, uint32_t count)
+static void print_minima(const quantity *q, const frame_times *runs, uint32_t count)
 {
-    static double least[FRAMES];
+    static double minima[FRAMES];
     for (uint32_t i = 0; i < FRAMES; i++) {
-        least[i] = time_of(&runs[i], q);
+        minima[i] = time_of(&runs[i], q);
         for (uint32_t run = 1; run < count; run++)
-            least[i] = fmin(least[i], time_of(&runs[run * FRAMES + i], q));
+            minima[i] = fmin(minima[i], time_of(&runs[run * FRAMES + i], q));
     }
-    print_spread(q, least);
+    print_spread(q, minima);
 }
 
 static bool print_common(const quantity *q, const frame_times *runs, uint32_t count)
@@ -258,7 +258,7 @@ static bool print_common(const quantity *q, const frame_times *runs, uint32_t co
     const bool good = times && spread_in_common(of, count, FRAMES, &common);
     if (good)
         printf("  %-28s off those around it by %5.2f %%, of which all runs share %5.2f %% (%.2f %% could be chance)\n",
-               q->name, common.seen * 100, common.own * 100, common.least * 100);
+               q->name, common.seen * 100, common.own * 100, common.noise * 100);
     free(times);
     return good || options_complain("bench", "out of memory");
 }
@@ -269,18 +269,18 @@ static bool print_frames(const frame_times *runs, uint32_t count)
 {
     printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],
            WARM_UP);
-    print_least(&recording, runs, 1);
-    print_least(&frame, runs, 1);
-    print_least(&frame_cpu, runs, 1);
-    print_least(&bare, runs, 1);
+    print_minima(&recording, runs, 1);
+    print_minima(&frame, runs, 1);
+    print_minima(&frame_cpu, runs, 1);
+    print_minima(&bare, runs, 1);
     if (count == 1)
         return true;
     printf("each frame's least of %u such runs, which do the same frame by frame\n", count);
-    print_least(&recording, runs, count);
-    print_least(&recording_cpu, runs, count);
-    print_least(&frame, runs, count);
-    print_least(&frame_cpu, runs, count);
-    print_least(&bare, runs, count);
+    print_minima(&recording, runs, count);
+    print_minima(&recording_cpu, runs, count);
+    print_minima(&frame, runs, count);
+    print_minima(&frame_cpu, runs, count);
+    print_minima(&bare, runs, count);
     printf("a frame's own: what it has in all runs more or less than the %d around it (standard deviations)\n",
            SPREAD_AROUND);
     return print_common(&frame, runs, count) && print_common(&frame_cpu, runs, count) &&

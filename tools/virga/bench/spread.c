@@ -16,9 +16,9 @@ spread spread_of(const double *times, uint32_t count, double *sorted)
     memcpy(sorted, times, count * sizeof *sorted);
     qsort(sorted, count, sizeof *sorted, by_size);
     return (spread){.median = sorted[count / 2],
-                    .most_of_100 = sorted[(uint64_t)count * 99 / 100],
-                    .most_of_1000 = sorted[(uint64_t)count * 999 / 1000],
-                    .worst = sorted[count - 1]};
+                    .percent_99 = sorted[(uint64_t)count * 99 / 100],
+                    .percent_99_9 = sorted[(uint64_t)count * 999 / 1000],
+                    .max = sorted[count - 1]};
 }
 
 /* How far each frame is from the median of those around it, as a share of that. */
@@ -65,6 +65,6 @@ bool spread_in_common(const double *const *times, uint32_t runs, uint32_t count,
     }
     free(deviations);
     *common = (spread_common){
-        .seen = sqrt(seen), .own = sqrt(fmax(own / pairs, 0)), .least = sqrt(2 * seen / sqrt((double)count * pairs))};
+        .seen = sqrt(seen), .own = sqrt(fmax(own / pairs, 0)), .noise = sqrt(2 * seen / sqrt((double)count * pairs))};
     return true;
 }

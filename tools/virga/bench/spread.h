@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 typedef struct spread {
-    double median, most_of_100, most_of_1000, worst; /* 99 % and 99.9 % take no longer than the two between */
+    double median, percent_99, percent_99_9, max; /* 99 % and 99.9 % take no longer than the two between */
 } spread;
 
 /* Of `count` times, at least one; `sorted` has room for as many. */
@@ -15,7 +15,7 @@ spread spread_of(const double *times, uint32_t count, double *sorted);
 typedef struct spread_common {
     double seen;  /* standard deviation of a frame from those around it, as a share of them: all runs, all causes */
     double own;   /* the part that runs which do the same frame by frame have in common; 0: none was found */
-    double least; /* what of `own` can be told from nothing, by so many frames and runs */
+    double noise; /* an `own` below this may be chance, with so many frames and runs */
 } spread_common;
 
 /* `runs` arrays of `count` times each, at least two of SPREAD_AROUND. False: out of memory. */

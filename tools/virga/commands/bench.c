@@ -12,8 +12,8 @@
 #include <string.h>
 
 static const option_row own_rows[] = {
-    {"--passes", 0, "N", "frames: whole runs of them, of which each frame's least is shown. Default: 3", false},
-    {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
+    {"--passes", 0, "N", "frames: runs of all frames; the minimum of each frame is shown. Default: 3", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
 };
 
 static option_row rows[OPTIONS_MAX];

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 static const option_row rows[] = {
-    {"--set", 0, "KEY=VALUE", "override a key before the check, e.g. rain.rate_mm_h=50; may be given often", true},
+    {"--set", 0, "KEY=VALUE", "override a key before the check, e.g. rain.rate_mm_h=50. May be repeated", true},
 };
 
 void check_help(void)

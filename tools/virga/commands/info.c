@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 static const option_row rows[] = {
-    {"--device", 0, "N|cpu|gpu|NAME", "say which device this choice would take", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "print which device this choice selects", false},
 };
 
 void info_help(void)

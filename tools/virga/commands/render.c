@@ -17,11 +17,11 @@
 #include <unistd.h>
 
 static const option_row rows[] = {
-    {"--output", 'o', "DIR", "folder for the files; made if it is not there (required)", false},
+    {"--output", 'o', "DIR", "folder for the files, created where it is missing (required)", false},
     {"--frames", 0, "A-B",
-     "frames to draw; up to A it rains unseen, and behind the scene's last frame it rains on, "
-     "with camera and weather as at their last keys; frames.preroll_s of the scene rain before the first. "
-     "Default: the scene's",
+     "frames to render. Frames before A are simulated, but not drawn. After the scene's last frame, camera and "
+     "weather stay at their last keys. The scene's frames.preroll_s are simulated before its first frame. "
+     "Default: the scene's frames",
      false},
     {"--size", 0, "WxH", "picture size in pixels. Default: the scene's", false},
     {"--samples", 0, "N",
@@ -30,26 +30,23 @@ static const option_row rows[] = {
      false},
     {"--layers", 0, "A,B", "layers of the frames, see below. Default: all that the scene has", false},
     {"--water-velocity", 0, "PERCENT",
-     "velocity.X/Y are water's own where rain, splashes and panes cover this share of a pixel, 1 to 100. Default: "
-     "they are the plate's alone",
+     "velocity.X/Y are those of the water where it covers at least this share of a pixel, 1 to 100. Default: those "
+     "of the plate everywhere",
      false},
-    {"--points", 0, NULL,
-     "also write point caches: rain.%04d.ply of the drops and, where the scene has splashes, "
-     "splash.%04d.ply of their droplets, where it has panes glass.%04d.ply",
-     false},
-    {"--stats", 0, NULL, "also write stats.jsonl, one object a frame: counts, splashes, water, milliseconds", false},
-    {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is there, preview.mp4", false},
+    {"--points", 0, NULL, "also write point caches, see below", false},
+    {"--stats", 0, NULL, "also write stats.jsonl, one object per frame: counts, water, milliseconds", false},
+    {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is installed, preview.mp4", false},
     {"--plate", 0, "PATTERN",
-     "footage in place of the scene that is drawn: EXR pictures by frame, as plate.%04d.exr, a folder of them for "
-     "the scene's frames in the order of their names, or one picture; of any size",
+     "footage that replaces the drawn scene: EXR pictures numbered by frame, as plate.%04d.exr, a folder with one "
+     "picture per frame of the scene, sorted by name, or one picture for all frames. Any size",
      false},
     {"--resume", 0, NULL,
-     "render only what is not there yet; refuses a folder in which these frames are of another "
-     "scene, seed, size, samples, layers, velocities or plate",
+     "render only the frames that are missing. A folder is refused where its frames have another scene, seed, "
+     "size, samples, layers, velocities or plate",
      false},
-    {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
-    {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
-    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
+    {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
+    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50. May be repeated", true},
 };
 
 #define ROW_COUNT (sizeof rows / sizeof rows[0])
@@ -57,11 +54,13 @@ static const option_row rows[] = {
 void render_help(void)
 {
     printf("virga render SCENE.yaml -o DIR [options]\n\n"
-           "Renders a scene to DIR/frame.%%04d.exr: the beauty, and in layers beside it all that it is made of.\n"
+           "Renders a scene to DIR/frame.%%04d.exr: the beauty, and the layers that it is made of.\n"
            "The same scene, seed and frame give the same file, however many frames are rendered before it.\n\n");
     options_print(rows, ROW_COUNT);
     printf("\nLayers, and their channels:\n");
     frame_layers_help();
+    printf("\nPoint caches, with --points:\n");
+    frame_points_help();
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
@@ -70,7 +69,7 @@ void render_help(void)
            "  virga render assets/scenes/window.yaml -o out --set frames.preroll_s=60\n"
            "  virga render assets/scenes/windshield.yaml -o out --plate footage/drive.%%04d.exr \\\n"
            "      --layers glass,refraction\n\n"
-           "Ctrl-C finishes the frame in hand; `--resume` goes on later. Exit codes: 0 done, 1 failed (disk\n"
+           "Ctrl-C finishes the current frame; `--resume` continues later. Exit codes: 0 done, 1 failed (disk\n"
            "full, device lost; finished frames are kept), 2 wrong command line or scene, or a file that it\n"
            "names, 130 interrupted.\n");
 }
@@ -196,30 +195,30 @@ static int make_directory(render_job *job)
     return EXIT_USAGE;
 }
 
-static resume_wish wish_of(const render_job *job)
+static resume_request request_of(const render_job *job)
 {
-    return (resume_wish){.scene = job->scene,
-                         .directory = job->directory,
-                         .first = job->frames[0],
-                         .last = job->frames[1],
-                         .width = job->how.width,
-                         .height = job->how.height,
-                         .samples = job->how.samples,
-                         .layers = job->layers,
-                         .plate = job->how.plate,
-                         .water_velocity = job->how.water_velocity,
-                         .points = job->points,
-                         .preview = job->preview,
-                         .stats = job->stats};
+    return (resume_request){.scene = job->scene,
+                            .directory = job->directory,
+                            .first = job->frames[0],
+                            .last = job->frames[1],
+                            .width = job->how.width,
+                            .height = job->how.height,
+                            .samples = job->how.samples,
+                            .layers = job->layers,
+                            .plate = job->how.plate,
+                            .water_velocity = job->how.water_velocity,
+                            .points = job->points,
+                            .preview = job->preview,
+                            .stats = job->stats};
 }
 
 static bool open_stats(render_job *job)
 {
     char path[4096];
-    const resume_wish wish = wish_of(job);
+    const resume_request request = request_of(job);
     if (!job->stats)
         return true;
-    if (job->resume && !resume_trim_stats(&wish, job->there, job->error, sizeof job->error))
+    if (job->resume && !resume_trim_stats(&request, job->there, job->error, sizeof job->error))
         return fail(job);
     snprintf(path, sizeof path, "%s/stats.jsonl", job->directory);
     job->stats_open =
@@ -374,11 +373,11 @@ static void make_film(render_job *job)
 /* What can be known to be wrong is said before a device is opened, and nothing is overwritten before all is loaded. */
 static int render_scene(render_job *job)
 {
-    const resume_wish wish = wish_of(job);
+    const resume_request request = request_of(job);
     int code = make_directory(job);
     if (code != EXIT_OK)
         return code;
-    if (job->resume && !resume_find(&wish, &job->there, job->error, sizeof job->error)) {
+    if (job->resume && !resume_find(&request, &job->there, job->error, sizeof job->error)) {
         fail(job);
         return EXIT_USAGE;
     }

@@ -15,11 +15,11 @@
 
 static const option_row rows[] = {
     {"--window", 0, "WxH", "size of the window in pixels. Default 1600x900", false},
-    {"--divide", 0, "N", "1, 2 or 4: as many fewer pixels along each side. Default 1, on software Vulkan 2", false},
-    {"--script", 0, "FILE", "do what the lines of a file say, see below", false},
-    {"--seed", 0, "N", "another seed, other drops. Default: the scene's", false},
-    {"--device", 0, "N|cpu|gpu|NAME", "which Vulkan device; see virga info. Default: the best", false},
-    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50; may be given often", true},
+    {"--divide", 0, "N", "1, 2 or 4: divides the picture's width and height. Default 1; on software Vulkan 2", false},
+    {"--script", 0, "FILE", "run the commands in a file, see below", false},
+    {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
+    {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
+    {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50. May be repeated", true},
 };
 
 #define HELP_COLUMNS 100
@@ -39,15 +39,15 @@ static void print_views(void)
 void view_help(void)
 {
     printf("virga view SCENE.yaml [options]\n\n"
-           "Shows a scene in a window, with every setting on a panel. Time is the scene's; the camera flies\n"
-           "with the mouse and W A S D. Save writes the tuned scene as YAML: the keys of its file with what was\n"
-           "changed in them (comments of the file are lost), which virga render takes.\n\n");
+           "Shows a scene in a window, with all of its settings on a panel. The mouse and W A S D move the\n"
+           "camera. Save writes the changed scene as a YAML file for virga render. Comments of the original\n"
+           "file are lost.\n\n");
     options_print(rows, ROW_COUNT);
     printf("\nKeys:\n");
     for (uint32_t line = 0; view_key_help(line); line++)
         printf("  %s\n", view_key_help(line));
     print_views();
-    printf("\nLines of a script, with '#' before remarks; each frame is then one of the scene's:\n");
+    printf("\nCommands of a script, one per line; '#' starts a comment. Each drawn frame is a frame of the scene:\n");
     view_script_help();
     printf("\nExamples:\n"
            "  virga view assets/scenes/street.yaml\n"
@@ -95,7 +95,7 @@ static bool load_scene(viewer *v, const options *parsed, const char *overrides[2
         fprintf(stderr, "%s\n", v->error);
         return false;
     }
-    return view_list_settings(v) || options_complain("view", "no more memory");
+    return view_list_settings(v) || options_complain("view", "out of memory");
 }
 
 static bool open_shot(viewer *v, const options *parsed, const uint32_t window[2])

@@ -12,7 +12,7 @@ static const tool_layer first[] = {
     {.name = "beauty",
      .channels = {"R", "G", "B", "A"},
      .type = EXR_SAMPLE_HALF,
-     .help = "panes over the rain over the splashes over the plate",
+     .help = "the plate with all color layers over it",
      .plate = HOST_COLOR},
     {.name = "depth",
      .channels = {"Z"},
@@ -152,5 +152,5 @@ void frame_layers_help(void)
         }
         printf("    %c %-12s %-16s %s\n", always ? ' ' : '*', layer->name, channels, layer->help);
     }
-    printf("    * where the scene has some\n");
+    printf("    * where the scene uses the effect\n");
 }

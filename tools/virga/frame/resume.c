@@ -1,4 +1,4 @@
-/* resume.c - reads the headers of frames that are there, and takes lines that will be written again out of
+/* resume.c - reads the headers of frames that are there, and removes lines that will be written again from
  * stats.jsonl. */
 #include "frame/resume.h"
 
@@ -31,58 +31,58 @@ static bool differs(const char *path, const char *what, const char *has, const c
 }
 
 /* The most telling difference first: another seed is another scene hash too. */
-static bool is_of_wish(const resume_wish *wish, const char *path, const exr_header *header, const exr_text *texts,
-                       char *error, size_t error_size)
+static bool matches_request(const resume_request *request, const char *path, const exr_header *header,
+                            const exr_text *texts, char *error, size_t error_size)
 {
     char has[256], expected[256];
-    snprintf(expected, sizeof expected, "%u", tool_seed(wish->scene));
+    snprintf(expected, sizeof expected, "%u", tool_seed(request->scene));
     if (differs(path, "seed", texts[0].text, expected, error, error_size))
         return false;
     snprintf(has, sizeof has, "%ux%u", header->width, header->height);
-    snprintf(expected, sizeof expected, "%ux%u", wish->width, wish->height);
+    snprintf(expected, sizeof expected, "%ux%u", request->width, request->height);
     if (differs(path, "size", has, expected, error, error_size))
         return false;
-    snprintf(expected, sizeof expected, "%u", wish->samples);
+    snprintf(expected, sizeof expected, "%u", request->samples);
     if (differs(path, "samples", texts[1].text, expected, error, error_size))
         return false;
     frame_layers_print(frame_layers_in(header->channels), has, sizeof has);
-    frame_layers_print(wish->layers, expected, sizeof expected);
+    frame_layers_print(request->layers, expected, sizeof expected);
     if (differs(path, "layers", has, expected, error, error_size))
         return false;
-    if (differs(path, "plate", texts[3].text, wish->plate ? wish->plate : "", error, error_size))
+    if (differs(path, "plate", texts[3].text, request->plate ? request->plate : "", error, error_size))
         return false;
     expected[0] = 0;
-    if (wish->water_velocity)
-        snprintf(expected, sizeof expected, "%u", wish->water_velocity);
+    if (request->water_velocity)
+        snprintf(expected, sizeof expected, "%u", request->water_velocity);
     if (differs(path, "water velocity", texts[4].text, expected, error, error_size))
         return false;
-    snprintf(expected, sizeof expected, "%016llx", (unsigned long long)scene_file_hash(wish->scene));
+    snprintf(expected, sizeof expected, "%016llx", (unsigned long long)scene_file_hash(request->scene));
     return !differs(path, "scene hash", texts[2].text, expected, error, error_size);
 }
 
 /* The files beside frame.%04d.exr. */
-static bool has_files(const resume_wish *wish, uint32_t frame)
+static bool has_files(const resume_request *request, uint32_t frame)
 {
     char path[4096];
     const char *name;
-    snprintf(path, sizeof path, "%s/preview.%04u.png", wish->directory, frame);
-    bool has = !wish->preview || has_file(path);
-    for (uint32_t i = 0; wish->points && (name = frame_points_name(wish->scene, i)); i++) {
-        frame_points_path(wish->directory, name, frame, path, sizeof path);
+    snprintf(path, sizeof path, "%s/preview.%04u.png", request->directory, frame);
+    bool has = !request->preview || has_file(path);
+    for (uint32_t i = 0; request->points && (name = frame_points_name(request->scene, i)); i++) {
+        frame_points_path(request->directory, name, frame, path, sizeof path);
         has = has && has_file(path);
     }
     return has;
 }
 
-/* A frame's EXR is written last, so if it is there, then so is all that the run that wrote it was asked for. */
-static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, char *error, size_t error_size)
+/* A frame's EXR is written last, so where it is there, all files that its run wrote are there too. */
+static bool find_frame(const resume_request *request, uint32_t frame, bool *there, char *error, size_t error_size)
 {
     char path[4096], damage[1024];
     exr_header header;
     exr_text texts[] = {
         {.name = "seed"}, {.name = "samples"}, {.name = "sceneHash"}, {.name = "plate"}, {.name = "waterVelocity"}};
     *there = false;
-    snprintf(path, sizeof path, "%s/frame.%04u.exr", wish->directory, frame);
+    snprintf(path, sizeof path, "%s/frame.%04u.exr", request->directory, frame);
     struct stat info;
     if (stat(path, &info))
         return true;
@@ -90,19 +90,19 @@ static bool find_frame(const resume_wish *wish, uint32_t frame, bool *there, cha
         fprintf(stderr, "virga render: %s; the frame is rendered again\n", damage);
         return true;
     }
-    *there = has_files(wish, frame);
-    return is_of_wish(wish, path, &header, texts, error, error_size);
+    *there = has_files(request, frame);
+    return matches_request(request, path, &header, texts, error, error_size);
 }
 
-bool resume_find(const resume_wish *wish, bool **there, char *error, size_t error_size)
+bool resume_find(const resume_request *request, bool **there, char *error, size_t error_size)
 {
-    *there = calloc((size_t)wish->last - wish->first + 1, sizeof **there);
+    *there = calloc((size_t)request->last - request->first + 1, sizeof **there);
     if (!*there) {
-        snprintf(error, error_size, "no memory for %u frames", wish->last - wish->first + 1);
+        snprintf(error, error_size, "no memory for %u frames", request->last - request->first + 1);
         return false;
     }
-    for (uint32_t frame = wish->first; frame <= wish->last; frame++)
-        if (!find_frame(wish, frame, &(*there)[frame - wish->first], error, error_size))
+    for (uint32_t frame = request->first; frame <= request->last; frame++)
+        if (!find_frame(request, frame, &(*there)[frame - request->first], error, error_size))
             return false;
     return true;
 }
@@ -110,9 +110,9 @@ bool resume_find(const resume_wish *wish, bool **there, char *error, size_t erro
 /* ---- stats.jsonl */
 
 typedef struct trim {
-    const resume_wish *wish;
+    const resume_request *request;
     const bool *there;
-    bool *told; /* a line of the frame has stayed */
+    bool *kept; /* a line of the frame has stayed */
 } trim;
 
 static bool keep_line(void *user, const char *line)
@@ -122,29 +122,29 @@ static bool keep_line(void *user, const char *line)
     const size_t length = strlen(line);
     if (sscanf(line, "{\"frame\":%u,", &frame) != 1 || line[length - 1] != '}')
         return false;
-    if (frame < t->wish->first || frame > t->wish->last)
+    if (frame < t->request->first || frame > t->request->last)
         return true;
-    const uint32_t i = frame - t->wish->first;
-    if (!t->there[i] || t->told[i])
+    const uint32_t i = frame - t->request->first;
+    if (!t->there[i] || t->kept[i])
         return false;
-    return t->told[i] = true;
+    return t->kept[i] = true;
 }
 
-bool resume_trim_stats(const resume_wish *wish, bool *there, char *error, size_t error_size)
+bool resume_trim_stats(const resume_request *request, bool *there, char *error, size_t error_size)
 {
     char path[4096];
-    const size_t count = (size_t)wish->last - wish->first + 1;
-    if (!wish->stats)
+    const size_t count = (size_t)request->last - request->first + 1;
+    if (!request->stats)
         return true;
-    trim t = {.wish = wish, .there = there, .told = calloc(count, sizeof(bool))};
-    if (!t.told) {
+    trim t = {.request = request, .there = there, .kept = calloc(count, sizeof(bool))};
+    if (!t.kept) {
         snprintf(error, error_size, "no memory for %zu frames", count);
         return false;
     }
-    snprintf(path, sizeof path, "%s/stats.jsonl", wish->directory);
+    snprintf(path, sizeof path, "%s/stats.jsonl", request->directory);
     const bool trimmed = jsonl_filter(path, keep_line, &t, error, error_size);
     if (trimmed)
-        memcpy(there, t.told, count * sizeof(bool));
-    free(t.told);
+        memcpy(there, t.kept, count * sizeof(bool));
+    free(t.kept);
     return trimmed;
 }

@@ -52,7 +52,7 @@ static bool list_folder(plate *p, char *error, size_t error_size)
     return true;
 }
 
-/* A pattern is what printf takes for one whole number, and nothing else: it comes from a command line. */
+/* A pattern is what printf needs for one whole number, and nothing else: it comes from a command line. */
 static bool check_pattern(plate *p, char *error, size_t error_size)
 {
     const char *percent = strchr(p->pattern, '%');
@@ -138,28 +138,28 @@ static void resample_line(const float *in, size_t in_step, uint32_t from, float 
 
 static bool resample(plate *p, const float *rgb, uint32_t width, uint32_t height)
 {
-    float *wide = malloc((size_t)p->width * height * 3 * sizeof *wide);
-    for (uint32_t row = 0; wide && row < height; row++)
-        resample_line(rgb + (size_t)row * width * 3, 3, width, wide + (size_t)row * p->width * 3, 3, p->width);
-    for (uint32_t column = 0; wide && column < p->width; column++)
-        resample_line(wide + column * 3, (size_t)p->width * 3, height, p->rgba + column * 4, (size_t)p->width * 4,
+    float *rows_done = malloc((size_t)p->width * height * 3 * sizeof *rows_done);
+    for (uint32_t row = 0; rows_done && row < height; row++)
+        resample_line(rgb + (size_t)row * width * 3, 3, width, rows_done + (size_t)row * p->width * 3, 3, p->width);
+    for (uint32_t column = 0; rows_done && column < p->width; column++)
+        resample_line(rows_done + column * 3, (size_t)p->width * 3, height, p->rgba + column * 4, (size_t)p->width * 4,
                       p->height);
-    free(wide);
-    return wide;
+    free(rows_done);
+    return rows_done;
 }
 
-static bool take(plate *p, const char *path, const float *rgb, uint32_t width, uint32_t height, char *error,
-                 size_t error_size)
+static bool copy_picture(plate *p, const char *path, const float *rgb, uint32_t width, uint32_t height, char *error,
+                         size_t error_size)
 {
     const size_t pixels = (size_t)p->width * p->height;
     if (width == p->width && height == p->height) {
         for (size_t i = 0; i < pixels; i++)
             memcpy(p->rgba + i * 4, rgb + i * 3, 3 * sizeof *rgb);
     } else {
-        if (!p->told)
+        if (!p->warned)
             fprintf(stderr, "virga: --plate: %s is %u x %u, resampled to %u x %u\n", path, width, height, p->width,
                     p->height);
-        p->told = true;
+        p->warned = true;
         if (!resample(p, rgb, width, height))
             return host_fail(error, error_size, "no memory for a plate of %u x %u", width, height);
     }
@@ -179,8 +179,8 @@ bool plate_load(plate *p, uint32_t frame, char *error, size_t error_size)
         return false;
     if (!exr_read_rgb(path, &width, &height, &rgb, NULL, reason, sizeof reason))
         return host_fail(error, error_size, "--plate: %s", reason);
-    const bool taken = take(p, path, rgb, width, height, error, error_size);
+    const bool copied = copy_picture(p, path, rgb, width, height, error, error_size);
     free(rgb);
-    p->loaded = taken ? frame : UINT32_MAX;
-    return taken;
+    p->loaded = copied ? frame : UINT32_MAX;
+    return copied;
 }

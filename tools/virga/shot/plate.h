@@ -1,4 +1,4 @@
-/* plate.h - footage in place of the scene that a shot draws: EXR pictures, one a frame, or one for all. */
+/* plate.h - footage that replaces the scene that a shot draws: EXR pictures, one a frame, or one for all. */
 #ifndef VIRGA_TOOL_PLATE_H
 #define VIRGA_TOOL_PLATE_H
 
@@ -17,7 +17,7 @@ typedef struct plate {
     uint32_t loaded; /* frame that `rgba` holds; UINT32_MAX: none */
     float *rgba;     /* width x height, rows from the top, alpha 1 */
     uint32_t width, height;
-    bool told; /* that pictures are resampled */
+    bool warned; /* that pictures are resampled */
 } plate;
 
 /* Looks whether there is a picture for each of the frames, which need not be drawn all. One line in `error` where

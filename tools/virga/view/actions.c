@@ -62,7 +62,7 @@ scene_file *view_load_tuned(viewer *v, char *error, size_t error_size)
     scene_file *tuned = NULL;
     const char **all = all_changes(v, &changes, &count);
     if (!all)
-        snprintf(error, error_size, "no more memory");
+        snprintf(error, error_size, "out of memory");
     else
         scene_file_load(v->path, tool_effect_sections, all, count, &tuned, error, error_size);
     free(all);
@@ -144,7 +144,7 @@ void view_stop_animation(viewer *v)
 }
 
 /* Settings are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
-bool view_preset_take(viewer *v, const char *name)
+bool view_preset_apply(viewer *v, const char *name)
 {
     size_t count;
     const view_preset *presets = view_presets(&count), *preset = presets;
@@ -209,7 +209,7 @@ void view_show_next(viewer *v, int step)
 
 bool view_save(viewer *v, const char *path)
 {
-    char error[400] = "no more memory";
+    char error[400] = "out of memory";
     size_t count = 0;
     char **changes;
     const char **all = all_changes(v, &changes, &count);
@@ -261,12 +261,12 @@ static void shoot_by_key(viewer *v)
     view_shoot(v, path);
 }
 
-static void take_numbered(viewer *v, int number)
+static void apply_numbered(viewer *v, int number)
 {
     size_t count;
     const view_preset *presets = view_presets(&count);
     if ((size_t)number < count)
-        view_preset_take(v, presets[number].name);
+        view_preset_apply(v, presets[number].name);
 }
 
 void view_key(viewer *v, int key, bool shift)
@@ -289,6 +289,6 @@ void view_key(viewer *v, int key, bool shift)
     case GLFW_KEY_ESCAPE: v->quit = true; break;
     default:
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
-            take_numbered(v, key - GLFW_KEY_1);
+            apply_numbered(v, key - GLFW_KEY_1);
     }
 }

@@ -8,7 +8,7 @@
 #include <GLFW/glfw3.h>
 
 #define TURN_PER_PX 0.004
-#define MOST_PITCH  1.55
+#define MAX_PITCH   1.55
 #define FIRST_M_S   3.0
 
 static void direction_of(const view_camera *c, double out[3])
@@ -43,7 +43,7 @@ void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, do
     set_free(v);
     memcpy(v->camera.position_m, position_m, sizeof v->camera.position_m);
     v->camera.yaw = yaw_deg * M_PI / 180;
-    v->camera.pitch = fmax(-MOST_PITCH, fmin(MOST_PITCH, pitch_deg * M_PI / 180));
+    v->camera.pitch = fmax(-MAX_PITCH, fmin(MAX_PITCH, pitch_deg * M_PI / 180));
     memset(&v->camera.last, 0, sizeof v->camera.last);
 }
 
@@ -60,7 +60,7 @@ static void turn(viewer *v, bool allowed)
         c->looking = false;
     } else if (c->looking) {
         c->yaw -= (x - c->mouse[0]) * TURN_PER_PX;
-        c->pitch = fmax(-MOST_PITCH, fmin(MOST_PITCH, c->pitch - (y - c->mouse[1]) * TURN_PER_PX));
+        c->pitch = fmax(-MAX_PITCH, fmin(MAX_PITCH, c->pitch - (y - c->mouse[1]) * TURN_PER_PX));
     }
     c->mouse[0] = x;
     c->mouse[1] = y;

@@ -12,7 +12,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#define LEAST_PX 16u
+#define MIN_PX 16u
 
 /* ---- where the picture lies */
 
@@ -24,16 +24,16 @@ static void place_picture(const viewer *v, float area[4])
     const double width = fmin(room, v->window.height * shape), height = width / shape;
     area[0] = (float)floor(0.5 * (room - width));
     area[1] = (float)floor(0.5 * (v->window.height - height));
-    area[2] = (float)fmax(floor(width), LEAST_PX);
-    area[3] = (float)fmax(floor(height), LEAST_PX);
+    area[2] = (float)fmax(floor(width), MIN_PX);
+    area[3] = (float)fmax(floor(height), MIN_PX);
 }
 
 static bool fit_shot(viewer *v, const float area[4])
 {
     const uint32_t divide = v->divide ? v->divide : 1;
     const uint32_t width = (uint32_t)area[2] / divide, height = (uint32_t)area[3] / divide;
-    return shot_live_resize(&v->shot, width > LEAST_PX ? width : LEAST_PX, height > LEAST_PX ? height : LEAST_PX,
-                            v->error, sizeof v->error);
+    return shot_live_resize(&v->shot, width > MIN_PX ? width : MIN_PX, height > MIN_PX ? height : MIN_PX, v->error,
+                            sizeof v->error);
 }
 
 /* ---- pictures to disk */

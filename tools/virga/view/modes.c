@@ -7,7 +7,7 @@
 static const view_mode_row first[] = {
     {.name = "picture",
      .title = "Picture",
-     .help = "panes over rain over splashes over the scene, as previews show it",
+     .help = "the scene with all layers over it, as previews show it",
      .shader = VIEW_PICTURE},
     {.name = "plate", .title = "Scene without rain", .help = "the opaque scene alone", .shader = VIEW_PLATE},
 };
@@ -22,7 +22,7 @@ static const view_mode_row second[] = {
      .title = "Velocity",
      .help = "hue is the direction, brightness the way; full at 20 pixels a frame",
      .shader = VIEW_VELOCITY},
-    {.name = "id", .title = "Objects", .help = "a colour for each part of a mesh", .shader = VIEW_ID},
+    {.name = "id", .title = "Objects", .help = "a color for each part of a mesh", .shader = VIEW_ID},
 };
 
 static view_mode_row rows[VIEW_MAX_MODES];

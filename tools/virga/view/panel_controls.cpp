@@ -41,7 +41,7 @@ void part_presets(viewer *v)
                      ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x)
             ImGui::SameLine();
         if (ImGui::Button(presets[i].title))
-            view_preset_take(v, presets[i].name);
+            view_preset_apply(v, presets[i].name);
         tooltip(presets[i].help);
     }
 }

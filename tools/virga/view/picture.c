@@ -62,7 +62,7 @@ static bool create_blanks(view_picture *p, char *error, size_t error_size)
     const host_image_def def = {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1, 1}, .name = "blank"};
     if (!host_image_create_with(p->device, &def, zero, 4, 4, &p->blank, error, error_size))
         return false;
-    /* An array of one layer cannot be told from a plain image by its definition; its view is made here. */
+    /* The definition of an image does not say that it is an array of one layer, so its view is created here. */
     const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = p->blank.image,
                                         .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,

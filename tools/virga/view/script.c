@@ -12,13 +12,13 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#define MOST_WORDS 8
-#define MOST_BYTES (1u << 20)
+#define MAX_ARGUMENTS 8
+#define MAX_BYTES     (1u << 20)
 
 typedef struct script_line {
     uint32_t number; /* in the file, from 1 */
-    uint32_t command, word_count;
-    char *words[MOST_WORDS]; /* behind the command */
+    uint32_t command, argument_count;
+    char *arguments[MAX_ARGUMENTS]; /* behind the command */
 } script_line;
 
 struct view_script {
@@ -30,7 +30,7 @@ struct view_script {
 
 /* ---- commands: each returns whether it could be done; v->message says why not */
 
-static bool take_count(viewer *v, const char *text, uint32_t low, uint32_t high, uint32_t *count)
+static bool read_count(viewer *v, const char *text, uint32_t low, uint32_t high, uint32_t *count)
 {
     char *end;
     const unsigned long value = strtoul(text, &end, 10);
@@ -42,7 +42,7 @@ static bool take_count(viewer *v, const char *text, uint32_t low, uint32_t high,
     return true;
 }
 
-static bool take_number(viewer *v, const char *text, double low, double high, double *number)
+static bool read_number(viewer *v, const char *text, double low, double high, double *number)
 {
     char *end;
     const double value = strtod(text, &end);
@@ -54,7 +54,7 @@ static bool take_number(viewer *v, const char *text, double low, double high, do
     return true;
 }
 
-static bool take_switch(viewer *v, const char *text, bool *on)
+static bool read_switch(viewer *v, const char *text, bool *on)
 {
     *on = !strcmp(text, "on");
     if (*on || !strcmp(text, "off"))
@@ -65,68 +65,69 @@ static bool take_switch(viewer *v, const char *text, bool *on)
 
 static bool do_wait(viewer *v, const script_line *line)
 {
-    return take_count(v, line->words[0], 1, 1000000, &v->script->wait);
+    return read_count(v, line->arguments[0], 1, 1000000, &v->script->wait);
 }
 
 static bool do_set(viewer *v, const script_line *line)
 {
     char assignment[600];
-    size_t used = (size_t)snprintf(assignment, sizeof assignment, "%s=", line->words[0]);
-    for (uint32_t i = 1; i < line->word_count && used < sizeof assignment; i++)
-        used += (size_t)snprintf(assignment + used, sizeof assignment - used, "%s%s", i > 1 ? " " : "", line->words[i]);
+    size_t used = (size_t)snprintf(assignment, sizeof assignment, "%s=", line->arguments[0]);
+    for (uint32_t i = 1; i < line->argument_count && used < sizeof assignment; i++)
+        used +=
+            (size_t)snprintf(assignment + used, sizeof assignment - used, "%s%s", i > 1 ? " " : "", line->arguments[i]);
     return view_assign(v, assignment);
 }
 
 static bool do_add(viewer *v, const script_line *line)
 {
-    return view_list_add(v, line->words[0]);
+    return view_list_add(v, line->arguments[0]);
 }
 
 static bool do_drop(viewer *v, const script_line *line)
 {
-    return view_list_drop(v, line->words[0]);
+    return view_list_drop(v, line->arguments[0]);
 }
 
 static bool do_preset(viewer *v, const script_line *line)
 {
-    return view_preset_take(v, line->words[0]);
+    return view_preset_apply(v, line->arguments[0]);
 }
 
 static bool do_view(viewer *v, const script_line *line)
 {
     uint32_t layer = 0;
-    return (line->word_count < 2 || take_count(v, line->words[1], 0, 99, &layer)) &&
-           view_show(v, line->words[0], layer);
+    return (line->argument_count < 2 || read_count(v, line->arguments[1], 0, 99, &layer)) &&
+           view_show(v, line->arguments[0], layer);
 }
 
 static bool do_shot(viewer *v, const script_line *line)
 {
     v->script->wait = 1;
-    return view_shoot(v, line->words[0]);
+    return view_shoot(v, line->arguments[0]);
 }
 
 static bool do_samples(viewer *v, const script_line *line)
 {
-    return take_count(v, line->words[0], 1, 256, &v->samples);
+    return read_count(v, line->arguments[0], 1, 256, &v->samples);
 }
 
 static bool do_window(viewer *v, const script_line *line)
 {
     v->script->wait = 1;
-    snprintf(v->window_shot, sizeof v->window_shot, "%s", line->words[0]);
+    snprintf(v->window_shot, sizeof v->window_shot, "%s", line->arguments[0]);
     return true;
 }
 
 static bool do_save(viewer *v, const script_line *line)
 {
-    return view_save(v, line->words[0]);
+    return view_save(v, line->arguments[0]);
 }
 
 static bool do_camera(viewer *v, const script_line *line)
 {
     double numbers[5];
     for (int i = 0; i < 5; i++)
-        if (!take_number(v, line->words[i], -1e6, 1e6, &numbers[i]))
+        if (!read_number(v, line->arguments[i], -1e6, 1e6, &numbers[i]))
             return false;
     view_camera_place(v, numbers, numbers[3], numbers[4]);
     return true;
@@ -156,7 +157,7 @@ static bool do_play(viewer *v, const script_line *line)
 static bool do_step(viewer *v, const script_line *line)
 {
     uint32_t count = 1;
-    if (line->word_count && !take_count(v, line->words[0], 1, 100000, &count))
+    if (line->argument_count && !read_count(v, line->arguments[0], 1, 100000, &count))
         return false;
     v->paused = true;
     v->steps = count;
@@ -166,7 +167,7 @@ static bool do_step(viewer *v, const script_line *line)
 
 static bool do_speed(viewer *v, const script_line *line)
 {
-    return take_number(v, line->words[0], 0.05, 1, &v->speed);
+    return read_number(v, line->arguments[0], 0.05, 1, &v->speed);
 }
 
 static bool do_restart(viewer *v, const script_line *line)
@@ -180,7 +181,8 @@ static bool do_restart(viewer *v, const script_line *line)
 static bool do_resize(viewer *v, const script_line *line)
 {
     uint32_t size[2];
-    if (!take_count(v, line->words[0], 320, 8192, &size[0]) || !take_count(v, line->words[1], 240, 8192, &size[1]))
+    if (!read_count(v, line->arguments[0], 320, 8192, &size[0]) ||
+        !read_count(v, line->arguments[1], 240, 8192, &size[1]))
         return false;
     glfwSetWindowSize(v->window.glfw, (int)size[0], (int)size[1]);
     v->script->wait = 3; /* until the display has done it */
@@ -189,19 +191,19 @@ static bool do_resize(viewer *v, const script_line *line)
 
 static bool do_panel(viewer *v, const script_line *line)
 {
-    return take_switch(v, line->words[0], &v->panel);
+    return read_switch(v, line->arguments[0], &v->panel);
 }
 
 static bool do_unfold(viewer *v, const script_line *line)
 {
     v->script->wait = 1;
-    snprintf(v->unfold, sizeof v->unfold, "%s", line->words[0]);
-    return take_switch(v, line->words[1], &v->unfold_open);
+    snprintf(v->unfold, sizeof v->unfold, "%s", line->arguments[0]);
+    return read_switch(v, line->arguments[1], &v->unfold_open);
 }
 
 static bool do_divide(viewer *v, const script_line *line)
 {
-    return take_count(v, line->words[0], 1, 4, &v->divide);
+    return read_count(v, line->arguments[0], 1, 4, &v->divide);
 }
 
 /* Until the user has brought about a state: it is for demonstrations, and for tests with real keys. */
@@ -213,7 +215,7 @@ static bool do_await(viewer *v, const script_line *line)
     } states[] = {{"paused", v->paused},     {"playing", !v->paused}, {"flying", v->camera.free},
                   {"path", !v->camera.free}, {"panel", v->panel},     {"no-panel", !v->panel}};
     for (size_t i = 0; i < sizeof states / sizeof states[0]; i++) {
-        if (strcmp(states[i].name, line->words[0]))
+        if (strcmp(states[i].name, line->arguments[0]))
             continue;
         if (!states[i].there) {
             v->script->wait = 1;
@@ -221,7 +223,7 @@ static bool do_await(viewer *v, const script_line *line)
         }
         return true;
     }
-    view_say(v, "expected paused, playing, flying, path, panel or no-panel, got '%.40s'", line->words[0]);
+    view_say(v, "expected paused, playing, flying, path, panel or no-panel, got '%.40s'", line->arguments[0]);
     return false;
 }
 
@@ -247,34 +249,34 @@ static bool do_quit(viewer *v, const script_line *line)
 }
 
 static const struct {
-    const char *name, *words, *help;
-    uint32_t least, most; /* words behind it */
+    const char *name, *arguments, *help;
+    uint32_t min_arguments, max_arguments;
     bool (*run)(viewer *v, const script_line *line);
 } commands[] = {
     {"wait", "N", "draw N frames", 1, 1, do_wait},
-    {"set", "KEY VALUE", "a setting, as --set takes it: set rain.rate_mm_h 50", 2, MOST_WORDS, do_set},
-    {"add", "LIST", "an entry more, like the last: add lights, add glass.0.wipers", 1, 1, do_add},
-    {"drop", "LIST", "the last entry away", 1, 1, do_drop},
+    {"set", "KEY VALUE", "change a setting: set rain.rate_mm_h 50", 2, MAX_ARGUMENTS, do_set},
+    {"add", "LIST", "append a copy of the last entry: add lights", 1, 1, do_add},
+    {"drop", "LIST", "remove the last entry", 1, 1, do_drop},
     {"preset", "NAME", "drizzle, shower, storm, carwash or window", 1, 1, do_preset},
-    {"view", "NAME [N]", "what is shown, and which of its layers", 1, 2, do_view},
-    {"shot", "FILE", "the scene as .exr with all layers, or as .png", 1, 1, do_shot},
-    {"samples", "N", "sub-frames of shots", 1, 1, do_samples},
-    {"window", "FILE.png", "the window as it is, panel and all", 1, 1, do_window},
-    {"save", "FILE.yaml", "the tuned scene", 1, 1, do_save},
-    {"camera", "X Y Z YAW PITCH", "fly there (metres, degrees; 0 0 looks along -Z)", 5, 5, do_camera},
-    {"path", "", "back to the scene's camera", 0, 0, do_path},
-    {"pause", "", "time stands", 0, 0, do_pause},
-    {"play", "", "time goes on", 0, 0, do_play},
-    {"step", "[N]", "N frames on, then time stands", 0, 1, do_step},
-    {"speed", "X", "of time, 0.05 to 1", 1, 1, do_speed},
-    {"restart", "", "the rain from the start, with all settings", 0, 0, do_restart},
-    {"resize", "W H", "the window, pixels", 2, 2, do_resize},
-    {"panel", "on|off", "the panel", 1, 1, do_panel},
-    {"unfold", "TITLE on|off", "a part of the panel, by the first word of its title", 2, 2, do_unfold},
-    {"divide", "1|2|4", "as many fewer pixels along each side", 1, 1, do_divide},
-    {"await", "STATE", "draw until paused, playing, flying, path, panel or no-panel", 1, 1, do_await},
-    {"print", "", "a line about what is shown, on standard output", 0, 0, do_print},
-    {"quit", "", "close the window; without it, it stays open", 0, 0, do_quit},
+    {"view", "NAME [N]", "show a view, and which of its maps", 1, 2, do_view},
+    {"shot", "FILE", "save the picture: .exr with all layers, or .png", 1, 1, do_shot},
+    {"samples", "N", "sub-frames of saved pictures", 1, 1, do_samples},
+    {"window", "FILE.png", "save the window with the panel", 1, 1, do_window},
+    {"save", "FILE.yaml", "save the changed scene", 1, 1, do_save},
+    {"camera", "X Y Z YAW PITCH", "move the camera (metres, degrees; 0 0 looks along -Z)", 5, 5, do_camera},
+    {"path", "", "back to the scene's camera path", 0, 0, do_path},
+    {"pause", "", "stop time", 0, 0, do_pause},
+    {"play", "", "continue", 0, 0, do_play},
+    {"step", "[N]", "draw N frames, then stop time", 0, 1, do_step},
+    {"speed", "X", "speed of time, 0.05 to 1", 1, 1, do_speed},
+    {"restart", "", "restart the simulation with all settings", 0, 0, do_restart},
+    {"resize", "W H", "resize the window, pixels", 2, 2, do_resize},
+    {"panel", "on|off", "show or hide the panel", 1, 1, do_panel},
+    {"unfold", "TITLE on|off", "open or close a part of the panel, by the start of its title", 2, 2, do_unfold},
+    {"divide", "1|2|4", "divide the picture's width and height", 1, 1, do_divide},
+    {"await", "STATE", "wait for paused, playing, flying, path, panel or no-panel", 1, 1, do_await},
+    {"print", "", "print the state on standard output", 0, 0, do_print},
+    {"quit", "", "close the window; without this it stays open", 0, 0, do_quit},
 };
 
 #define COMMAND_COUNT (sizeof commands / sizeof commands[0])
@@ -283,7 +285,7 @@ void view_script_help(void)
 {
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
         char left[64];
-        snprintf(left, sizeof left, "%s %s", commands[i].name, commands[i].words);
+        snprintf(left, sizeof left, "%s %s", commands[i].name, commands[i].arguments);
         printf("      %-26s %s\n", left, commands[i].help);
     }
 }
@@ -309,11 +311,12 @@ static bool read_line(const char *path, char *text, script_line *line, char *err
         line->command++;
     if (line->command == COMMAND_COUNT)
         return refuse(path, line->number, word, error, error_size);
-    while ((word = strtok_r(NULL, " \t\r", &at)) && line->word_count < MOST_WORDS)
-        line->words[line->word_count++] = word;
-    if (word || line->word_count < commands[line->command].least || line->word_count > commands[line->command].most)
+    while ((word = strtok_r(NULL, " \t\r", &at)) && line->argument_count < MAX_ARGUMENTS)
+        line->arguments[line->argument_count++] = word;
+    if (word || line->argument_count < commands[line->command].min_arguments ||
+        line->argument_count > commands[line->command].max_arguments)
         return host_fail(error, error_size, "%s:%u: expected %s %s", path, line->number, commands[line->command].name,
-                         commands[line->command].words);
+                         commands[line->command].arguments);
     return true;
 }
 
@@ -339,19 +342,19 @@ static bool read_lines(view_script *script, const char *path, char *error, size_
 bool view_script_load(const char *path, view_script **script, char *error, size_t error_size)
 {
     void *text = NULL;
-    size_t size, most = 2;
+    size_t size, max_lines = 2;
     *script = NULL;
-    if (!file_read(path, MOST_BYTES, &text, &size, error, error_size))
+    if (!file_read(path, MAX_BYTES, &text, &size, error, error_size))
         return false;
     view_script *made = calloc(1, sizeof *made);
     for (size_t i = 0; i < size; i++)
-        most += ((char *)text)[i] == '\n';
+        max_lines += ((char *)text)[i] == '\n';
     if (made)
-        made->lines = calloc(most, sizeof *made->lines);
+        made->lines = calloc(max_lines, sizeof *made->lines);
     if (!made || !made->lines) {
         free(text);
         free(made);
-        return host_fail(error, error_size, "%s: no more memory", path);
+        return host_fail(error, error_size, "%s: out of memory", path);
     }
     made->text = text;
     *script = made;

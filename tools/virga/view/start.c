@@ -18,7 +18,7 @@ bool view_remember_start(viewer *v)
     v->started_count = 0;
     v->started = calloc(v->setting_count + 1, sizeof *v->started);
     if (!v->started) {
-        snprintf(v->error, sizeof v->error, "no more memory");
+        snprintf(v->error, sizeof v->error, "out of memory");
         return false;
     }
     for (size_t i = 0; i < v->setting_count; i++) {
@@ -34,7 +34,7 @@ bool view_remember_start(viewer *v)
 }
 
 /* Settings of lists that are not there any more are left out. */
-static void take_back(viewer *v)
+static void restore_settings(viewer *v)
 {
     char error[400];
     for (size_t i = 0; i < v->started_count; i++) {
@@ -52,7 +52,7 @@ bool view_start_again(viewer *v)
     if (shot_live_restart(&v->shot, v->error, sizeof v->error))
         return view_remember_start(v);
     snprintf(why, sizeof why, "%s", v->error);
-    take_back(v);
+    restore_settings(v);
     if (!shot_live_restart(&v->shot, v->error, sizeof v->error))
         return false;
     fprintf(stderr, "virga view: %s; started as before\n", why);

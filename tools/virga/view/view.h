@@ -133,7 +133,7 @@ bool view_list_drop(viewer *v, const char *path);
 bool view_is_animated(const viewer *v, const char **hint);
 void view_stop_animation(viewer *v);
 
-bool view_preset_take(viewer *v, const char *name);
+bool view_preset_apply(viewer *v, const char *name);
 bool view_show(viewer *v, const char *mode, uint32_t item);
 void view_show_next(viewer *v, int step);
 bool view_save(viewer *v, const char *path);
