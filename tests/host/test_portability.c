@@ -42,7 +42,7 @@ static void an_instance_asks_for_such_devices_where_the_loader_knows_them(void *
     const char *extensions[2] = {"VK_KHR_surface", NULL};
     VkInstanceCreateInfo info = {.enabledExtensionCount = 1, .ppEnabledExtensionNames = extensions};
     known = "VK_KHR_portability_enumeration";
-    host_ask_portability(&info, extensions);
+    host_request_portability(&info, extensions);
     assert_int_equal(info.enabledExtensionCount, 2);
     assert_string_equal(info.ppEnabledExtensionNames[1], known);
     assert_int_equal(info.flags, VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR);
@@ -54,7 +54,7 @@ static void an_instance_of_an_older_loader_does_not(void **state)
     const char *extensions[1] = {NULL};
     VkInstanceCreateInfo info = {.enabledExtensionCount = 0};
     known = "VK_KHR_surface";
-    host_ask_portability(&info, extensions);
+    host_request_portability(&info, extensions);
     assert_int_equal(info.enabledExtensionCount, 0);
     assert_int_equal(info.flags, 0);
 }

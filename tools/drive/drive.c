@@ -34,10 +34,9 @@ static bool create_device(drive *d, const host_device_info *chosen)
     if (!fine(d, virga_enable_features(&features), "features"))
         return false;
     /* ... and here a host sets its own. */
-    VkPhysicalDeviceFeatures there;
-    vkGetPhysicalDeviceFeatures(chosen->physical, &there);
-    features.features.wideLines = there.wideLines; /* worth it on software Vulkan */
-    d->device.wide_lines = there.wideLines;
+    VkPhysicalDeviceFeatures available;
+    vkGetPhysicalDeviceFeatures(chosen->physical, &available);
+    features.features.wideLines = available.wideLines; /* worth it on software Vulkan */
     const float priority = 1;
     const char *extensions[HOST_DEVICE_EXTENSIONS];
     const VkDeviceQueueCreateInfo queue = {
@@ -54,7 +53,12 @@ static bool create_device(drive *d, const host_device_info *chosen)
         .enabledExtensionCount = host_device_extensions(chosen->physical, d->window, extensions),
         .ppEnabledExtensionNames = extensions,
     };
-    HOST_TRY(vkCreateDevice(chosen->physical, &info, NULL, &d->device.device));
+    VkDevice device;
+    HOST_TRY(vkCreateDevice(chosen->physical, &info, NULL, &device));
+    if (!host_device_wrap(&d->device, &d->listed, chosen, device, error, error_size)) /* with two frames in flight */
+        return false;
+    d->device.wide_lines = available.wideLines;
+    d->device.independent_blend = true; /* glass is blended: one attachment needs no feature for it */
     return true;
 }
 
@@ -73,7 +77,7 @@ static bool open_device(drive *d)
         shows = VK_FALSE;
     if (!shows)
         return host_fail(d->error, sizeof d->error, "%s does not show pictures in this window", infos[index].name);
-    return create_device(d, &infos[index]) && create_frames(d, &infos[index]);
+    return create_device(d, &infos[index]);
 }
 
 /* ---- 2. a context: the device taken into use --------------------------------------------------------------------- */

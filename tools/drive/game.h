@@ -72,9 +72,8 @@ bool set_rate(drive *d, float rate_mm_h);
 bool take_command_line(drive *d, int argc, char **argv);
 void print_help(void);
 
-/* window.c: an instance, and a window where one is wanted; two frames in flight; and the end of them. */
+/* window.c: an instance, and a window where one is wanted; and the end of both. */
 bool open_window(drive *d);
-bool create_frames(drive *d, const host_device_info *chosen);
 void close_window(drive *d);
 
 /* world.c: street, car and light of the sky; draws them into the stage's color and depth. */

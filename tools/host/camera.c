@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "device.h"
+#include "fail.h"
 
 #define PI 3.14159265358979323846
 

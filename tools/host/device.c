@@ -10,18 +10,18 @@
 #define ANISOTROPY          8.0f
 #define ANISOTROPY_SOFTWARE 4.0f /* a plate takes two to three times as long as without, and a road looks like one */
 
-/* What the host takes where it is there; what Virga requires is set by virga_enable_features. */
-static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled)
+/* Enables optional features that the device has. virga_enable_features sets what Virga requires. */
+static void enable_optional(host_device *device, VkPhysicalDeviceFeatures *enabled)
 {
-    VkPhysicalDeviceFeatures there;
-    vkGetPhysicalDeviceFeatures(device->physical, &there);
-    device->independent_blend = there.independentBlend;
-    enabled->independentBlend = there.independentBlend;
-    device->clip_distance = there.shaderClipDistance;
-    enabled->shaderClipDistance = there.shaderClipDistance;
-    device->wide_lines = there.wideLines;
-    enabled->wideLines = there.wideLines;
-    if (there.samplerAnisotropy) {
+    VkPhysicalDeviceFeatures available;
+    vkGetPhysicalDeviceFeatures(device->physical, &available);
+    device->independent_blend = available.independentBlend;
+    enabled->independentBlend = available.independentBlend;
+    device->clip_distance = available.shaderClipDistance;
+    enabled->shaderClipDistance = available.shaderClipDistance;
+    device->wide_lines = available.wideLines;
+    enabled->wideLines = available.wideLines;
+    if (available.samplerAnisotropy) {
         enabled->samplerAnisotropy = VK_TRUE;
         bool software = device->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
         float limit = device->properties.limits.maxSamplerAnisotropy, wanted = ANISOTROPY;
@@ -31,14 +31,14 @@ static void take_optional(host_device *device, VkPhysicalDeviceFeatures *enabled
     }
 }
 
-static bool create_logical(host_device *device, char *error, size_t error_size)
+static bool create_logical(host_device *device, VkDevice *made, char *error, size_t error_size)
 {
     VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
     virga_result result = virga_enable_features(&features);
     if (result < 0)
         return host_fail(error, error_size, "virga_enable_features gave %s", virga_result_name(result));
-    take_optional(device, &features.features);
+    enable_optional(device, &features.features);
 
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue = {
@@ -57,8 +57,7 @@ static bool create_logical(host_device *device, char *error, size_t error_size)
         .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
-    HOST_TRY(vkCreateDevice(device->physical, &info, NULL, &device->device));
-    vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
+    HOST_TRY(vkCreateDevice(device->physical, &info, NULL, made));
     return true;
 }
 
@@ -85,8 +84,15 @@ static bool create_frames(host_device *device, char *error, size_t error_size)
     return true;
 }
 
-bool host_device_create(host_device *device, const host_instance *instance, const host_device_info *info, char *error,
-                        size_t error_size)
+static void load_debug_functions(host_device *device)
+{
+    VkInstance vk = device->instance->instance;
+    device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(vk, "vkSetDebugUtilsObjectNameEXT");
+    device->begin_label = (PFN_vkCmdBeginDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdBeginDebugUtilsLabelEXT");
+    device->end_label = (PFN_vkCmdEndDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdEndDebugUtilsLabelEXT");
+}
+
+static void describe(host_device *device, const host_instance *instance, const host_device_info *info)
 {
     memset(device, 0, sizeof *device);
     device->instance = instance;
@@ -94,18 +100,35 @@ bool host_device_create(host_device *device, const host_instance *instance, cons
     device->queue_family = info->queue_family;
     vkGetPhysicalDeviceProperties(info->physical, &device->properties);
     vkGetPhysicalDeviceMemoryProperties(info->physical, &device->memory);
-    if (!create_logical(device, error, error_size) || !create_frames(device, error, error_size)) {
+}
+
+/* The rest, around a device. */
+static bool use_device(host_device *device, VkDevice made, char *error, size_t error_size)
+{
+    device->device = made;
+    vkGetDeviceQueue(device->device, device->queue_family, 0, &device->queue);
+    if (!create_frames(device, error, error_size)) {
         host_device_destroy(device);
         return false;
     }
-    if (instance->debug_utils) {
-        VkInstance vk = instance->instance;
-        device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(vk, "vkSetDebugUtilsObjectNameEXT");
-        device->begin_label =
-            (PFN_vkCmdBeginDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdBeginDebugUtilsLabelEXT");
-        device->end_label = (PFN_vkCmdEndDebugUtilsLabelEXT)vkGetInstanceProcAddr(vk, "vkCmdEndDebugUtilsLabelEXT");
-    }
+    if (device->instance->debug_utils)
+        load_debug_functions(device);
     return true;
+}
+
+bool host_device_create(host_device *device, const host_instance *instance, const host_device_info *info, char *error,
+                        size_t error_size)
+{
+    VkDevice made;
+    describe(device, instance, info);
+    return create_logical(device, &made, error, error_size) && use_device(device, made, error, error_size);
+}
+
+bool host_device_wrap(host_device *device, const host_instance *instance, const host_device_info *info, VkDevice made,
+                      char *error, size_t error_size)
+{
+    describe(device, instance, info);
+    return use_device(device, made, error, error_size);
 }
 
 uint32_t host_device_destroy(host_device *device)

@@ -1,86 +1,10 @@
-/* device.h - Vulkan instance with optional validation, the list of devices, the chosen device and its frames. */
+/* device.h - the logical device with one queue, and the frames that are in flight. */
 #ifndef VIRGA_HOST_DEVICE_H
 #define VIRGA_HOST_DEVICE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <vulkan/vulkan.h>
+#include "device_list.h"
 
-#define HOST_MAX_DEVICES 16
 #define HOST_FRAMES 2 /* command buffers in flight */
-
-/* ---- errors ------------------------------------------------------------------------------------------------- */
-
-/* Writes one line into `error` (may be NULL) and returns false, so that `return host_fail(...)` reads well. */
-bool host_fail(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-/* Name of a VkResult, e.g. "VK_ERROR_DEVICE_LOST". */
-const char *host_result_name(VkResult result);
-
-/* Wraps a Vulkan call in a function that has `error` and `error_size`: on failure it names the call and returns. */
-#define HOST_TRY(call)                                                                                       \
-    do {                                                                                                     \
-        VkResult host_try_result = (call);                                                                   \
-        if (host_try_result < 0)                                                                             \
-            return host_fail(error, error_size, "%s gave %s", #call, host_result_name(host_try_result));     \
-    } while (0)
-
-/* ---- instance ----------------------------------------------------------------------------------------------- */
-
-/* Must not move while it lives: the validation layer reports into it. */
-typedef struct host_instance {
-    VkInstance instance;
-    VkDebugUtilsMessengerEXT messenger;
-    bool validation;           /* layer and synchronization validation are on */
-    bool debug_utils;          /* names and labels may be set */
-    bool presents;             /* made for a window: devices get VK_KHR_swapchain */
-    uint32_t messages;         /* warnings and errors the layer has reported so far */
-    char first_message[1024];  /* the first of them */
-} host_instance;
-
-/* `validate`, or VIRGA_VALIDATE=1 in the environment, turns validation on; it is an error if the layer is absent. */
-bool host_instance_create(host_instance *instance, bool validate, char *error, size_t error_size);
-
-/* The same with the extensions that a window needs, at most 8, so that devices of it can present. */
-bool host_instance_create_for_window(host_instance *instance, bool validate, const char *const *extensions,
-                                     uint32_t extension_count, char *error, size_t error_size);
-void host_instance_destroy(host_instance *instance);
-
-/* Asks for devices that are not quite Vulkan too, where the loader knows of them: MoltenVK, the one of macOS. Writes
- * an extension's name behind the `info->enabledExtensionCount` of `extensions`, which has room for it. */
-void host_ask_portability(VkInstanceCreateInfo *info, const char **extensions);
-
-/* ---- which device ------------------------------------------------------------------------------------------- */
-
-typedef struct host_device_info {
-    VkPhysicalDevice physical;
-    VkPhysicalDeviceType type;
-    char name[VK_MAX_PHYSICAL_DEVICE_NAME_SIZE];
-    char driver[VK_MAX_DRIVER_NAME_SIZE + VK_MAX_DRIVER_INFO_SIZE + 4];
-    uint32_t api_version;
-    uint32_t queue_family;   /* graphics and compute */
-    VkDeviceSize memory_bytes; /* of device-local heaps */
-    bool usable;
-    char reason[256];        /* why not; empty if usable */
-} host_device_info;
-
-const char *host_device_type_name(VkPhysicalDeviceType type);
-
-/* Fills `infos`, in the order of the loader, and returns how many there are (at most `capacity`). */
-uint32_t host_devices_list(const host_instance *instance, host_device_info *infos, uint32_t capacity);
-
-/* Chooses: `wanted` NULL takes the best usable (discrete, integrated, virtual, software); else a number of the list,
- * "gpu", "cpu", or part of a name in any case. */
-bool host_device_pick(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index, char *error,
-                      size_t error_size);
-
-/* The extensions that a device is made with: the swapchain where it is to present, and VK_KHR_portability_subset where
- * the device has it, as it must be enabled then. Returns how many of `names` are set. */
-enum { HOST_DEVICE_EXTENSIONS = 2 };
-uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const char *names[HOST_DEVICE_EXTENSIONS]);
-
-/* ---- the device --------------------------------------------------------------------------------------------- */
 
 typedef struct host_frame {
     VkCommandPool pool;
@@ -117,10 +41,15 @@ typedef struct host_device {
 bool host_device_create(host_device *device, const host_instance *instance, const host_device_info *info, char *error,
                         size_t error_size);
 
+/* The same around a device that was made elsewhere; takes it over, also on failure. What is optional counts as not
+ * enabled. */
+bool host_device_wrap(host_device *device, const host_instance *instance, const host_device_info *info, VkDevice made,
+                      char *error, size_t error_size);
+
 /* Waits for the device, destroys it, returns the number of buffers and images that were still alive (0 is right). */
 uint32_t host_device_destroy(host_device *device);
 
-/* Says one warning line. */
+/* Reports one line, through device->warn. */
 void host_warn(const host_device *device, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Names a Vulkan object for debuggers; nothing where the extension is off. */

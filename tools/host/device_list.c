@@ -1,5 +1,5 @@
-/* device_list.c - which devices there are, why one cannot be used, and which one is taken. */
-#include "device.h"
+/* device_list.c - which devices there are, why one cannot be used, and which one is chosen. */
+#include "device_list.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const 
     return count;
 }
 
-/* Smaller is taken first. */
+/* The smallest is chosen. */
 static int rank(VkPhysicalDeviceType type)
 {
     switch (type) {
@@ -174,9 +174,9 @@ static bool matches(const host_device_info *info, const char *wanted)
     return contains(info->name, wanted);
 }
 
-/* "no device 7: there is only 0, cpu", or "there are 0, gpu; 1, cpu": by what --device takes. */
-static bool no_such_number(const host_device_info *infos, uint32_t count, const char *wanted, char *error,
-                           size_t error_size)
+/* "no device 7: there is only 0, cpu", or "there are 0, gpu; 1, cpu": the values of --device. */
+static bool refuse_number(const host_device_info *infos, uint32_t count, const char *wanted, char *error,
+                          size_t error_size)
 {
     char list[256] = "";
     for (uint32_t i = 0; i < count; i++) {
@@ -192,7 +192,7 @@ static bool pick_number(const host_device_info *infos, uint32_t count, const cha
 {
     unsigned long number = strtoul(wanted, NULL, 10);
     if (number >= count)
-        return no_such_number(infos, count, wanted, error, error_size);
+        return refuse_number(infos, count, wanted, error, error_size);
     if (!infos[number].usable)
         return host_fail(error, error_size, "device %s (%s) cannot be used: %s", wanted, infos[number].name,
                          infos[number].reason);
