@@ -153,10 +153,10 @@ static void mips_keep_coverage(void **state)
 static void words(void **state)
 {
     (void)state;
-    assert_string_equal(host_material_name(host_material_word("TR-Asphalt-2")), "asphalt");
-    assert_string_equal(host_material_name(host_material_word("grass-aa.rgb")), "grass");
-    assert_string_equal(host_material_name(host_material_word("nothing known")), "default");
-    assert_int_equal(host_material_word(""), 0);
+    assert_string_equal(host_material_name(host_guess_material("TR-Asphalt-2")), "asphalt");
+    assert_string_equal(host_material_name(host_guess_material("grass-aa.rgb")), "grass");
+    assert_string_equal(host_material_name(host_guess_material("nothing known")), "default");
+    assert_int_equal(host_guess_material(""), 0);
     assert_string_equal(host_material_name(255), "default");
 }
 

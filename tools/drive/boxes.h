@@ -16,7 +16,7 @@ typedef struct boxes {
 void boxes_put(boxes *b, const float corners[8][3]);
 void boxes_put_cuboid(boxes *b, const float low[3], const float high[3]);
 
-/* A bar from a place to another, so wide and so high along `up`. */
+/* A bar from one point to another, with a width and a height along `up`. */
 void boxes_put_bar(boxes *b, const float from[3], const float to[3], const float up[3], float width, float height);
 
 #endif

@@ -11,7 +11,7 @@
 #define REAR_AXLE_M    1.27
 #define WHEEL_X_M      0.735
 #define WHEEL_RADIUS_M 0.315
-#define STEER_MOST     0.75 /* rad */
+#define MAX_STEER      0.75 /* rad */
 #define STEP_M         0.5  /* between points of the track once it is read */
 #define POINTS_MOST    65536
 
@@ -176,7 +176,7 @@ static void steer_by_itself(const car *c, const track *t, double *gas, double *s
 {
     const double look_m = 2 + 0.4 * c->speed_m_s;
     const double off = turned(heading_to(c, ahead(t, c->nearest, look_m)) - c->heading);
-    double least = t->speed_m_s;
+    double slowest = t->speed_m_s;
     for (double way = 0; way < 5 + c->speed_m_s * c->speed_m_s / 5; way += 2) {
         const float *a = ahead(t, c->nearest, way), *b = ahead(t, c->nearest, way + 3),
                     *d = ahead(t, c->nearest, way + 6);
@@ -184,17 +184,17 @@ static void steer_by_itself(const car *c, const track *t, double *gas, double *s
         const double second = atan2((double)d[0] - (double)b[0], (double)d[2] - (double)b[2]);
         const double bend = fabs(turned(second - first)) / 3;
         const double there = sqrt(2.2 / fmax(bend, 1e-3)), now = sqrt(there * there + 2 * 2.5 * way);
-        least = fmin(least, now);
+        slowest = fmin(slowest, now);
     }
     *steer = atan(2 * WHEELBASE_M * sin(off) / look_m);
-    *gas = fmin(fmax((least - c->speed_m_s) * 1.5, -5), 3);
+    *gas = fmin(fmax((slowest - c->speed_m_s) * 1.5, -5), 3);
 }
 
 static void steer_by_keys(const car *c, const car_keys *keys, double *gas, double *steer)
 {
-    const double most = STEER_MOST / (1 + 0.12 * c->speed_m_s);
+    const double limit = MAX_STEER / (1 + 0.12 * c->speed_m_s);
     *gas = keys->gas ? 4 : keys->brake ? -7 : -0.6;
-    *steer = (keys->left ? most : 0) - (keys->right ? most : 0);
+    *steer = (keys->left ? limit : 0) - (keys->right ? limit : 0);
 }
 
 /* Back beside the way where the car left it. */
@@ -221,7 +221,7 @@ void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
         steer_by_itself(c, t, &gas, &steer);
     else
         steer_by_keys(c, keys, &gas, &steer);
-    c->steer += (fmin(fmax(steer, -STEER_MOST), STEER_MOST) - c->steer) * fmin(10 * dt_s, 1);
+    c->steer += (fmin(fmax(steer, -MAX_STEER), MAX_STEER) - c->steer) * fmin(10 * dt_s, 1);
     c->speed_m_s = fmin(fmax(c->speed_m_s + gas * dt_s, 0), 60);
     c->rolled = turned(c->rolled + c->speed_m_s / WHEEL_RADIUS_M * dt_s);
     c->heading = turned(c->heading + c->speed_m_s / WHEELBASE_M * tan(c->steer) * dt_s);
@@ -280,11 +280,11 @@ static void turn_out(const car *c, double local[9], float axes[9])
 void car_wheel(const car *c, int wheel, double position_m[3], float axes[9])
 {
     const bool right = wheel % 2, front = wheel < 2;
-    const double place[3] = {right ? WHEEL_X_M : -WHEEL_X_M, WHEEL_RADIUS_M, front ? FRONT_AXLE_M : REAR_AXLE_M};
+    const double axle[3] = {right ? WHEEL_X_M : -WHEEL_X_M, WHEEL_RADIUS_M, front ? FRONT_AXLE_M : REAR_AXLE_M};
     /* First it rolls about its axle; on the left it is turned around; then it is steered about the vertical. */
     const double roll = right ? c->rolled : -c->rolled, turn = (front ? c->steer : 0) + (right ? 0 : M_PI);
     const double cr = cos(roll), sr = -sin(roll), ct = cos(turn), st = sin(turn);
     double local[9] = {ct, 0, -st, st * sr, cr, ct * sr, st * cr, -sr, ct * cr};
-    car_point(c, place, position_m);
+    car_point(c, axle, position_m);
     turn_out(c, local, axes);
 }

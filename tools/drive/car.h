@@ -70,7 +70,7 @@ typedef enum car_part {
 
 car_part car_part_of(const char *material);
 
-/* Where wheel 0 to 3 is, how it is steered and how far it has rolled: its place and axes in the world. */
+/* Position and axes of wheel 0 to 3 in the world, steered and rolled. */
 void car_wheel(const car *c, int wheel, double position_m[3], float axes[9]);
 
 /* The windshield: the middle of its lower edge and its size, as assets/make_car.py has them; the driver's eye. */
@@ -79,7 +79,7 @@ extern const double car_windshield_m[3], car_eye_m[3];
 #define CAR_GLASS_HEIGHT_M 0.95f
 #define CAR_GLASS_RAKE_DEG 55.0f
 #define CAR_GLASS_BEND_M   4.0f
-#define CAR_GLASS_TOP_M    1.23f /* it is so wide at its upper edge: its corners are cut off */
+#define CAR_GLASS_TOP_M    1.23f /* width of its upper edge: its corners are cut off */
 
 /* Half its width and length. */
 #define CAR_HALF_WIDTH_M  0.87f

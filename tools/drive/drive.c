@@ -1,7 +1,7 @@
-/* drive.c - a car in the rain: how a renderer takes Virga in. This is the file to read; it has all calls of Virga, in
- * the order that a host comes to them; engine/README.md explains it. stage.c is a small renderer and car.c a car: any
- * others would do; options, window, world, windshield and game are the rest of the program. They make no call of Virga;
- * of it the renderer sees only the maps and lamps that its material reads.
+/* drive.c - a car in the rain: how a renderer embeds Virga. This is the file to read: it has all calls of Virga, in
+ * the order in which a host needs them. engine/README.md explains it. stage.c is a small renderer and car.c a car; any
+ * other would do. options, window, world, windshield and game are the rest of the program. They make no call of Virga;
+ * the renderer only sees the maps and lamps that its material reads.
  *
  *     drive [MODEL.glb] [--track FILE] [--outside] [--rain MM_H] [--wipers off|intermittent|slow|fast] [--start M]
  *           [--frames N --out FILE.png [--fps N]] [--size WxH] [--device N|gpu|cpu|NAME] [--pipelines FILE]
@@ -17,7 +17,7 @@
 
 #define NEAR_ENOUGH_M 60 /* what is farther keeps no rain off that could be seen */
 
-/* An error of Virga's is one line that names what was being done; the log has said why. Remarks are no errors. */
+/* Turns an error of Virga into one line that names what failed; the log has the reason. Warnings are no errors. */
 static bool fine(drive *d, virga_result result, const char *doing)
 {
     return result >= 0 || host_fail(d->error, sizeof d->error, "%s: %s", doing, virga_result_name(result));
@@ -68,7 +68,7 @@ static bool open_device(drive *d)
     uint32_t index = 0;
     if (!open_window(d))
         return false;
-    const uint32_t count = host_devices_list(&d->listed, infos, HOST_MAX_DEVICES); /* asks virga_check_device */
+    const uint32_t count = host_devices_list(&d->listed, infos, HOST_MAX_DEVICES); /* calls virga_check_device */
     if (!host_device_pick(infos, count, d->chosen.device, &index, d->error, sizeof d->error))
         return false;
     VkBool32 shows = !d->window;
@@ -80,7 +80,7 @@ static bool open_device(drive *d)
     return create_device(d, &infos[index]);
 }
 
-/* ---- 2. a context: the device taken into use --------------------------------------------------------------------- */
+/* ---- 2. a context: Virga on the device --------------------------------------------------------------------------- */
 
 static void say(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
@@ -257,8 +257,8 @@ static void light_up(drive *d)
 /* All that is near and the car, which moves: what keeps rain off, gets wet, and is splashed on. */
 static uint32_t fill_occluders(drive *d)
 {
-    uint32_t count = host_mesh_occluders(&d->street, d->occluders, MOST_OCCLUDERS - 2), kept = 0;
-    for (uint32_t i = 0; i < count && i < MOST_OCCLUDERS - 2; i++) {
+    uint32_t count = host_mesh_occluders(&d->street, d->occluders, MAX_OCCLUDERS - 2), kept = 0;
+    for (uint32_t i = 0; i < count && i < MAX_OCCLUDERS - 2; i++) {
         const host_primitive *primitive = &d->street.primitives[i];
         double off2 = 0;
         for (int axis = 0; axis < 3; axis += 2) {
@@ -271,9 +271,9 @@ static uint32_t fill_occluders(drive *d)
     }
     /* Splashes stay where they were made: a car that moves would drive into its own. */
     const bool still = d->car.speed_m_s < 1;
-    virga_occluder of_car[MOST_PARTS];
-    count = host_mesh_occluders(&d->body, of_car, MOST_PARTS);
-    for (uint32_t i = 0; i < count && i < MOST_PARTS && kept < MOST_OCCLUDERS; i++) {
+    virga_occluder of_car[MAX_PARTS];
+    count = host_mesh_occluders(&d->body, of_car, MAX_PARTS);
+    for (uint32_t i = 0; i < count && i < MAX_PARTS && kept < MAX_OCCLUDERS; i++) {
         const car_part part = car_part_of(d->body.materials[d->body.primitives[i].material].name);
         if (part != CAR_COVER && part != CAR_SCREEN)
             continue;
@@ -465,7 +465,7 @@ int main(int argc, char **argv)
         print_help();
         return 0;
     }
-    if (!take_command_line(&d, argc, argv))
+    if (!read_command_line(&d, argc, argv))
         return 2;
     if (!d.chosen.out && !glfwInit()) {
         fprintf(stderr, "drive: no display to open a window on; --frames N --out FILE.png needs none\n");

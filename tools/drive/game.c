@@ -69,7 +69,7 @@ static void read_keys(drive *d)
 }
 
 /* Rate, speed and frames a second, twice a second. */
-static void tell_title(drive *d, double now_s)
+static void update_title(drive *d, double now_s)
 {
     static double since_s;
     static uint32_t frames;
@@ -97,7 +97,7 @@ bool run_window(drive *d)
         then_s = now_s;
         if (!run_frame(d, dt_s, false))
             return false;
-        tell_title(d, now_s);
+        update_title(d, now_s);
     }
     return host_wait(&d->device, d->error, sizeof d->error);
 }

@@ -13,14 +13,14 @@
 
 #define PANE_POINTS    33  /* along each side of the windshield's grid */
 #define PANE_TEXELS    256 /* and of its mask */
-#define MOST_OCCLUDERS 4096
-#define MOST_PARTS     64 /* primitives of the car */
+#define MAX_OCCLUDERS 4096
+#define MAX_PARTS     64 /* primitives of the car */
 #define WIPERS         2
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];
 
-/* What the command line asks for; options.c. */
+/* The command line; options.c. */
 typedef struct choices {
     const char *model, *track, *out, *device, *pipelines;
     uint32_t frames, fps, width, height;
@@ -34,7 +34,7 @@ typedef struct drive {
 
     /* The host's own: Vulkan, a renderer, a street, a car. */
     VkInstance instance;
-    host_instance listed; /* `instance`, as the list of devices takes it */
+    host_instance listed; /* `instance`, for the list of devices */
     host_device device;
     GLFWwindow *window;
     VkSurfaceKHR surface;
@@ -58,7 +58,7 @@ typedef struct drive {
     virga_glass_settings glass;
     float pane[PANE_POINTS * PANE_POINTS * 3];
     uint8_t glass_at[PANE_TEXELS * PANE_TEXELS];
-    virga_occluder occluders[MOST_OCCLUDERS];
+    virga_occluder occluders[MAX_OCCLUDERS];
     float rate_mm_h;
     int wiper_speed;
     double wiper_s; /* into the wipers' cycle */
@@ -69,7 +69,7 @@ bool run_frame(drive *d, double dt_s, bool keep);
 bool set_rate(drive *d, float rate_mm_h);
 
 /* options.c: false after a line on stderr. */
-bool take_command_line(drive *d, int argc, char **argv);
+bool read_command_line(drive *d, int argc, char **argv);
 void print_help(void);
 
 /* window.c: an instance, and a window where one is wanted; and the end of both. */

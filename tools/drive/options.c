@@ -62,7 +62,7 @@ static bool take_option(drive *d, int option, const char *value)
     }
 }
 
-bool take_command_line(drive *d, int argc, char **argv)
+bool read_command_line(drive *d, int argc, char **argv)
 {
     static const struct option options[] = {
         {"track", required_argument, NULL, 't'},  {"device", required_argument, NULL, 'd'},

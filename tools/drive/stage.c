@@ -43,7 +43,7 @@ static void multiply(const float a[16], const float b[16], float out[16])
         }
 }
 
-/* ---- what the shaders are told */
+/* ---- uniforms */
 
 static void tell_camera(const stage *s, const stage_camera *camera, struct drive_frame_gpu *to)
 {
@@ -90,11 +90,11 @@ static void tell_lights(const stage_camera *camera, const virga_lighting *lighti
             sqrtf(light->direction[0] * light->direction[0] + light->direction[1] * light->direction[1] +
                   light->direction[2] * light->direction[2]);
         for (int c = 0; c < 3; c++) {
-            l->place[c] = (float)(light->position_m[c] - camera->position_m[c]);
+            l->position[c] = (float)(light->position_m[c] - camera->position_m[c]);
             l->intensity[c] = light->intensity[c];
             l->direction[c] = length > 0 ? light->direction[c] / length : 0;
         }
-        l->place[3] = light->range_m > 0 ? 1 / light->range_m : 0;
+        l->position[3] = light->range_m > 0 ? 1 / light->range_m : 0;
         l->cone[0] = length > 0 ? 1 / fmaxf(light->cos_inner - light->cos_outer, 1e-4f) : 0;
         l->cone[1] = length > 0 ? -light->cos_outer * l->cone[0] : 1;
     }
@@ -112,7 +112,7 @@ static void tell_sky(const float sh[9][3], struct drive_frame_gpu *to)
             to->irradiance[i][c] = sh[i][c] * factors[i];
 }
 
-/* Rows that give a place in the shade's own axes: 1 at its ends, and metres above the ground. */
+/* Rows that turn a point into the shade's own axes: 1 at its ends, and metres above the ground. */
 static void tell_shade(const stage_camera *camera, const stage_shade *shade, struct drive_frame_gpu *to)
 {
     const float scales[3] = {shade->half_m[0], 1, shade->half_m[1]};
@@ -146,7 +146,7 @@ bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, siz
         return false;
     if (*resized || !s->width)
         return true;
-    /* The place of the ring is free again before its semaphore is used anew. */
+    /* The slot of the ring is free again before its semaphore is used anew. */
     if (!host_begin_frame(s->device, cmd, error, error_size))
         return false;
     if (!s->window)

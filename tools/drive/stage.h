@@ -29,13 +29,13 @@ typedef struct stage_camera {
     float view_from_world[16], clip_from_view[16]; /* made by stage_camera_set */
 } stage_camera;
 
-/* What is drawn: a mesh at a place, and how much of the sky it sees. Its glass comes after the rest of it. */
+/* A mesh to draw, its position, and how much of the sky it sees. Its glass is drawn after the rest of it. */
 typedef struct stage_draw {
     const host_mesh *mesh;
     double position_m[3];
     float axes[9];      /* columns: the mesh's axes in the world */
     float sky;          /* [0; 1]: 0.3 within a car */
-    const float *skies; /* (optional) in place of `sky`, one for each primitive; below 0: it is not drawn */
+    const float *skies; /* (optional) instead of `sky`, one per primitive; below 0: it is not drawn */
 } stage_draw;
 
 /* What stands on the ground and keeps light from it: a car. All 0: nothing. */
@@ -57,7 +57,7 @@ typedef struct stage {
     VkImageView image_views[STAGE_IMAGES];
     VkFramebuffer show_framebuffers[STAGE_IMAGES];
     VkSemaphore acquired[HOST_FRAMES], finished[STAGE_IMAGES];
-    host_image picture; /* in place of a swapchain */
+    host_image picture; /* instead of a swapchain */
     host_buffer copy;   /* its bytes, after the last frame */
 
     host_image color, depth, behind; /* RGBA16F with 1 / distance in alpha of `behind`; D32 */

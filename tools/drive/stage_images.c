@@ -28,12 +28,12 @@ bool stage_images_choose(stage *s, char *error, size_t error_size)
 static bool create_swapchain(stage *s, VkExtent2D extent, const VkSurfaceCapabilitiesKHR *can, char *error,
                              size_t error_size)
 {
-    const uint32_t most = can->maxImageCount ? can->maxImageCount : STAGE_IMAGES;
+    const uint32_t max_count = can->maxImageCount ? can->maxImageCount : STAGE_IMAGES;
     const uint32_t wanted = can->minImageCount + 1;
     VkSwapchainCreateInfoKHR info = {
         .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
         .surface = s->surface,
-        .minImageCount = wanted < most ? wanted : most,
+        .minImageCount = wanted < max_count ? wanted : max_count,
         .imageFormat = s->show_format,
         .imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR,
         .imageExtent = extent,

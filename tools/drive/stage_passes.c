@@ -21,7 +21,7 @@ typedef struct pass_def {
     VkImageLayout color_before, color_after;
 } pass_def;
 
-/* What came before a pass and what follows it, as wide as such a small renderer can afford. */
+/* What came before a pass and what follows it: broad stages, which a small renderer can afford. */
 static bool create_pass(stage *s, const pass_def *def, VkRenderPass *pass, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[2] = {

@@ -39,8 +39,8 @@ bool load_world(drive *d)
     if (!host_mesh_load(&d->device, DRIVE_ASSETS "/scenes/car.glb", NULL, &d->body, error, error_size) ||
         !stage_add(&d->stage, &d->body, error, error_size))
         return false;
-    if (d->body.primitive_count > MOST_PARTS)
-        return host_fail(error, error_size, "car.glb has more than %d parts", MOST_PARTS);
+    if (d->body.primitive_count > MAX_PARTS)
+        return host_fail(error, error_size, "car.glb has more than %d parts", MAX_PARTS);
     put_wipers(d);
     material = (host_material){.name = "wiper", .base_color = {0.015f, 0.015f, 0.016f, 1}, .roughness = 0.55f};
     return add_boxes(d, b, &material, &d->wipers);
@@ -48,7 +48,7 @@ bool load_world(drive *d)
 
 static void draw_car(drive *d, VkCommandBuffer cmd)
 {
-    float skies[MOST_PARTS], of_wheel[MOST_PARTS];
+    float skies[MAX_PARTS], of_wheel[MAX_PARTS];
     stage_draw draw = {.mesh = &d->body, .skies = of_wheel};
     for (uint32_t i = 0; i < d->body.primitive_count; i++) {
         const car_part part = car_part_of(d->body.materials[d->body.primitives[i].material].name);

@@ -3,10 +3,10 @@
 
 #include "effect.h"
 #include "ground/ground_state.h"
+#include "materials.h"
 #include "png.h"
 #include "scene_rows.h"
 #include "suggest.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
 
 #include "effect.h"
 #include "ground.h"
+#include "materials.h"
 #include "point_columns.h"
 #include "scene_rows.h"
-#include "words.h"
 
 #include <stddef.h>
 #include <stdio.h>

@@ -46,7 +46,7 @@ void host_camera_at(const host_camera_path *path, double time_s, uint32_t width,
 /* When the shot that `time_s` lies in began; -INFINITY for the first one. Motion must not reach back beyond it. */
 double host_camera_shot_start(const host_camera_path *path, double time_s);
 
-/* Place `index` of `count` in a low-discrepancy pattern of jitters in [-0.5; 0.5]; (0, 0) if count is 1. */
+/* Sample `index` of `count` of a low-discrepancy pattern of jitters in [-0.5; 0.5]; (0, 0) if count is 1. */
 void host_camera_jitter(uint32_t index, uint32_t count, float jitter_px[2]);
 
 /* Distance in metres along the camera's axis of a depth value; INFINITY for 1 (nothing was drawn there). */

@@ -37,15 +37,15 @@ bool host_set_layout_create(host_device *device, const host_set_shape *shape, Vk
     return true;
 }
 
-bool host_set_pool_create(host_device *device, const host_set_shape *shape, uint32_t most, VkDescriptorPool *pool,
+bool host_set_pool_create(host_device *device, const host_set_shape *shape, uint32_t max_sets, VkDescriptorPool *pool,
                           char *error, size_t error_size)
 {
     VkDescriptorPoolSize sizes[HOST_SET_BINDINGS];
     for (uint32_t i = 0; i < shape->count; i++)
-        sizes[i] = (VkDescriptorPoolSize){shape->types[i], most};
+        sizes[i] = (VkDescriptorPoolSize){shape->types[i], max_sets};
     const VkDescriptorPoolCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = most,
+        .maxSets = max_sets,
         .poolSizeCount = shape->count,
         .pPoolSizes = sizes,
     };

@@ -1,4 +1,4 @@
-/* descriptors.h - what shaders are bound to: samplers, set layouts, pools, sets and what is written into these. */
+/* descriptors.h - samplers, descriptor set layouts, pools and sets. */
 #ifndef VIRGA_HOST_DESCRIPTORS_H
 #define VIRGA_HOST_DESCRIPTORS_H
 
@@ -26,8 +26,8 @@ typedef struct host_set_shape {
 bool host_set_layout_create(host_device *device, const host_set_shape *shape, VkDescriptorSetLayout *layout,
                             char *error, size_t error_size);
 
-/* With room for `most` sets of that shape. */
-bool host_set_pool_create(host_device *device, const host_set_shape *shape, uint32_t most, VkDescriptorPool *pool,
+/* With room for `max_sets` sets of that shape. */
+bool host_set_pool_create(host_device *device, const host_set_shape *shape, uint32_t max_sets, VkDescriptorPool *pool,
                           char *error, size_t error_size);
 
 bool host_sets_allocate(host_device *device, VkDescriptorPool pool, VkDescriptorSetLayout layout, uint32_t count,

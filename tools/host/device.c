@@ -8,7 +8,7 @@
 #include <virga/vulkan.h>
 
 #define ANISOTROPY          8.0f
-#define ANISOTROPY_SOFTWARE 4.0f /* a plate takes two to three times as long as without, and a road looks like one */
+#define ANISOTROPY_SOFTWARE 4.0f /* enough for a road; a plate already takes two to three times as long as without */
 
 /* Enables optional features that the device has. virga_enable_features sets what Virga requires. */
 static void enable_optional(host_device *device, VkPhysicalDeviceFeatures *enabled)
@@ -185,7 +185,7 @@ void host_label_end(const host_device *device, VkCommandBuffer cmd)
         device->end_label(cmd);
 }
 
-/* Waits for what was last submitted from a place of the ring. */
+/* Waits for the last submission of a slot of the ring. */
 static bool wait_frame(host_device *device, host_frame *frame, char *error, size_t error_size)
 {
     if (frame->index <= device->completed)

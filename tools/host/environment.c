@@ -10,7 +10,7 @@
 #define SUN_LIMIT     32.0f /* times the mean luminance; more rings in harmonics of degree 2 and speckles in the blur */
 #define SKY_MIN_WIDTH 2048  /* smaller panoramas show their texels: they are upsampled to this */
 #define SKY_MAX_WIDTH 8192
-#define LIGHT_WIDTH   256 /* harmonics are taken from this size */
+#define LIGHT_WIDTH   256 /* harmonics are computed at this size */
 #define BLUR_WIDTH    128 /* size of each reflection level */
 
 host_environment_def host_default_environment(void)

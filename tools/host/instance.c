@@ -1,4 +1,4 @@
-/* instance.c - the Vulkan instance, with the validation layer and synchronization validation where asked for. */
+/* instance.c - the Vulkan instance, optionally with the validation layer and synchronization validation. */
 #include "instance.h"
 
 #include <stdio.h>

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* The memory type with all of `needed` and the most of `liked`, or UINT32_MAX. */
+/* The memory type with all of `needed` and as many of `liked` as possible, or UINT32_MAX. */
 static uint32_t find_type(const host_device *device, uint32_t allowed, VkMemoryPropertyFlags needed,
                           VkMemoryPropertyFlags liked)
 {
@@ -124,15 +124,15 @@ static bool copy_buffer(host_device *device, const host_buffer *from, const host
     return host_submit(device, error, error_size) && host_wait(device, error, error_size);
 }
 
-#define MOST_UPDATE 65536u /* bytes in a vkCmdUpdateBuffer */
+#define MAX_UPDATE 65536u /* bytes in a vkCmdUpdateBuffer */
 
 void host_buffer_update(VkCommandBuffer cmd, const host_buffer *buffer, const void *data, VkDeviceSize size,
                         VkPipelineStageFlags readers, VkAccessFlags access)
 {
     const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
     host_memory_barrier(cmd, readers, 0, copying, VK_ACCESS_TRANSFER_WRITE_BIT);
-    for (VkDeviceSize from = 0; from < size; from += MOST_UPDATE)
-        vkCmdUpdateBuffer(cmd, buffer->buffer, from, size - from < MOST_UPDATE ? size - from : MOST_UPDATE,
+    for (VkDeviceSize from = 0; from < size; from += MAX_UPDATE)
+        vkCmdUpdateBuffer(cmd, buffer->buffer, from, size - from < MAX_UPDATE ? size - from : MAX_UPDATE,
                           (const char *)data + from);
     host_memory_barrier(cmd, copying, VK_ACCESS_TRANSFER_WRITE_BIT, readers, access);
 }

@@ -244,7 +244,7 @@ bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t
     mesh->materials[0].base_texture = mesh->materials[0].emissive_texture = -1;
     mesh->primitives[0] = (host_primitive){.index_count = index_count, .cover = 1.0f};
     memcpy(mesh->primitives[0].name, material->name, sizeof mesh->primitives[0].name);
-    mesh->primitives[0].surface = host_material_word(material->name);
+    mesh->primitives[0].surface = host_guess_material(material->name);
     mesh->primitives[0].ground = host_is_ground(material->name, mesh->primitives[0].surface);
     mesh->material_count = mesh->primitive_count = 1;
     for (int c = 0; c < 3; c++) {

@@ -5,7 +5,7 @@
 #include <virga/rain.h>
 
 #include "memory.h"
-#include "words.h"
+#include "materials.h"
 
 typedef struct host_vertex {
     float position[3]; /* in the world: transforms are applied while loading */
@@ -35,7 +35,7 @@ typedef struct host_primitive {
     char name[96]; /* of the mesh, or of its node */
     uint32_t first_index, index_count;
     uint32_t material;      /* into host_mesh::materials */
-    uint32_t surface;       /* host_material_word of its names, for impacts */
+    uint32_t surface;       /* host_guess_material of its names: what drops land on */
     bool ground;            /* host_is_ground of its name */
     float cover;            /* share of the surface that is there; below 1 for cut-outs */
     float low[3], high[3];  /* bounds */
@@ -52,11 +52,11 @@ typedef struct host_mesh {
     host_image *textures;
     uint32_t texture_count;
     float low[3], high[3];
-    bool apart; /* it moves with the camera: it takes no sky from what is around and is not mirrored. Default false */
+    bool apart; /* it moves with the camera: it shades nothing in the skylight and is not mirrored. Default false */
 } host_mesh;
 
-/* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. What can be repaired is (normals, uvs,
- * textures that are missing: with a warning); what cannot is an error. */
+/* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. Missing normals, UVs
+ * and textures are repaired, textures with a warning. Everything else is an error. */
 bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
                     char *error, size_t error_size);
 

@@ -184,11 +184,11 @@ static bool add_primitive(host_mesh_build *build, const struct aiNode *node, uin
     primitive->index_count = index_count;
     primitive->material = mesh->mMaterialIndex < build->mesh->material_count ? mesh->mMaterialIndex : 0;
     primitive->cover = 1.0f;
-    primitive->surface = host_material_word(build->mesh->materials[primitive->material].name);
+    primitive->surface = host_guess_material(build->mesh->materials[primitive->material].name);
     if (primitive->surface == 0)
-        primitive->surface = host_material_word(mesh->mName.data);
+        primitive->surface = host_guess_material(mesh->mName.data);
     if (primitive->surface == 0)
-        primitive->surface = host_material_word(node->mName.data);
+        primitive->surface = host_guess_material(node->mName.data);
     primitive->ground = host_is_ground(primitive->name, primitive->surface);
     repair_normals(build->vertices, build->vertex_count, mesh->mNumVertices, build->indices + build->index_count,
                    index_count);

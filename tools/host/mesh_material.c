@@ -89,7 +89,7 @@ static int32_t find_picture(host_mesh_build *build, const char *name)
         return -1;
     host_picture *picture = &pictures[mesh->texture_count];
     memset(picture, 0, sizeof *picture);
-    mesh->texture_count++; /* a failed one keeps its place, so that it is warned about once */
+    mesh->texture_count++; /* a failed one keeps its slot, so that there is one warning */
     return load_picture(build, name, picture) ? (int32_t)mesh->texture_count - 1 : -1;
 }
 
@@ -150,22 +150,22 @@ static void read_surface(const struct aiMaterial *in, host_material *out)
     out->two_sided = two_sided != 0;
 }
 
-/* A blended material is a cut-out if its picture says where it is, and thin glass if it is see-through everywhere. */
+/* A blended material is a cut-out if its texture has alpha, and thin glass if all of it is transparent. */
 static void read_alpha(const host_mesh_build *build, const struct aiMaterial *in, host_material *out)
 {
     struct aiString mode = {0};
     bool picture_alpha = out->base_texture >= 0 && build->pictures[out->base_texture].alpha;
-    bool told = aiGetMaterialString(in, AI_MATKEY_GLTF_ALPHAMODE, &mode) == aiReturn_SUCCESS;
+    bool has_mode = aiGetMaterialString(in, AI_MATKEY_GLTF_ALPHAMODE, &mode) == aiReturn_SUCCESS;
     float opacity = clamp01(get_float(in, AI_MATKEY_OPACITY, 1.0f)) * clamp01(out->base_color[3]);
     out->cutoff = get_float(in, AI_MATKEY_GLTF_ALPHACUTOFF, 0.5f);
     out->alpha = HOST_ALPHA_OPAQUE;
-    if (told && strcmp(mode.data, "OPAQUE") == 0)
+    if (has_mode && strcmp(mode.data, "OPAQUE") == 0)
         return;
-    if (told && strcmp(mode.data, "MASK") == 0) {
+    if (has_mode && strcmp(mode.data, "MASK") == 0) {
         out->alpha = picture_alpha ? HOST_ALPHA_MASK : HOST_ALPHA_OPAQUE;
     } else if (opacity < 0.99f) {
         out->alpha = build->device->independent_blend ? HOST_ALPHA_GLASS : HOST_ALPHA_OPAQUE;
-        if (!told)
+        if (!has_mode)
             out->base_color[3] = opacity;
     } else if (picture_alpha) {
         out->alpha = HOST_ALPHA_MASK;

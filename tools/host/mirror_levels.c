@@ -10,7 +10,7 @@
 #include "mirror_level_frag.spv.h"
 #include "mirror_level_vert.spv.h"
 
-#define LEAST_SIDE 2
+#define MIN_SIDE 2
 
 static uint32_t level_side(uint32_t side, uint32_t level)
 {
@@ -19,9 +19,9 @@ static uint32_t level_side(uint32_t side, uint32_t level)
 
 uint32_t host_mirror_level_count(uint32_t width, uint32_t height)
 {
-    const uint32_t least = width < height ? width : height;
+    const uint32_t shorter = width < height ? width : height;
     uint32_t count = 1;
-    while (count < HOST_MIRROR_LEVELS && level_side(least, count) >= LEAST_SIDE)
+    while (count < HOST_MIRROR_LEVELS && level_side(shorter, count) >= MIN_SIDE)
         count++;
     return count;
 }

@@ -39,7 +39,7 @@ bool panorama_from_rgb(const float *rgb, uint32_t width, uint32_t height, float 
 
 /* ---- scaling ------------------------------------------------------------------------------------------------ */
 
-/* Weights of the four texels around place t in [0; 1) between the middle two (Catmull and Rom 1974). */
+/* Weights of the four texels around position t in [0; 1) between the middle two (Catmull and Rom 1974). */
 static void cubic(float t, float w[4])
 {
     w[0] = t * (-0.5f + t * (1.0f - 0.5f * t));
@@ -75,9 +75,9 @@ static bool enlarge(const panorama *in, uint32_t size, bool across, panorama *ou
         return false;
     float scale = (float)(across ? in->width : in->height) / (float)size;
     for (uint32_t i = 0; i < size; i++) {
-        float place = ((float)i + 0.5f) * scale - 0.5f, weights[4];
-        int64_t first = (int64_t)floorf(place) - 1;
-        cubic(place - floorf(place), weights);
+        float position = ((float)i + 0.5f) * scale - 0.5f, weights[4];
+        int64_t first = (int64_t)floorf(position) - 1;
+        cubic(position - floorf(position), weights);
         uint32_t count = across ? in->height : in->width;
         for (uint32_t j = 0; j < count; j++) {
             const float *texels[4];
@@ -124,9 +124,9 @@ bool panorama_resize(const panorama *in, uint32_t width, uint32_t height, panora
 {
     if (width <= in->width || height <= in->height)
         return shrink(in, width, height, out);
-    panorama wide;
-    bool ok = enlarge(in, width, true, &wide) && enlarge(&wide, height, false, out);
-    panorama_free(&wide);
+    panorama widened;
+    bool ok = enlarge(in, width, true, &widened) && enlarge(&widened, height, false, out);
+    panorama_free(&widened);
     return ok;
 }
 

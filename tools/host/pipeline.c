@@ -34,7 +34,7 @@ static bool make_stage(host_device *device, host_code code, VkShaderStageFlagBit
                        VkPipelineShaderStageCreateInfo *stage, char *error, size_t error_size)
 {
     const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size, .pCode = code.words};
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size, .pCode = code.spirv};
     *stage = (VkPipelineShaderStageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, .stage = which, .pName = "main"};
     if (code.size)

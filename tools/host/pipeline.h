@@ -6,7 +6,7 @@
 
 /* A shader as the build embeds it. */
 typedef struct host_code {
-    const uint32_t *words;
+    const uint32_t *spirv;
     size_t size; /* bytes; 0: no shader */
 } host_code;
 

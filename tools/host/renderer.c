@@ -254,10 +254,10 @@ static void fill_light(const virga_light *light, const host_camera *camera, stru
 {
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 3; i++) {
-        out->place[i] = (float)(light->position_m[i] - camera->position_m[i]);
+        out->position[i] = (float)(light->position_m[i] - camera->position_m[i]);
         out->intensity[i] = light->intensity[i];
     }
-    out->place[3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
+    out->position[3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
     out->cone[1] = 1.0f;
     const float *d = light->direction;
     float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);

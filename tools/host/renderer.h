@@ -20,21 +20,21 @@ void host_renderer_destroy(host_renderer **renderer); /* accepts a pointer to NU
 /* Adds a mesh, which must outlive the renderer. Its primitives get the next ids. */
 bool host_renderer_add(host_renderer *renderer, const host_mesh *mesh, char *error, size_t error_size);
 
-/* Takes an environment, which must outlive the renderer. Required before the first plate; the device must be idle. */
+/* Sets the environment, which must outlive the renderer. Needed before the first plate. The device must be idle. */
 bool host_renderer_set_environment(host_renderer *renderer, const host_environment *environment, char *error,
                                    size_t error_size);
 
-/* Takes up to 16 lights, as the rain does; more are not used. */
+/* Sets up to 16 lights, as many as the rain reads. The rest is ignored. */
 void host_renderer_set_lights(host_renderer *renderer, const virga_light *lights, uint32_t count);
 
-/* Takes the maps of a wet ground, which are read where the meshes are drawn; NULL for none. The device must be idle
- * when the images change; where they lie may change every frame. */
+/* Sets the maps of wet ground that the shaders of meshes sample; NULL for none. The device must be idle when the images
+ * change. Their position in the world may change every frame. */
 void host_renderer_set_ground(host_renderer *renderer, const virga_ground_maps *maps);
 
-/* From here on puddles mirror the scene, not the sky alone: a picture of half the size of `target` is drawn before each
- * plate that has a ground, with the world turned upside down about the plane y = height_m. Water may lie a little above
- * it; from 0.3 m on the mirror fades out, up to 0.8 m. Does nothing on devices without clip distances. The device must
- * be idle. */
+/* Turns on planar reflections: puddles then mirror the scene, not only the sky. Before each plate with a ground, a
+ * picture of half the size of `target` is drawn with the world mirrored at the plane y = height_m. The reflection fades
+ * out where water is 0.3 to 0.8 m above the plane. Does nothing on devices without clip distances. The device must be
+ * idle. */
 bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target, double height_m, char *error,
                               size_t error_size);
 
@@ -42,8 +42,8 @@ bool host_renderer_set_mirror(host_renderer *renderer, const host_target *target
  * rays of the mirror begin. */
 typedef void (*host_draw_haze)(void *user, VkCommandBuffer cmd, const virga_view *view, const double plane[4]);
 
-/* From here on `draw` is called while a plate is recorded, if it has a mirror; NULL: nothing is. The rain's step or
- * prepare of the frame comes before. */
+/* Calls `draw` while a plate with a mirror is recorded, from now on; NULL: no longer. The rain must have recorded its
+ * step or prepare of the frame before the plate. */
 void host_renderer_haze_mirror(host_renderer *renderer, host_draw_haze draw, void *user);
 
 /* What virga_target_create needs for that pass, into a default definition. False: there is no mirror. */

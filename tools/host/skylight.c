@@ -174,7 +174,7 @@ void host_skylight_destroy(host_device *device, host_skylight *s)
 
 /* ---- where -------------------------------------------------------------------------------------------------- */
 
-/* Looks from a direction of the sky onto the ball around the box: depth 0 at REACH_M above it, 1 at its far side. */
+/* The view from a direction of the sky onto the ball around the box: depth 0 at REACH_M above it, 1 at its far side. */
 static void look(const float d[3], const float centre[3], float radius, float m[16])
 {
     float side[3] = {d[2], 0.0f, -d[0]}; /* never zero: no direction is straight up */
@@ -202,13 +202,13 @@ bool host_skylight_place(host_skylight *s, const double camera_m[3], const float
     float low[3], size[3];
     s->whole = scene_high[0] - scene_low[0] <= WHOLE_M && scene_high[2] - scene_low[2] <= WHOLE_M;
     for (int i = 0; i < 3; i++) {
-        float least = i == 1 ? 4.0f : 8.0f, margin = 0.5f;
-        size[i] = fmaxf(scene_high[i] - scene_low[i] + 2.0f * margin, least);
+        float min_size = i == 1 ? 4.0f : 8.0f, margin = 0.5f;
+        size[i] = fmaxf(scene_high[i] - scene_low[i] + 2.0f * margin, min_size);
         low[i] = scene_low[i] - margin;
         if (!s->whole) {
             size[i] = i == 1 ? BOX_HEIGHT_M : BOX_M;
-            float place = (float)(floor(camera_m[i] / BOX_STEP_M + 0.5) * BOX_STEP_M);
-            low[i] = place - size[i] * (i == 1 ? 0.4f : 0.5f);
+            float middle = (float)(floor(camera_m[i] / BOX_STEP_M + 0.5) * BOX_STEP_M);
+            low[i] = middle - size[i] * (i == 1 ? 0.4f : 0.5f);
         } else if (i == 1 && size[i] > BOX_HEIGHT_M) {
             size[i] = BOX_HEIGHT_M;
         }
@@ -227,7 +227,7 @@ bool host_skylight_place(host_skylight *s, const double camera_m[3], const float
         s->gpu.voxel[i] = size[i] / voxels[i];
     }
     radius = sqrtf(radius);
-    /* Half a voxel of bias: places close over a slope do not shade themselves. */
+    /* Half a voxel of bias, so that voxels close to a slope do not shade themselves. */
     s->gpu.low[3] = 0.5f * s->gpu.voxel[0] / (2.0f * radius + REACH_M);
     for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
         look(s->gpu.direction[i], centre, radius, s->gpu.map_from_world[i]);

@@ -1,8 +1,8 @@
 /* skylight.h - soft shade from the whole sky: under bridges and awnings, between houses.
  *
- * The scene is seen from many directions of the sky, orthographically, as depth maps. A volume of voxels around the
- * camera keeps, for each place, the share of directions that reach it and their mean direction: two moments of
- * visibility, from which any normal's share of the sky follows. The volume depends on the camera's place alone.
+ * Depth maps are drawn from many directions of the sky, with orthographic projection. A volume of voxels around the
+ * camera stores the share of directions that reach each voxel, and their mean direction. From these two moments of
+ * visibility the shader computes how much sky any normal sees. The volume depends only on the camera's position.
  */
 #ifndef VIRGA_HOST_SKYLIGHT_H
 #define VIRGA_HOST_SKYLIGHT_H

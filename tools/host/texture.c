@@ -42,8 +42,8 @@ bool host_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height
     return true;
 }
 
-static bool take(stbi_uc *rgba, int width, int height, const char *what, host_picture *picture, char *error,
-                 size_t error_size)
+static bool copy_texels(stbi_uc *rgba, int width, int height, const char *what, host_picture *picture, char *error,
+                        size_t error_size)
 {
     if (!rgba)
         return host_fail(error, error_size, "%s: cannot be decoded: %s", what, stbi_failure_reason());
@@ -61,7 +61,7 @@ bool host_picture_decode(const void *data, size_t size, const char *what, host_p
     if (size > INT32_MAX)
         return host_fail(error, error_size, "%s: larger than 2 GiB", what);
     stbi_uc *rgba = stbi_load_from_memory(data, (int)size, &width, &height, &channels, 4);
-    return take(rgba, width, height, what, picture, error, error_size);
+    return copy_texels(rgba, width, height, what, picture, error, error_size);
 }
 
 bool host_picture_read(const char *path, host_picture *picture, char *error, size_t error_size)
@@ -69,7 +69,7 @@ bool host_picture_read(const char *path, host_picture *picture, char *error, siz
     int width = 0, height = 0, channels = 0;
     memset(picture, 0, sizeof *picture);
     stbi_uc *rgba = stbi_load(path, &width, &height, &channels, 4);
-    return take(rgba, width, height, path, picture, error, error_size);
+    return copy_texels(rgba, width, height, path, picture, error, error_size);
 }
 
 void host_picture_free(host_picture *picture)
@@ -164,7 +164,7 @@ static void keep_coverage(uint8_t *texels, size_t count, float cutoff, float wan
         else
             high = middle;
     }
-    /* Few texels come in steps: take the nearer one. */
+    /* With few texels the share moves in steps: use the nearer one. */
     float above = coverage(texels, count, cutoff, high) - wanted, below = wanted - coverage(texels, count, cutoff, low);
     float scale = below < above ? low : high;
     for (size_t i = 0; i < count; i++) {

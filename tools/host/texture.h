@@ -1,4 +1,4 @@
-/* texture.h - 8-bit pictures of a mesh: decoding, mips made on the CPU, and what alpha says about coverage. */
+/* texture.h - 8-bit pictures of a mesh: decoding, mips made on the CPU, and the coverage of cut-outs. */
 #ifndef VIRGA_HOST_TEXTURE_H
 #define VIRGA_HOST_TEXTURE_H
 
@@ -17,7 +17,7 @@ bool host_picture_decode(const void *data, size_t size, const char *what, host_p
                          size_t error_size);
 bool host_picture_read(const char *path, host_picture *picture, char *error, size_t error_size);
 
-/* Takes over RGBA bytes from elsewhere: copies them. */
+/* Copies RGBA bytes. */
 bool host_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, host_picture *picture);
 
 /* Builds the mips. `cutoff` >= 0 is the alpha below which a texel is cut out: every level then keeps the share of

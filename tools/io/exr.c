@@ -28,8 +28,8 @@ typedef struct job {
     int32_t lines_per_chunk, chunk_count;
     pthread_mutex_t mutex;
     pthread_cond_t turn;
-    int32_t taken, written; /* chunks */
-    exr_result_t result;    /* of the first chunk that failed */
+    int32_t next, written; /* chunks: the next one to pack, and how many are in the file */
+    exr_result_t result;   /* of the first chunk that failed */
 } job;
 
 /* What one thread packs with. */
@@ -265,7 +265,7 @@ static exr_result_t wait_for_turn(exr_encode_pipeline_t *pipeline)
 {
     worker *worker = pipeline->encoding_user_data;
     job *job = worker->job;
-    /* A chunk as large as it was is taken for an uncompressed one by every reader, but OpenEXR 3.1.5 leaves the
+    /* Readers treat a chunk of exactly the raw size as uncompressed, but OpenEXR 3.1.5 leaves the
      * compressed bytes in place where compressing came out at exactly the raw size. */
     if (pipeline->compressed_bytes == pipeline->packed_bytes &&
         pipeline->compressed_buffer != pipeline->packed_buffer &&
@@ -306,8 +306,8 @@ static void *work(void *data)
     worker *worker = data;
     job *job = worker->job;
     pthread_mutex_lock(&job->mutex);
-    while (job->result == EXR_ERR_SUCCESS && job->taken < job->chunk_count) {
-        worker->chunk = job->taken++;
+    while (job->result == EXR_ERR_SUCCESS && job->next < job->chunk_count) {
+        worker->chunk = job->next++;
         pthread_mutex_unlock(&job->mutex);
         exr_result_t result = encode_chunk(worker);
         pthread_mutex_lock(&job->mutex);

@@ -92,7 +92,7 @@ bool exr_write(const char *path, const exr_frame *frame, char *error, size_t err
 bool exr_read_rgb(const char *path, uint32_t *width, uint32_t *height, float **rgb, uint64_t *repaired, char *error,
                   size_t error_size);
 
-/* A channel asked for by exr_read_channels. */
+/* A channel that exr_read_channels reads. */
 typedef struct exr_request {
     const char *name;
     exr_sample type; /* FLOAT (also for half channels in the file) or UINT */
@@ -103,7 +103,7 @@ typedef struct exr_request {
 bool exr_read_channels(const char *path, uint32_t *width, uint32_t *height, exr_request *requests, uint32_t count,
                        char *error, size_t error_size);
 
-/* A string or int attribute asked for by exr_read_header. */
+/* A string or int attribute that exr_read_header reads. */
 typedef struct exr_text {
     const char *name;
     char text[256]; /* filled in, an int as decimal digits; "" if there is none, or one of another kind */
@@ -114,7 +114,7 @@ typedef struct exr_header {
     char channels[1024]; /* names with a comma before and behind each: ",A,B,G,R,"; too many are cut */
 } exr_header;
 
-/* Reads what a picture says of itself, but no pixels. A picture of which lines are missing is refused. */
+/* Reads the header of a picture, but no pixels. A picture with missing lines is refused. */
 bool exr_read_header(const char *path, exr_header *header, exr_text *texts, uint32_t count, char *error,
                      size_t error_size);
 

@@ -56,7 +56,7 @@ struct reader {
     }
 };
 
-// OpenEXR names the path in front of most reasons; it is in our line already.
+// OpenEXR begins many reasons with the path, which our line already has.
 std::string reason_of(const std::exception &problem, const char *path)
 {
     std::string text = problem.what();
@@ -65,7 +65,7 @@ std::string reason_of(const std::exception &problem, const char *path)
     return at == std::string::npos ? text : text.substr(at + quoted.size());
 }
 
-// What OpenEXR says about a missing file, an empty one or one of another kind is hard to tell apart.
+// OpenEXR's reasons for a missing file, an empty file and a file of another kind are much alike.
 bool check_start(const reader &reader)
 {
     std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(reader.path, "rb"), std::fclose);

@@ -40,7 +40,7 @@ static bool is_temporary_name(const char *name)
     return sscanf(name, ".virga-%ld-%u.tmp%n", &process, &number, &length) == 2 && length && !name[length];
 }
 
-/* Locks a new file until it is closed. False if file_clean has taken it away before that. */
+/* Locks a new file until it is closed. False if file_clean has removed it before that. */
 static bool hold(int descriptor)
 {
     struct stat info;
@@ -161,7 +161,7 @@ void file_abandon(file_writer *file)
     release(file);
 }
 
-/* Whoever writes the file holds its lock. It is removed under the lock, so that no new writer takes it for its own. */
+/* The writer of a file holds its lock. It is removed under the lock, so that no new writer can open it meanwhile. */
 static bool clean_one(int folder, const char *name)
 {
     struct stat info;

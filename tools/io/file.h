@@ -1,11 +1,11 @@
-/* file.h - writing files that are whole or absent, and reading small files at once.
+/* file.h - writes files that are whole or absent, and reads small files at once.
  *
- * A file is written under a temporary name in the folder where it will live and renamed when whole, so a reader never
- * sees half of it and an older file stays until the new one is there. What is not a regular file (a pipe, /dev/full)
- * is written in place. Errors are one line: what could not be done, the path, and the system's reason.
+ * A file is written under a temporary name in its folder and renamed when it is whole. A reader never sees half of it,
+ * and an older file stays until the new one is complete. What is not a regular file (a pipe, /dev/full) is written
+ * directly. Errors are one line: what could not be done, the path, and the system's reason.
  *
- * While a temporary file is written it is locked, so that what a killed program left behind can be told from what a
- * living one is at, on this machine or on another that shares the folder. */
+ * A temporary file is locked while it is written. So file_clean can remove those of killed programs and keep those of
+ * running ones, also on another machine that shares the folder. */
 #ifndef VIRGA_IO_FILE_H
 #define VIRGA_IO_FILE_H
 
@@ -14,11 +14,11 @@
 #include <stdint.h>
 
 typedef struct file_writer {
-    char *path;      /* the name asked for */
-    char *temporary; /* the name written to; NULL where the file is written in place */
+    char *path;      /* the final name */
+    char *temporary; /* the name while it is written; NULL where the file is written directly */
     int descriptor;
     int failure;     /* errno of the first write that failed; 0: none */
-    uint64_t offset; /* where file_write goes on */
+    uint64_t offset; /* where file_write continues */
 } file_writer;
 
 /* Writes "`what` `path`: reason of `code`" and returns false, so that callers can `return file_error(...)`. */

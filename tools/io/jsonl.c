@@ -74,7 +74,7 @@ bool jsonl_filter(const char *path, bool (*keep)(void *user, const char *line), 
     file_writer file;
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        return true; /* what can not be opened for writing is told by jsonl_open */
+        return true; /* jsonl_open reports what cannot be opened for writing */
     if (!file_read(path, MAX_FILTERED, &text, &size, error, error_size))
         return false;
     size_t kept = filter_lines(text, size, keep, user);
@@ -184,7 +184,7 @@ static void put_text(jsonl *file, const char *text)
     put(file, "\"", 1);
 }
 
-/* What stands before a value. */
+/* Writes the comma and the key before a value. */
 static void put_key(jsonl *file, const char *key)
 {
     if (file->comma)
@@ -273,7 +273,7 @@ void jsonl_end(jsonl *file)
     file->comma = true;
 }
 
-/* A line that went in only in part is taken out again. */
+/* Removes a line that was written only in part. */
 static int write_line(const jsonl *file)
 {
     ssize_t done;

@@ -118,7 +118,7 @@ bool ply_write(const char *path, const ply_property *properties, uint32_t proper
 
 /* ---- reading ---- */
 
-/* Where a header is being read. Lines are cut in place: `line` ends with 0. */
+/* A header while it is read. Lines are cut where they are: `line` ends with 0. */
 typedef struct header {
     const char *path;
     char *next, *end;

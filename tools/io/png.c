@@ -104,7 +104,7 @@ static bool is_png(const uint8_t *data, size_t size)
     return size >= FIRST_END && !memcmp(data, begins, sizeof begins);
 }
 
-/* stb gives the colours of a palette, never the numbers of its entries; but what is called grey it gives as it stands,
+/* stb returns the colours of a palette, never the numbers of its entries. But what is called grey it returns as it is,
  * and it does not look at checksums. The transparency of a palette's entries would be wrong in a grey picture, so its
  * chunk gets a name that nobody reads. */
 static void call_grey(uint8_t *png, size_t size)

@@ -22,21 +22,21 @@ static bool lies_in(const char *path, const char *list_path)
     return !strncmp(path, list_path, length) && path[length] == '.';
 }
 
-/* Calls `tell` for each list that has more or fewer entries than before, until it returns true. */
+/* Calls `visit` for each list that has more or fewer entries than before, until it returns true. */
 static bool each_change(scene_file *now, scene_file *before,
-                        bool (*tell)(const scene_list *list, uint32_t used, void *user), void *user)
+                        bool (*visit)(const scene_list *list, uint32_t used, void *user), void *user)
 {
     size_t now_count, before_count;
     bool done = false;
     scene_list *new_lists = scene_lists(now, &now_count), *old_lists = scene_lists(before, &before_count);
-    const char *whole = NULL; /* the last that was told: what lies in it is told with it */
+    const char *whole = NULL; /* the last one visited: lists inside it are part of it */
     for (size_t i = 0; new_lists && old_lists && !done && i < now_count; i++) {
         const scene_list *list = &new_lists[i], *old = scene_lists_find(old_lists, before_count, list->path);
         const uint32_t used = used_length(list);
         if ((whole && lies_in(list->path, whole)) || (old && used == used_length(old)))
             continue;
         whole = list->path;
-        done = tell(list, used, user);
+        done = visit(list, used, user);
     }
     free(new_lists);
     free(old_lists);
@@ -58,7 +58,7 @@ typedef struct writing {
 
 static size_t write_entries(const writing *w, size_t at, const char *prefix, uint32_t used);
 
-/* The settings under a prefix from `at` on, as "key: value"; where they end. */
+/* Writes the settings under a prefix from `at` on as "key: value". Returns the index behind them. */
 static size_t write_fields(const writing *w, size_t at, const char *prefix)
 {
     const size_t length = strlen(prefix);
@@ -83,8 +83,8 @@ static size_t write_fields(const writing *w, size_t at, const char *prefix)
     return at;
 }
 
-/* "[{...}, {...}]" of the settings at `at` and on, whose paths are `prefix`, a number, and the rest; of `used` entries
- * at most, but past all. */
+/* Writes "[{...}, {...}]" of the settings from `at` on whose paths begin with `prefix` and a number: the first `used`
+ * entries. Returns the index behind all entries. */
 static size_t write_entries(const writing *w, size_t at, const char *prefix, uint32_t used)
 {
     const size_t length = strlen(prefix);
@@ -137,7 +137,7 @@ static size_t write_lists(FILE *out, scene_file *now, scene_file *before)
 /* ---- settings ------------------------------------------------------------------------------------------------- */
 
 typedef struct texts {
-    char *memory; /* one behind the other, each with its end */
+    char *memory; /* one behind the other, each with its 0 */
     size_t size, count;
 } texts;
 
@@ -146,7 +146,7 @@ static bool append_change(FILE *out, const char *path, const char *value)
     return fprintf(out, "%s=%s", path, value) > 0 && fputc(0, out) != EOF;
 }
 
-/* Texts of settings that differ; those of lists that have other entries now go with their lists. */
+/* Writes settings that differ. Those in lists that have more or fewer entries were written with their lists. */
 static size_t write_changes(FILE *out, scene_file *now_scene, scene_file *before_scene, const scene_setting *now,
                             size_t now_count, scene_setting *before, size_t before_count)
 {

@@ -45,7 +45,7 @@ static yaml_node_t *node_of(const walk *at, int node)
     return yaml_document_get_node(&at->document->yaml, node);
 }
 
-/* ---- what stands there, in words ------------------------------------------------------------------------------ */
+/* ---- error lines ---------------------------------------------------------------------------------------------- */
 
 static bool expected(const walk *at, int node, const char *what)
 {
@@ -139,7 +139,7 @@ static bool read_number(const char *text, double *value)
     return !*end && isfinite(*value);
 }
 
-/* No sign, no point, and no leading 0, which some take for octal. */
+/* No sign, no point, and no leading 0, which some languages read as octal. */
 static bool is_whole_number(const char *text)
 {
     return *text && strspn(text, "0123456789") == strlen(text) && (text[0] != '0' || !text[1]);
@@ -260,8 +260,8 @@ static bool check_keys(walk *at, int node, const scene_group *group)
     return true;
 }
 
-/* Puts the default where a key is missing. Groups and lists that were left empty count as missing, and are taken out
- * where there is no default; `rate_mm_h:` with nothing behind it does not, as a forgotten number is a mistake. */
+/* Adds the default where a key is missing. Groups and lists that were left empty count as missing, and are removed
+ * where there is no default. `rate_mm_h:` with nothing behind it does not count as missing: a number was forgotten. */
 static bool fill_in(walk *at, int node, const scene_row *row)
 {
     const bool nested = row->type == SCENE_TYPE_GROUP || row->type == SCENE_TYPE_LIST;

@@ -10,7 +10,7 @@
 
 /* ---- where a node comes from ---------------------------------------------------------------------------------- */
 
-/* A node that an override brought has this in place of its offset into the file, less the override's number. */
+/* A node that came from an override has this, minus the override's number, instead of its offset into the file. */
 #define OVERRIDE_MARK SIZE_MAX
 #define MAX_OVERRIDES 65536
 #define MAX_DEPTH     100 /* brackets in brackets; scenes need 4 */
@@ -28,11 +28,11 @@ static void make_printable(char *text)
             *text = '?';
 }
 
-static bool fail_at(const scene_document *document, const char *place, const char *format, va_list arguments)
+static bool fail_at(const scene_document *document, const char *where, const char *format, va_list arguments)
 {
     if (!document->error || !document->error_size)
         return false;
-    int used = snprintf(document->error, document->error_size, "%s%s", place, *place ? ": " : "");
+    int used = snprintf(document->error, document->error_size, "%s%s", where, *where ? ": " : "");
     if (used >= 0 && (size_t)used < document->error_size)
         vsnprintf(document->error + used, document->error_size - (size_t)used, format, arguments);
     make_printable(document->error);
@@ -41,19 +41,19 @@ static bool fail_at(const scene_document *document, const char *place, const cha
 
 bool scene_document_fail(const scene_document *document, int node, const char *format, ...)
 {
-    char place[4200] = "";
+    char where[4200] = "";
     const yaml_node_t *at = get(document, node);
     if (!document->path)
         ; /* the value of an override, whose name comes before it */
     else if (at && OVERRIDE_MARK - at->start_mark.index < MAX_OVERRIDES)
-        snprintf(place, sizeof place, "--set %.120s", document->overrides[OVERRIDE_MARK - at->start_mark.index]);
+        snprintf(where, sizeof where, "--set %.120s", document->overrides[OVERRIDE_MARK - at->start_mark.index]);
     else if (at)
-        snprintf(place, sizeof place, "%s:%zu", document->path, at->start_mark.line + 1);
+        snprintf(where, sizeof where, "%s:%zu", document->path, at->start_mark.line + 1);
     else
-        snprintf(place, sizeof place, "%s", document->path);
+        snprintf(where, sizeof where, "%s", document->path);
     va_list arguments;
     va_start(arguments, format);
-    fail_at(document, place, format, arguments);
+    fail_at(document, where, format, arguments);
     va_end(arguments);
     return false;
 }
@@ -63,11 +63,11 @@ static bool fail_in_override(const scene_document *document, size_t number, cons
 
 static bool fail_in_override(const scene_document *document, size_t number, const char *format, ...)
 {
-    char place[160];
-    snprintf(place, sizeof place, "--set %.120s", document->overrides[number]);
+    char where[160];
+    snprintf(where, sizeof where, "--set %.120s", document->overrides[number]);
     va_list arguments;
     va_start(arguments, format);
-    fail_at(document, place, format, arguments);
+    fail_at(document, where, format, arguments);
     va_end(arguments);
     return false;
 }
@@ -87,17 +87,17 @@ static bool fail_on_line(const scene_document *document, size_t line, const char
 
 static bool fail_on_line(const scene_document *document, size_t line, const char *format, ...)
 {
-    char place[4200] = "";
+    char where[4200] = "";
     if (document->path)
-        snprintf(place, sizeof place, "%s:%zu", document->path, line);
+        snprintf(where, sizeof where, "%s:%zu", document->path, line);
     va_list arguments;
     va_start(arguments, format);
-    fail_at(document, place, format, arguments);
+    fail_at(document, where, format, arguments);
     va_end(arguments);
     return false;
 }
 
-/* libyaml's own words, with the line where it gave up: what it found at the end counts as the last line. */
+/* libyaml's own reason, with the line where it stopped. The end of the file counts as the last line. */
 static bool parse_problem(const scene_document *document, const yaml_parser_t *parser, const char *text, size_t size)
 {
     bool context = parser->context && parser->error != YAML_READER_ERROR;
@@ -431,14 +431,14 @@ void scene_document_remove(scene_document *document, int mapping, const char *ke
 
 /* ---- overrides ------------------------------------------------------------------------------------------------ */
 
-/* What a step of an override's path leads to: an existing node, or a place to put one. */
-typedef struct place {
+/* What a step of an override's path leads to: an existing node, or a slot to put one into. */
+typedef struct slot {
     int parent;    /* mapping or list */
     int node;      /* what is there now, or 0 */
     char step[64]; /* key or index */
-} place;
+} slot;
 
-static bool look_up(scene_document *document, size_t number, place *at, size_t length_before)
+static bool look_up(scene_document *document, size_t number, slot *at, size_t length_before)
 {
     const char *text = document->overrides[number];
     const yaml_node_t *parent = get(document, at->parent);
@@ -457,8 +457,8 @@ static bool look_up(scene_document *document, size_t number, place *at, size_t l
     return true;
 }
 
-/* Puts a node where a place is. */
-static bool put(scene_document *document, const place *at, int node, const yaml_mark_t *mark)
+/* Puts a node into a slot. */
+static bool put(scene_document *document, const slot *at, int node, const yaml_mark_t *mark)
 {
     yaml_node_t *parent = get(document, at->parent);
     if (parent->type == YAML_SEQUENCE_NODE) {
@@ -476,8 +476,8 @@ static bool put(scene_document *document, const place *at, int node, const yaml_
     return true;
 }
 
-/* A list or a mapping where there is none yet, as the next step asks for. */
-static int make_room(scene_document *document, const place *at, const char *next, const yaml_mark_t *mark)
+/* Makes the list or mapping that the next step needs. */
+static int make_room(scene_document *document, const slot *at, const char *next, const yaml_mark_t *mark)
 {
     char step[64];
     bool list = next_step(&next, step) && list_index(step) >= 0;
@@ -505,7 +505,7 @@ static bool apply_override(scene_document *document, size_t number)
     if (!value)
         return fail_in_override(document, number, "%s", problem);
 
-    place at = {.parent = 1};
+    slot at = {.parent = 1};
     const char *rest = keys;
     for (;;) {
         size_t before = (size_t)(rest - keys);

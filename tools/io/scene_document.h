@@ -15,8 +15,8 @@ typedef struct scene_document {
     size_t error_size;
 } scene_document;
 
-/* Writes one line "file:line: text", or "--set key=value: text" for what an override brought, and returns false.
- * `node` 0: the whole file. What does not print is replaced. */
+/* Writes one line "file:line: text", or "--set key=value: text" for a node that came from an override, and returns
+ * false. `node` 0: the whole file. Characters that do not print are replaced. */
 bool scene_document_fail(const scene_document *document, int node, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -29,7 +29,7 @@ void scene_document_free(scene_document *document);
 /* Copies the path and the overrides, so that the document can outlive them. */
 bool scene_document_keep(scene_document *document, size_t override_count);
 
-/* Puts values at their keys; creates what is missing on the way. */
+/* Sets the values of overrides; creates lists and mappings that are missing on the way. */
 bool scene_document_override(scene_document *document, const char *const *overrides, size_t count);
 
 /* Adds a value, given as YAML, under a key that the mapping lacks; the errors about it point at the mapping. */
@@ -38,7 +38,7 @@ bool scene_document_add(scene_document *document, int mapping, const char *key, 
 /* The same with a copy of the value at a path. */
 bool scene_document_add_copy(scene_document *document, int mapping, const char *key, const char *from);
 
-/* Takes a key out of a mapping, if it is there. */
+/* Removes a key from a mapping, if it is there. */
 void scene_document_remove(scene_document *document, int mapping, const char *key);
 
 /* Node at a path such as "rain.keys.0.time_s", or 0. */

@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 #define SCENE_FILE_VERSION    1  /* the value of the key `virga` */
-#define SCENE_FILE_MAX_LIGHTS 16 /* as many as rain takes */
+#define SCENE_FILE_MAX_LIGHTS 16 /* as many as the rain reads */
 
 typedef struct scene_mesh {
     char *file; /* as it can be opened: joined with the scene file's folder */

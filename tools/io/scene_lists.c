@@ -113,7 +113,7 @@ static bool copy_inside(const scene_group *group, char *entry)
     return good;
 }
 
-static void move_on(scene_setting *setting)
+static void advance(scene_setting *setting)
 {
     const char *key = strrchr(setting->path, '.') + 1;
     double *value = setting->value;
@@ -126,8 +126,9 @@ static void move_on(scene_setting *setting)
     *value = *value > setting->high ? setting->high : *value;
 }
 
-/* The default, or else what the list's owner has under the same key (rate of the rain for a key of it), or else 0. */
-static void begin(const scene_list *list, scene_setting *setting, scene_setting *all, size_t count)
+/* Sets a value of the first entry: its default, else the value of the same key beside the list (for a key of the rain
+ * its rate), else 0. */
+static void set_first(const scene_list *list, scene_setting *setting, scene_setting *all, size_t count)
 {
     char path[120], value[SCENE_SETTING_ROOM], ignored[200];
     if (scene_setting_reset(setting, all, count))
@@ -141,7 +142,7 @@ static void begin(const scene_list *list, scene_setting *setting, scene_setting 
     scene_setting_parse(setting, value, ignored, sizeof ignored);
 }
 
-/* For entries behind the first, what has to rise rises. */
+/* Sets the values of a new entry. Those that must rise from entry to entry are larger than in the one before. */
 static bool fill(scene_file *scene, const scene_list *list)
 {
     char prefix[120];
@@ -152,9 +153,9 @@ static bool fill(scene_file *scene, const scene_list *list)
         if (strncmp(settings[i].path, prefix, length))
             continue;
         if (!list->count)
-            begin(list, &settings[i], settings, count);
+            set_first(list, &settings[i], settings, count);
         else if (!strchr(settings[i].path + length, '.'))
-            move_on(&settings[i]);
+            advance(&settings[i]);
     }
     free(settings);
     return settings;

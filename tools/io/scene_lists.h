@@ -32,7 +32,7 @@ scene_list *scene_lists_find(scene_list *lists, size_t count, const char *path);
  * Settings and lists have to be listed anew. False with one line in `error`: no such list, full, or no memory. */
 bool scene_list_add(scene_file *scene, const char *path, char *error, size_t error_size);
 
-/* Takes the last entry away; likewise. */
+/* Removes the last entry; the rest as above. */
 bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t error_size);
 
 #ifdef __cplusplus

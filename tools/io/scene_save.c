@@ -50,7 +50,7 @@ static int write_bytes(void *file, unsigned char *bytes, size_t size)
     return file_write(file, bytes, size);
 }
 
-/* Ends the document: libyaml takes it apart while it writes. */
+/* Ends the document: libyaml frees it while it writes. */
 static bool write_document(scene_document *document, const char *source, const char *path, char *error,
                            size_t error_size)
 {

@@ -153,7 +153,7 @@ void scene_setting_print(const scene_setting *setting, char *text, size_t size)
 {
     const double *number = setting->kind == SCENE_SETTING_MAYBE_NUMBER ? *(double **)setting->value : NULL;
     const bool *on = setting->value;
-    const char *words = NULL;
+    const char *text_value = NULL;
     switch (setting->kind) {
     case SCENE_SETTING_NUMBER:
     case SCENE_SETTING_WHOLE:
@@ -170,8 +170,8 @@ void scene_setting_print(const scene_setting *setting, char *text, size_t size)
         return;
     case SCENE_SETTING_CHOICE: print_choice(setting, text, size); return;
     case SCENE_SETTING_TEXT:
-        words = *(char **)setting->value;
-        snprintf(text, size, "%s", words ? words : "null");
+        text_value = *(char **)setting->value;
+        snprintf(text, size, "%s", text_value ? text_value : "null");
         return;
     case SCENE_SETTING_MAYBE_SWITCH: on = *(bool **)setting->value; break;
     case SCENE_SETTING_SWITCH: break;
@@ -179,7 +179,7 @@ void scene_setting_print(const scene_setting *setting, char *text, size_t size)
     snprintf(text, size, "%s", !on ? "null" : *on ? "true" : "false");
 }
 
-/* ---- taking values -------------------------------------------------------------------------------------------- */
+/* ---- parsing values ------------------------------------------------------------------------------------------- */
 
 static bool read_number(const scene_setting *setting, const char **text, double *value, char *error, size_t error_size)
 {
@@ -237,8 +237,8 @@ static bool parse_choice(scene_setting *setting, const char *text, char *error, 
     return scene_settings_fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
 }
 
-/* What may be left to something else: memory of malloc behind a pointer, or none. */
-static bool parse_maybe(scene_setting *setting, const char *text, char *error, size_t error_size)
+/* An optional value: memory of malloc behind a pointer, or NULL. */
+static bool parse_optional(scene_setting *setting, const char *text, char *error, size_t error_size)
 {
     void **value = setting->value;
     const bool number = setting->kind == SCENE_SETTING_MAYBE_NUMBER, on = !strcmp(text, "true");
@@ -274,7 +274,7 @@ bool scene_setting_parse(scene_setting *setting, const char *text, char *error, 
     case SCENE_SETTING_WHOLE: return parse_numbers(setting, text, error, error_size);
     case SCENE_SETTING_CHOICE: return parse_choice(setting, text, error, error_size);
     case SCENE_SETTING_MAYBE_NUMBER:
-    case SCENE_SETTING_MAYBE_SWITCH: return parse_maybe(setting, text, error, error_size);
+    case SCENE_SETTING_MAYBE_SWITCH: return parse_optional(setting, text, error, error_size);
     case SCENE_SETTING_TEXT: break;
     case SCENE_SETTING_SWITCH:
         if (strcmp(text, "true") && strcmp(text, "false"))
@@ -304,7 +304,7 @@ bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t coun
 
 /* ---- assignments ---------------------------------------------------------------------------------------------- */
 
-/* Whether a path is meant by a pattern, in which a '*' stands for any number. */
+/* Whether a path matches a pattern, in which a '*' stands for any number. */
 static bool path_matches(const char *path, const char *pattern)
 {
     while (*path && *pattern) {

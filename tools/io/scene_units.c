@@ -6,7 +6,7 @@
 
 /* Units that end the names of keys; longer ones before those that they end in. */
 static const struct {
-    const char *ending, *words;
+    const char *ending, *unit;
 } units[] = {
     {"_m_s2", "m/s^2"},
     {"_deg_s", "degrees/s"},
@@ -43,7 +43,7 @@ const char *scene_key_unit(const char *key, char stem[64])
         size_t ending = strlen(units[i].ending);
         if (length > ending && !strcmp(stem + length - ending, units[i].ending)) {
             stem[length - ending] = 0;
-            return units[i].words;
+            return units[i].unit;
         }
     }
     return NULL;

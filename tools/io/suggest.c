@@ -7,7 +7,7 @@
 
 #define MAX_LENGTH 63
 
-static unsigned least(unsigned a, unsigned b)
+static unsigned minimum(unsigned a, unsigned b)
 {
     return a < b ? a : b;
 }
@@ -28,9 +28,9 @@ unsigned suggest_distance(const char *one, const char *other)
         row[0] = (unsigned)y;
         for (size_t x = 1; x <= width; x++) {
             bool same = same_letter(one[y - 1], other[x - 1]);
-            row[x] = least(above[x - 1] + !same, least(above[x], row[x - 1]) + 1);
+            row[x] = minimum(above[x - 1] + !same, minimum(above[x], row[x - 1]) + 1);
             if (x > 1 && y > 1 && same_letter(one[y - 1], other[x - 2]) && same_letter(one[y - 2], other[x - 1]))
-                row[x] = least(row[x], two_above[x - 2] + 1);
+                row[x] = minimum(row[x], two_above[x - 2] + 1);
         }
     }
     return rows[height % 3][width];

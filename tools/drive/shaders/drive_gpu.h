@@ -17,7 +17,7 @@ typedef float drive_mat4[16];
 #define DRIVE_LIGHTS 16
 
 struct drive_light_gpu {
-    DRIVE_VEC4 place;     /* relative to the camera, 1 / range or 0 */
+    DRIVE_VEC4 position;  /* relative to the camera, 1 / range or 0 */
     DRIVE_VEC4 intensity; /* rgb */
     DRIVE_VEC4 direction; /* unit; all zero: a point light */
     DRIVE_VEC4 cone;      /* scale and offset of the cosine to the axis */
@@ -35,12 +35,12 @@ struct drive_frame_gpu {
     DRIVE_VEC4 ground_far;  /* low corner of the map beyond the window (x, z); y: 1 / side of a cell; w: cells */
     DRIVE_VEC4 ripples;     /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
     DRIVE_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
-    DRIVE_VEC4 shade[3];      /* rows: a place relative to the camera as the car has it, 1 at its ends; y in metres */
+    DRIVE_VEC4 shade[3];      /* rows: a point relative to the camera as the car has it, 1 at its ends; y in metres */
     DRIVE_LIGHT lights[DRIVE_LIGHTS];
 };
 
 struct drive_surface_gpu {   /* push constants */
-    DRIVE_VEC4 from_mesh[3]; /* rows: place relative to the camera of a point of the mesh */
+    DRIVE_VEC4 from_mesh[3]; /* rows: from a point of the mesh to a point relative to the camera */
     DRIVE_VEC4 base_color;   /* times the texture's */
     DRIVE_VEC4 emissive;     /* times the texture's; w: roughness */
     DRIVE_VEC4 traits;       /* metallic, alpha below which it is cut out, share of the sky that it sees; 1 + the

@@ -49,12 +49,12 @@ vec3 mirrored(vec3 from, vec3 d, float roughness)
     vec4 seen = vec4(0.0);
     bool hit = false;
     for (int i = 0; i < STEPS && !hit; i++, way *= 1.55) {
-        vec3 place = from + d * way;
-        vec4 clip = frame.last_from_relative * vec4(place, 1.0);
+        vec3 point = from + d * way;
+        vec4 clip = frame.last_from_relative * vec4(point, 1.0);
         vec2 at = clip.xy / clip.w * 0.5 + 0.5;
         if (clip.w <= 0.05 || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
             break;
-        float gone = length(place + frame.moved.xyz), there = 1.0 / max(textureLod(last_picture, at, 0.0).a, 1e-4);
+        float gone = length(point + frame.moved.xyz), there = 1.0 / max(textureLod(last_picture, at, 0.0).a, 1e-4);
         hit = gone > there && gone - there < 0.5 + 0.5 * way;
         before = hit ? before : way;
         after = way;
@@ -64,11 +64,11 @@ vec3 mirrored(vec3 from, vec3 d, float roughness)
     float edge = 1.0;
     for (int i = 0; i < 5; i++) { // nearer by halves
         float middle = 0.5 * (before + after);
-        vec3 place = from + d * middle;
-        vec4 clip = frame.last_from_relative * vec4(place, 1.0);
+        vec3 point = from + d * middle;
+        vec4 clip = frame.last_from_relative * vec4(point, 1.0);
         vec2 at = clip.xy / clip.w * 0.5 + 0.5;
         vec4 texel = textureLod(last_picture, at, 0.0);
-        bool behind = length(place + frame.moved.xyz) > 1.0 / max(texel.a, 1e-4);
+        bool behind = length(point + frame.moved.xyz) > 1.0 / max(texel.a, 1e-4);
         after = behind ? middle : after;
         before = behind ? before : middle;
         seen = texel;
@@ -79,10 +79,10 @@ vec3 mirrored(vec3 from, vec3 d, float roughness)
 }
 
 // How much of the sky a car leaves to the ground under it and beside it.
-float beside_car(vec3 place, float up)
+float beside_car(vec3 point, float up)
 {
-    vec3 at = vec3(dot(frame.shade[0], vec4(place, 1.0)), dot(frame.shade[1], vec4(place, 1.0)),
-                   dot(frame.shade[2], vec4(place, 1.0)));
+    vec3 at = vec3(dot(frame.shade[0], vec4(point, 1.0)), dot(frame.shade[1], vec4(point, 1.0)),
+                   dot(frame.shade[2], vec4(point, 1.0)));
     vec2 off = max(abs(at.xz) - vec2(0.55, 0.8), 0.0) * vec2(0.9, 2.1); // in metres or so
     float under = 1.0 - smoothstep(0.0, 0.9, length(off));
     return 1.0 - 0.88 * under * under * smoothstep(0.5, 0.8, up) * (1.0 - smoothstep(0.05, 0.16, abs(at.y)));
@@ -113,10 +113,10 @@ vec3 lamps(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v)
     float n_v = clamp(abs(dot(n, v)), 1e-3, 1.0), a = max(roughness * roughness, 0.004), a2 = a * a;
     for (int i = 0; i < int(frame.moved.w); i++) {
         drive_light_gpu light = frame.lights[i];
-        vec3 to = light.place.xyz - in_relative;
+        vec3 to = light.position.xyz - in_relative;
         float distance2 = max(dot(to, to), 0.01);
         vec3 l = to * inversesqrt(distance2), h = normalize(l + v);
-        float part = distance2 * light.place.w * light.place.w, window = max(1.0 - part * part, 0.0);
+        float part = distance2 * light.position.w * light.position.w, window = max(1.0 - part * part, 0.0);
         float cone = clamp(-dot(l, light.direction.xyz) * light.cone.x + light.cone.y, 0.0, 1.0);
         float n_l = dot(n, l), n_h = clamp(dot(n, h), 0.0, 1.0), c = 1.0 - clamp(dot(v, h), 0.0, 1.0);
         float reach = window * window * cone * cone * n_l / distance2;
@@ -171,11 +171,11 @@ void main()
     vec3 around = mirror ? mirrored(in_relative, r, roughness) : far_light(r, roughness);
     color += share_mirrored(f0, roughness, n_v) * around * sky * (1.0 - puddle);
     if (puddle > 0.0) {
-        vec2 place = (in_relative.xz - frame.ripples.xy) * frame.ripples.z;
-        vec2 inside = min(place, 1.0 - place);
+        vec2 point = (in_relative.xz - frame.ripples.xy) * frame.ripples.z;
+        vec2 inside = min(point, 1.0 - point);
         float drawn = smoothstep(0.0, 0.12, min(inside.x, inside.y)) *
                       (1.0 - smoothstep(0.006, 0.03, pixel / max(frame.ground_low.w, 1e-6)));
-        vec2 slope = textureLod(ripple_map, place, 0.0).xy * drawn;
+        vec2 slope = textureLod(ripple_map, point, 0.0).xy * drawn;
         vec3 up = normalize(vec3(-slope.x, 1.0, -slope.y));
         float rough = clamp(sqrt(sqrt(2.0 * water.slope2 * (1.0 - 0.7 * drawn))), 0.03, 0.5);
         float c = 1.0 - clamp(dot(up, v), 0.0, 1.0), fresnel = 0.0204 + 0.9796 * c * c * c * c * c;

@@ -2,7 +2,7 @@
 #include "ground/ground_state.h"
 
 #include "ground/view_gpu.h"
-#include "words.h"
+#include "materials.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* frame_gpu.h - what the host's shaders are told, read by C and by GLSL: vec4s only, so both lay it out alike. */
+/* frame_gpu.h - uniforms and push constants of the host's shaders, for C and GLSL. Their vec4s are laid out alike. */
 #ifndef HOST_FRAME_GPU_H
 #define HOST_FRAME_GPU_H
 
@@ -18,7 +18,7 @@ typedef float host_mat4[16];
 #define HOST_MIRROR_FAR 1000.0 /* metres: how far away all that is farther counts as */
 
 struct host_light_gpu {
-    HOST_VEC4 place;     /* position relative to the camera, 1 / range or 0 */
+    HOST_VEC4 position;  /* position relative to the camera, 1 / range or 0 */
     HOST_VEC4 intensity; /* rgb */
     HOST_VEC4 direction; /* unit; all zero: a point light */
     HOST_VEC4 cone;      /* scale and offset of the cosine to the axis: saturate(cosine * x + y) */
@@ -58,7 +58,7 @@ struct host_surface_gpu { /* push constants */
                            * from 8 on, for ground, 1 + its material */
 };
 
-/* ---- skylight: how much of the sky each place around the camera sees ---------------------------------------- */
+/* ---- skylight: how much of the sky is visible around the camera ---------------------------------------- */
 
 #define HOST_SKYLIGHT_DIRECTIONS 40 /* over the upper half of all directions */
 #define HOST_SKYLIGHT_SIDE       96 /* voxels along x and z */

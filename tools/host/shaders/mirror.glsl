@@ -9,11 +9,11 @@ const int MIRROR_TAPS = 8;
 const int MIRROR_ROW = 5, MIRROR_STRIDE = 3; // of look i, 5 + 3 i modulo 8: all different, and as many left as right
 const float MIRROR_SMOOTH_TEXELS = 0.6;      // the looks' standard deviation where water is a perfect mirror
 
-// Where the mirrored picture has a place of the mirrored world, relative to the camera. Where its edge is passed, the
+// Where the mirrored picture has a point of the mirrored world, relative to the camera. Where its edge is passed, the
 // last it shows is good for a little farther: a puddle that paled at the picture's edge would be seen.
-vec2 mirror_at(vec3 place, out float trust)
+vec2 mirror_at(vec3 point, out float trust)
 {
-    const vec4 clip = frame.clip_from_relative * vec4(place, 1.0);
+    const vec4 clip = frame.clip_from_relative * vec4(point, 1.0);
     const vec2 at = clip.xy / max(clip.w, 1e-3) * frame.mirror.y + mirror_jitter();
     const float over = max(abs(at.x), abs(at.y)) - 1.0;
     trust = clip.w > 0.0 ? 1.0 - smoothstep(0.0, 0.3, over) : 0.0;
@@ -22,7 +22,7 @@ vec2 mirror_at(vec3 place, out float trust)
 
 // Where a ray that leaves water in direction r and goes so far ends, in the mirrored world. Water that lies `rise`
 // above the plane mirrors a world that lies twice as much higher.
-vec3 mirror_place(vec3 relative, vec3 r, float way, float rise)
+vec3 mirror_point(vec3 relative, vec3 r, float way, float rise)
 {
     return relative + vec3(r.x, -r.y, r.z) * way - vec3(0.0, 2.0 * rise, 0.0);
 }
@@ -33,7 +33,7 @@ float mirror_quantile(float u) { return 0.56 * log(u / (1.0 - u)); }
 
 // Look i of MIRROR_TAPS at a normal distribution of two dimensions: one in each eighth of it along either (a Latin
 // square). They are alike for all pixels, as a picture of one sample has nothing that would average noise, and each is
-// as blurred as they lie apart; of pictures that are averaged each has its own places in the eighths.
+// as blurred as they lie apart; of pictures that are averaged each has its own part of the eighths.
 vec2 mirror_look(int i)
 {
     const ivec2 eighth = ivec2((MIRROR_ROW + MIRROR_STRIDE * i) % MIRROR_TAPS, i);
@@ -72,8 +72,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
     // How far what is mirrored lies: first as if it stood right there, so that a thing's foot is met by its mirrored
     // one; then where that sends the ray. The nearer of both: past an edge, the sky's way leads back to what hides it.
     for (int i = 0; i < 2 && near > 0.0; i++) {
-        const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
-        way = clamp(1.0 / textureLod(mirror_near, mirror_at(place, trust), 0.0).r - from, 0.05, way);
+        const vec3 point = mirror_point(relative, vec3(r.x, abs(r.y), r.z), i == 0 ? 0.0 : way, rise);
+        way = clamp(1.0 / textureLod(mirror_near, mirror_at(point, trust), 0.0).r - from, 0.05, way);
     }
     // Slopes across and along the line of sight: a lamp's pillar stands along it, one look above the other.
     const vec2 along = dot(v.xz, v.xz) > 1e-6 ? normalize(v.xz) : vec2(0.0, 1.0), across = vec2(-along.y, along.x);
@@ -94,8 +94,8 @@ vec4 mirror_light(vec3 relative, vec3 v, vec3 normal, float roughness, out float
         if (near > 0.0 && seen > 0.0) {
             r = reflect(-v, facet);
             const float level = mirror_level(alpha, u, cosine, way, from);
-            const vec3 place = mirror_place(relative, vec3(r.x, abs(r.y), r.z), way, rise);
-            const vec2 at = mirror_at(place, trust) + smooth_texels * look / vec2(textureSize(mirror_picture, 0));
+            const vec3 point = mirror_point(relative, vec3(r.x, abs(r.y), r.z), way, rise);
+            const vec2 at = mirror_at(point, trust) + smooth_texels * look / vec2(textureSize(mirror_picture, 0));
             const vec3 color = textureLod(mirror_picture, at, level).rgb;
             sum += seen * f * near * trust * vec4(color, 1.0);
         }

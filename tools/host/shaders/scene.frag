@@ -46,8 +46,8 @@ vec3 reflected_light(vec3 d, float roughness)
 // Moments of the sky's visibility: mean direction (1 up where all is open) and share.
 vec4 sky_moments(vec3 n)
 {
-    vec3 place = in_relative + n * frame.skylight_low.w; // a voxel off the surface, clear of what lies behind it
-    vec3 t = (place - frame.skylight_low.xyz) * frame.skylight_scale.xyz;
+    vec3 point = in_relative + n * frame.skylight_low.w; // a voxel off the surface, clear of what lies behind it
+    vec3 t = (point - frame.skylight_low.xyz) * frame.skylight_scale.xyz;
     vec4 moments = textureLod(skylight_texture, t, 0.0);
     float off = max(abs(in_relative.x), abs(in_relative.z)) - frame.skylight_fade.x;
     float above = (t.y - 1.0) * 8.0;
@@ -56,7 +56,7 @@ vec4 sky_moments(vec3 n)
     return vec4(moments.xyz, max(moments.w, 0.04)); // even deep inside some light arrives by bounces
 }
 
-// How much of the environment's light is left for a normal: the sky it sees; the ground, as lit as this place is; and
+// How much of the environment's light is left for a normal: the sky it sees; the ground, as lit as it is here; and
 // what stands in the way, which gives back a quarter. 1 where all is open.
 float sky_share(vec4 moments, vec3 n)
 {
@@ -92,11 +92,11 @@ vec3 lit(vec3 albedo, vec3 f0, float roughness, vec3 n, vec3 v, float n_v)
     vec3 sum = vec3(0.0);
     int count = int(frame.moved.w);
     for (int i = 0; i < count; i++) {
-        vec3 to = frame.lights[i].place.xyz - in_relative;
+        vec3 to = frame.lights[i].position.xyz - in_relative;
         float distance2 = max(dot(to, to), 1e-4);
         vec3 l = to * inversesqrt(distance2);
         float n_l = dot(n, l);
-        float part = distance2 * frame.lights[i].place.w * frame.lights[i].place.w;
+        float part = distance2 * frame.lights[i].position.w * frame.lights[i].position.w;
         float window = max(1.0 - part * part, 0.0);
         vec4 cone = frame.lights[i].cone;
         float spot = clamp(-dot(l, frame.lights[i].direction.xyz) * cone.x + cone.y, 0.0, 1.0);

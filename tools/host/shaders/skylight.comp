@@ -11,10 +11,10 @@ layout(set = 0, binding = 2, rgba16f) uniform writeonly image3D volume;
 
 void main()
 {
-    vec3 place = sky.low.xyz + (vec3(gl_GlobalInvocationID) + 0.5) * sky.voxel.xyz;
+    vec3 point = sky.low.xyz + (vec3(gl_GlobalInvocationID) + 0.5) * sky.voxel.xyz;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
-        vec3 map = (sky.map_from_world[i] * vec4(place, 1.0)).xyz;
+        vec3 map = (sky.map_from_world[i] * vec4(point, 1.0)).xyz;
         float nearest = textureLod(maps, vec3(map.xy * 0.5 + 0.5, float(i)), 0.0).r;
         sum += nearest >= map.z - sky.low.w ? vec4(sky.direction[i].xyz, 0.5) : vec4(0.0);
     }

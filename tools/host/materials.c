@@ -1,5 +1,5 @@
-/* words.c - the table of surface words. */
-#include "words.h"
+/* materials.c - names of materials, and keywords that guess them. */
+#include "materials.h"
 
 #include <ctype.h>
 #include <stdbool.h>
@@ -10,11 +10,11 @@ static const char *const names[] = {"default", "asphalt", "concrete", "stone", "
                                     "sand",    "soil",    "wood",     "metal", "glass", "water",
                                     "leaves",  "cloth",   "plastic",  "tile",  "drain"};
 
-/* More telling words come first: "grass-road" is grass. */
+/* The first one that matches counts: "grass-road" is grass. */
 static const struct {
-    const char *word;
+    const char *keyword;
     uint32_t material;
-} words[] = {
+} keywords[] = {
     {"asphalt", 1},  {"tarmac", 1},   {"grass", 5},   {"lawn", 5},   {"sand", 6},    {"gravel", 6},  {"soil", 7},
     {"dirt", 7},     {"earth", 7},    {"mud", 7},     {"cobble", 3}, {"stone", 3},   {"rock", 3},    {"granite", 3},
     {"brick", 4},    {"window", 10},  {"glass", 10},  {"water", 11}, {"puddle", 11}, {"leaf", 12},   {"leaves", 12},
@@ -26,23 +26,23 @@ static const struct {
     {"gully", 16},   {"drain", 16},
 };
 
-static bool contains(const char *text, const char *word)
+static bool contains(const char *text, const char *part)
 {
     for (; *text; text++) {
         size_t i = 0;
-        while (word[i] && tolower((unsigned char)text[i]) == word[i])
+        while (part[i] && tolower((unsigned char)text[i]) == part[i])
             i++;
-        if (!word[i])
+        if (!part[i])
             return true;
     }
     return false;
 }
 
-uint32_t host_material_word(const char *name)
+uint32_t host_guess_material(const char *name)
 {
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (contains(name, words[i].word))
-            return words[i].material;
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++)
+        if (contains(name, keywords[i].keyword))
+            return keywords[i].material;
     return 0;
 }
 
@@ -56,22 +56,22 @@ bool host_material_find(const char *name, uint32_t *material)
     return false;
 }
 
-bool host_name_contains(const char *name, const char *word)
+bool host_name_contains(const char *name, const char *part)
 {
-    return contains(name, word);
+    return contains(name, part);
 }
 
 bool host_is_ground(const char *name, uint32_t material)
 {
-    static const char *const others[] = {"house",   "building", "church", "wall",    "roof",   "window",  "door",
-                                         "shutter", "car",      "truck",  "bin",     "lamp",   "lantern", "bench",
-                                         "crate",   "bollard",  "bar",    "balcony", "tree_",  "pole",    "pylon",
-                                         "tire",    "fence",    "sign",   "box",     "awning", "poutre",  "border"};
+    static const char *const not_ground[] = {"house",   "building", "church", "wall",    "roof",   "window",  "door",
+                                             "shutter", "car",      "truck",  "bin",     "lamp",   "lantern", "bench",
+                                             "crate",   "bollard",  "bar",    "balcony", "tree_",  "pole",    "pylon",
+                                             "tire",    "fence",    "sign",   "box",     "awning", "poutre",  "border"};
     if (material >= 10 && material <= 14) /* glass, water, leaves, cloth and plastic */
         return false;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (contains(name, others[i]))
-            return contains(name, "pit"); /* of a tree */
+    for (size_t i = 0; i < sizeof not_ground / sizeof *not_ground; i++)
+        if (contains(name, not_ground[i]))
+            return contains(name, "pit"); /* the pit around a tree is ground */
     return true;
 }
 
