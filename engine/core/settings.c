@@ -133,3 +133,39 @@ void virga_clamp_vector(const virga_log *log, const char *name, float v[3], floa
                   (double)v[2]);
     *changed = true;
 }
+
+/* ---- tables of numbers */
+
+static virga_result check_row(const virga_log *log, const virga_setting_row *row, const char *settings)
+{
+    const void *value = settings + row->member;
+    switch (row->number) {
+    case VIRGA_NUMBER_FLOAT: return virga_settings_finite(log, row->name, value, 1);
+    case VIRGA_NUMBER_DOUBLE: return virga_settings_finite_double(log, row->name, value, 1);
+    default: return VIRGA_OK;
+    }
+}
+
+static void clamp_row(const virga_log *log, const virga_setting_row *row, char *settings, bool *changed)
+{
+    void *value = settings + row->member;
+    if (row->number == VIRGA_NUMBER_U32)
+        *(uint32_t *)value = virga_clamp_setting_u32(log, row->name, *(uint32_t *)value, (uint32_t)row->min,
+                                                     (uint32_t)row->max, changed);
+    else if (row->number == VIRGA_NUMBER_DOUBLE)
+        *(double *)value = virga_clamp_setting(log, row->name, *(double *)value, row->min, row->max, changed);
+    else /* the ends as floats, or a value at an end may lie outside by rounding */
+        *(float *)value =
+            virga_clamp_setting_float(log, row->name, *(float *)value, (float)row->min, (float)row->max, changed);
+}
+
+virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting_row *rows, size_t count,
+                                       void *settings, bool *changed)
+{
+    for (size_t i = 0; i < count; i++)
+        if (check_row(log, &rows[i], settings))
+            return VIRGA_ERROR_INVALID;
+    for (size_t i = 0; i < count; i++)
+        clamp_row(log, &rows[i], settings, changed);
+    return VIRGA_OK;
+}

@@ -7,6 +7,8 @@
 
 #include "core/log.h"
 
+#include <stddef.h>
+
 /* How far from the world's origin a place may lie on each axis (m): floats relative to a camera out there are finite,
  * and so are their squares and cubes. */
 #define VIRGA_FARTHEST_M 1e9
@@ -48,6 +50,20 @@ virga_result virga_settings_finite_double(const virga_log *log, const char *name
 
 /* The same for places in the world: finite, and within VIRGA_FARTHEST_M of its origin. */
 virga_result virga_settings_places(const virga_log *log, const char *name, const double *values, uint32_t count);
+
+/* A number of a settings struct, and the range that it is moved into. */
+typedef enum virga_number { VIRGA_NUMBER_FLOAT, VIRGA_NUMBER_DOUBLE, VIRGA_NUMBER_U32 } virga_number;
+
+typedef struct virga_setting_row {
+    const char *name; /* as a host would write it */
+    virga_number number;
+    size_t member; /* offset in the struct */
+    double min, max;
+} virga_setting_row;
+
+/* VIRGA_ERROR_INVALID where one is not finite; else all are moved into their ranges, see virga_clamp_setting. */
+virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting_row *rows, size_t count,
+                                       void *settings, bool *changed);
 
 /* VIRGA_OK if the columns of a 3 x 3 matrix, `stride` apart, are finite and a rotation or a mirrored one: of unit
  * length and at right angles to 2 %, which is what is left of a rotation after many products of floats. */

@@ -3,13 +3,20 @@
 
 #include "core/light.h"
 #include "core/settings.h"
-#include "gpu/budget.h"
-#include "gpu/builds.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
 #include <virga/shared/impact.h>
 
+#include "shaders/glass_draw_balls_comp.spv.h"
+#include "shaders/glass_draw_film_tiles_comp.spv.h"
+#include "shaders/glass_draw_mist_blocks_comp.spv.h"
+#include "shaders/glass_draw_mist_comp.spv.h"
+#include "shaders/glass_draw_plate_copy_comp.spv.h"
+#include "shaders/glass_draw_plate_shrink_comp.spv.h"
+#include "shaders/glass_draw_tile_fill_comp.spv.h"
+#include "shaders/glass_draw_tile_list_comp.spv.h"
+#include "shaders/glass_draw_tile_quads_comp.spv.h"
 #include "shaders/glass_step_active_compact_comp.spv.h"
 #include "shaders/glass_step_active_scan_comp.spv.h"
 #include "shaders/glass_step_begin_tick_comp.spv.h"
@@ -36,11 +43,13 @@
 #include "shaders/glass_step_wipe_film_comp.spv.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #define DEF_COOKIE      VIRGA_COOKIE(11)
 #define SETTINGS_COOKIE VIRGA_COOKIE(12)
-#define MOST_CELLS      4194304.0
+#define MAX_CELLS       4194304.0
 
 /* ---- defaults */
 
@@ -100,35 +109,26 @@ virga_glass_settings virga_default_glass_settings(void)
     return settings;
 }
 
-static float clamped(const virga_log *log, const char *name, float value, float low, float high)
-{
-    return virga_clamp_setting_float(log, name, value, low, high, NULL);
-}
+static const virga_setting_row def_rows[] = {
+    {"glass_def.width_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, width_m), 0.01, 10},
+    {"glass_def.height_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, height_m), 0.01, 10},
+    {"glass_def.affinity_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, affinity_m), 0.0005, 0.1},
+    {"glass_def.max_drops", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_drops), 256, 262144},
+    {"glass_def.max_texels", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_texels), 64, 4096},
+    {"glass_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_ticks_per_step), 1, 64},
+    {"glass_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_glass_def, tick_s), 1e-3, 0.05},
+};
 
-static virga_result check_def(const virga_log *log, const virga_glass_def *given, virga_glass_def *def)
+static virga_result check_def(const virga_log *log, void *given)
 {
-    const virga_result result =
-        virga_settings_check(log, "glass_def", given->size, sizeof *given, given->cookie, DEF_COOKIE);
-    if (result)
-        return result;
-    if (virga_settings_finite(log, "glass_def.width_m", &given->width_m, 1) ||
-        virga_settings_finite(log, "glass_def.height_m", &given->height_m, 1) ||
-        virga_settings_finite(log, "glass_def.cell_m", &given->cell_m, 1) ||
-        virga_settings_finite(log, "glass_def.affinity_m", &given->affinity_m, 1) ||
-        virga_settings_finite_double(log, "glass_def.tick_s", &given->tick_s, 1))
+    virga_glass_def *def = given;
+    if (virga_settings_finite(log, "glass_def.cell_m", &def->cell_m, 1) ||
+        virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
         return VIRGA_ERROR_INVALID;
-    *def = *given;
-    def->width_m = clamped(log, "glass_def.width_m", def->width_m, 0.01f, 10);
-    def->height_m = clamped(log, "glass_def.height_m", def->height_m, 0.01f, 10);
-    const float least = (float)sqrt((double)def->width_m * (double)def->height_m / MOST_CELLS) * 1.01f;
-    def->cell_m = clamped(log, "glass_def.cell_m", def->cell_m, least > 0.0005f ? least : 0.0005f, 0.01f);
-    def->affinity_m = clamped(log, "glass_def.affinity_m", def->affinity_m, 0.0005f, 0.1f);
-    def->max_drops = virga_clamp_setting_u32(log, "glass_def.max_drops", def->max_drops, 256, 262144, NULL);
+    const float min_m = (float)sqrt((double)def->width_m * (double)def->height_m / MAX_CELLS) * 1.01f;
+    def->cell_m =
+        virga_clamp_setting_float(log, "glass_def.cell_m", def->cell_m, min_m > 0.0005f ? min_m : 0.0005f, 0.01f, NULL);
     def->max_drops = (def->max_drops + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP * VIRGA_GLASS_GROUP;
-    def->max_texels = virga_clamp_setting_u32(log, "glass_def.max_texels", def->max_texels, 64, 4096, NULL);
-    def->max_ticks_per_step =
-        virga_clamp_setting_u32(log, "glass_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
-    def->tick_s = virga_clamp_setting(log, "glass_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     return VIRGA_OK;
 }
 
@@ -139,216 +139,351 @@ uint32_t glass_cells_along(float length_m, float cell_m)
     return cells < 1 ? 1 : (uint32_t)cells;
 }
 
-/* ---- creating */
+/* ---- what it is made of */
 
-enum { BUFFERS = 18, PASSES = 24 };
-
-uint32_t glass_film_blocks(const virga_glass *glass)
+uint32_t glass_film_blocks(const virga_glass_def *def)
 {
     const uint32_t side = VIRGA_GLASS_FILM_BLOCK;
-    return (glass->columns + side - 1) / side * ((glass->rows + side - 1) / side);
+    const uint32_t columns = glass_cells_along(def->width_m, def->cell_m);
+    const uint32_t rows = glass_cells_along(def->height_m, def->cell_m);
+    return (columns + side - 1) / side * ((rows + side - 1) / side);
 }
 
-static VkDeviceSize grid_cells(const virga_glass *glass)
+static VkDeviceSize grid_cells(const virga_glass_def *def)
 {
-    const float least = glass_least_grid_m(&glass->def);
-    return (VkDeviceSize)glass_cells_along(glass->def.width_m, least) * glass_cells_along(glass->def.height_m, least);
+    const float side_m = glass_least_grid_m(def);
+    return (VkDeviceSize)glass_cells_along(def->width_m, side_m) * glass_cells_along(def->height_m, side_m);
 }
 
-static void list_buffers(virga_glass *glass, virga_buffer_row rows[BUFFERS])
-{
-    const virga_glass_def *def = &glass->def;
-    const uint32_t frames = glass->context->frames_in_flight;
-    const VkDeviceSize cells = (VkDeviceSize)glass->columns * glass->rows, places = def->max_drops;
-    const VkDeviceSize seeds =
-        GLASS_MOST_ARRIVALS + GLASS_MOST_IMPACTS + places + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
-    const VkBufferUsageFlags storage =
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-    const virga_buffer_row wanted[BUFFERS] = {
-        {&glass->state, sizeof(virga_glass_state_gpu), indirect, VIRGA_HEAP_DEVICE, "glass.state"},
-        {&glass->drops, places * sizeof(virga_glass_drop_gpu), storage, VIRGA_HEAP_DEVICE, "glass.drops"},
-        {&glass->picks, VIRGA_PICK_BYTES(places), storage, VIRGA_HEAP_DEVICE, "glass.picks"},
-        {&glass->list, sizeof(virga_list_gpu) + places * 4, indirect, VIRGA_HEAP_DEVICE, "glass.list"},
-        {&glass->awake, sizeof(virga_list_gpu) + places * 4, storage, VIRGA_HEAP_DEVICE, "glass.awake"},
-        {&glass->claims, cells * 8, storage, VIRGA_HEAP_DEVICE, "glass.claims"},
-        {&glass->occupants, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.occupants"},
-        {&glass->film, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.film"},
-        {&glass->passed, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.passed"},
-        {&glass->film_blocks, (VkDeviceSize)glass_film_blocks(glass) * 8, storage, VIRGA_HEAP_DEVICE,
-         "glass.film_blocks"},
-        {&glass->seeds, seeds * sizeof(virga_glass_seed_gpu), storage, VIRGA_HEAP_DEVICE, "glass.seeds"},
-        {&glass->ranks, seeds * 4, storage, VIRGA_HEAP_DEVICE, "glass.ranks"},
-        {&glass->grid, (grid_cells(glass) + places) * 4, storage, VIRGA_HEAP_DEVICE, "glass.grid"},
-        {&glass->moved, places * 16, storage, VIRGA_HEAP_DEVICE, "glass.moved"},
-        {&glass->surface, cells * 4, storage, VIRGA_HEAP_DEVICE, "glass.surface"},
-        {&glass->nodes, VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu),
-         storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, VIRGA_HEAP_DEVICE, "glass.nodes"},
-        {&glass->tick_ring, (VkDeviceSize)frames * def->max_ticks_per_step * glass_tick_bytes(),
-         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "glass.ticks"},
-        {&glass->readback_ring, frames * sizeof(glass_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,
-         "glass.readback"},
-    };
-    memcpy(rows, wanted, sizeof wanted);
-}
-
-static void list_passes(virga_glass *glass, virga_compute_row rows[PASSES])
-{
-    const virga_compute_row wanted[PASSES] = {
-        {&glass->census_find, VIRGA_SPIRV(glass_step_live_mark_comp), "glass.live_mark"},
-        {&glass->census_scan, VIRGA_SPIRV(glass_step_live_scan_comp), "glass.live_scan"},
-        {&glass->census_list, VIRGA_SPIRV(glass_step_live_compact_comp), "glass.live_compact"},
-        {&glass->move, VIRGA_SPIRV(glass_step_begin_tick_comp), "glass.begin_tick"},
-        {&glass->awake_scan, VIRGA_SPIRV(glass_step_active_scan_comp), "glass.active_scan"},
-        {&glass->awake_list, VIRGA_SPIRV(glass_step_active_compact_comp), "glass.active_compact"},
-        {&glass->choose, VIRGA_SPIRV(glass_step_choose_cell_comp), "glass.choose_cell"},
-        {&glass->enter, VIRGA_SPIRV(glass_step_enter_cell_comp), "glass.enter_cell"},
-        {&glass->capture_find, VIRGA_SPIRV(glass_step_capture_mark_comp), "glass.capture_mark"},
-        {&glass->capture, VIRGA_SPIRV(glass_step_capture_comp), "glass.capture"},
-        {&glass->wipe, VIRGA_SPIRV(glass_step_wipe_film_comp), "glass.wipe_film"},
-        {&glass->touch, VIRGA_SPIRV(glass_step_split_drops_comp), "glass.split_drops"},
-        {&glass->gather, VIRGA_SPIRV(glass_step_empty_bins_comp), "glass.empty_bins"},
-        {&glass->relax_sort, VIRGA_SPIRV(glass_step_particle_grid_comp), "glass.particle_grid"},
-        {&glass->relax, VIRGA_SPIRV(glass_step_push_particles_comp), "glass.push_particles"},
-        {&glass->leave_find, VIRGA_SPIRV(glass_step_to_drops_claim_comp), "glass.to_drops_claim"},
-        {&glass->leave, VIRGA_SPIRV(glass_step_to_drops_comp), "glass.to_drops"},
-        {&glass->place_claim, VIRGA_SPIRV(glass_step_spawn_claim_comp), "glass.spawn_claim"},
-        {&glass->place_scan, VIRGA_SPIRV(glass_step_spawn_scan_comp), "glass.spawn_scan"},
-        {&glass->place, VIRGA_SPIRV(glass_step_spawn_comp), "glass.spawn"},
-        {&glass->settle, VIRGA_SPIRV(glass_step_end_tick_comp), "glass.end_tick"},
-        {&glass->dry, VIRGA_SPIRV(glass_step_dry_film_comp), "glass.dry_film"},
-        {&glass->film_list, VIRGA_SPIRV(glass_step_film_compact_comp), "glass.film_compact"},
-        {&glass->measure, VIRGA_SPIRV(glass_step_measure_comp), "glass.measure"},
-    };
-    memcpy(rows, wanted, sizeof wanted);
-}
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-
-_Static_assert(VIRGA_GLASS_NODES *VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu) <= 16 * VIRGA_SURE_TEXELS,
-               "nodes are texels on every device");
-
-/* As in shaders/glass: what each file declares. */
-static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE}, /* 0 tick */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 1 state */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 2 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 3 picks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 4 list */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 5 claims */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 6 occupants */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 7 film */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 8 passed */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 9 seeds */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 10 ranks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 11 grid */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 12 surface */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},   /* 13 nodes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 14 impacts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 15 moved */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 16 awake */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},         /* 17 blocks with film */
+enum {
+    COUNT_CELLS = 1,
+    COUNT_SLOTS,
+    COUNT_PICK_BYTES,
+    COUNT_FILM_BLOCKS,
+    COUNT_SEEDS,
+    COUNT_GRID,
+    COUNT_TICKS,
+    COUNT_BALLS,
+    COUNT_TILES,
+    COUNT_ENTRIES,
+    COUNT_MIST,
+    COUNT_WORK,
+    COUNT_CORNERS,
+    COUNT_VIEWS,
+    COUNT_MAP_COLUMNS,
+    COUNT_MAP_ROWS,
+    COUNT_COPY_COLUMNS,
+    COUNT_COPY_ROWS,
+    COUNT_MIST_COLUMNS,
+    COUNT_MIST_ROWS,
 };
 
-enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
-
-static virga_bound whole(const virga_buffer *buffer)
+static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
-    return (virga_bound){.buffer = buffer->buffer};
+    struct glass_picture sizes;
+    glass_picture_fill_sizes(def, &sizes);
+    const VkDeviceSize tiles = (VkDeviceSize)sizes.max_tile_columns * sizes.max_tile_rows;
+    const VkDeviceSize mist = (VkDeviceSize)sizes.max_mist.width * sizes.max_mist.height;
+    const VkDeviceSize blocks = mist / (VIRGA_GLASS_MIST_BLOCK * VIRGA_GLASS_MIST_BLOCK);
+    counts[COUNT_BALLS] = (VkDeviceSize)def->max_drops * VIRGA_GLASS_DROP_BALLS;
+    counts[COUNT_TILES] = tiles;
+    counts[COUNT_ENTRIES] = sizes.max_entries;
+    counts[COUNT_MIST] = mist;
+    counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
+    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6;
+    counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;
+    counts[COUNT_MAP_COLUMNS] = sizes.max_columns;
+    counts[COUNT_MAP_ROWS] = sizes.max_rows;
+    counts[COUNT_COPY_COLUMNS] = VIRGA_GLASS_COPY_WIDTH;
+    counts[COUNT_COPY_ROWS] = VIRGA_GLASS_COPY;
+    counts[COUNT_MIST_COLUMNS] = sizes.max_mist.width;
+    counts[COUNT_MIST_ROWS] = sizes.max_mist.height;
 }
+
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    const virga_glass_def *def = given;
+    const VkDeviceSize columns = glass_cells_along(def->width_m, def->cell_m);
+    counts[COUNT_CELLS] = columns * glass_cells_along(def->height_m, def->cell_m);
+    counts[COUNT_SLOTS] = def->max_drops;
+    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES((VkDeviceSize)def->max_drops);
+    counts[COUNT_FILM_BLOCKS] = glass_film_blocks(def);
+    counts[COUNT_SEEDS] =
+        GLASS_MAX_ARRIVALS + GLASS_MAX_IMPACTS + (VkDeviceSize)def->max_drops + VIRGA_GLASS_BLADES * VIRGA_GLASS_BINS;
+    counts[COUNT_GRID] = grid_cells(def) + def->max_drops;
+    counts[COUNT_TICKS] = def->max_ticks_per_step;
+    count_picture(def, counts);
+}
+
+#define AT(member)  offsetof(virga_glass, member)
+#define DEVICE      VIRGA_HEAP_DEVICE
+#define STORAGE_USE VIRGA_USE_STORAGE
+#define FILL        VIRGA_FIRST_FILL
+#define LIST_HEAD   sizeof(virga_list_gpu)
+#define NODE_BYTES  (VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu))
+
+_Static_assert(NODE_BYTES <= 16 * VIRGA_SURE_TEXELS, "nodes are texels on every device");
+_Static_assert(VIRGA_MAX_FRAMES_IN_FLIGHT *VIRGA_GLASS_MAX_VIEWS *VIRGA_RING_BYTES(glass_view_block) <=
+                   16 * VIRGA_SURE_TEXELS,
+               "views are texels on every device");
+
+static const virga_effect_buffer buffers[] = {
+    /* The state of the pane. */
+    {"glass.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_state_gpu), .first = FILL},
+    {"glass.drops", AT(drops), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
+    {"glass.picks", AT(picks), STORAGE_USE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
+    {"glass.awake", AT(awake), STORAGE_USE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
+    {"glass.claims", AT(claims), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NOWHERE},
+    {"glass.occupants", AT(occupants), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.film", AT(film), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.passed", AT(passed), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.film_blocks", AT(film_blocks), STORAGE_USE, DEVICE, 0, 8, COUNT_FILM_BLOCKS, FILL},
+    {"glass.seeds", AT(seeds), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_seed_gpu), COUNT_SEEDS, FILL},
+    {"glass.ranks", AT(ranks), STORAGE_USE, DEVICE, 0, 4, COUNT_SEEDS},
+    {"glass.grid", AT(grid), STORAGE_USE, DEVICE, 0, 4, COUNT_GRID, FILL},
+    {"glass.moved", AT(moved), STORAGE_USE, DEVICE, 0, 16, COUNT_SLOTS},
+    /* What the pane is like. */
+    {"glass.surface", AT(surface), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS},
+    {"glass.nodes", AT(nodes), VIRGA_USE_TEXELS, DEVICE, NODE_BYTES},
+    /* Its picture. */
+    {"glass.balls", AT(picture.balls), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_ball_gpu), COUNT_BALLS},
+    {"glass.tiles", AT(picture.tiles), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
+    {"glass.entries", AT(picture.entries), STORAGE_USE, DEVICE, 0, 4, COUNT_ENTRIES},
+    {"glass.mist", AT(picture.mist), STORAGE_USE, DEVICE, 0, 1, COUNT_MIST},
+    {"glass.written", AT(picture.written), STORAGE_USE, DEVICE, 0, 4, COUNT_TILES},
+    {"glass.work", AT(picture.work), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_work_gpu), 4, COUNT_WORK},
+    {"glass.corners", AT(picture.corners), VIRGA_USE_INDEX, DEVICE, 0, 4, COUNT_CORNERS},
+};
+
+static const virga_effect_ring rings[] = {
+    {"glass.ticks", AT(tick_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_glass_tick_gpu), COUNT_TICKS},
+    {"glass.views", AT(picture.view_ring), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+     VIRGA_RING_BYTES(glass_view_block), COUNT_VIEWS},
+};
+
+#define COLOR_ASPECT VK_IMAGE_ASPECT_COLOR_BIT
+#define SAMPLED_USE  VK_IMAGE_USAGE_SAMPLED_BIT
+#define CLEARED_USE  (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
+#define WRITTEN_USE  (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)
+#define READ_BACK    VK_IMAGE_USAGE_TRANSFER_SRC_BIT
+
+/* What draws filter is cleared: beside the last texel that a view writes lies one that it does not, and not a number
+ * times a weight of 0 is none. */
+static const virga_effect_image images[] = {
+    {"glass.relief", AT(picture.relief), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT,
+     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
+    {"glass.map", AT(picture.map), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT, WRITTEN_USE | READ_BACK,
+     COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
+    {"glass.words", AT(picture.words), VK_FORMAT_R32_UINT, COLOR_ASPECT, WRITTEN_USE, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS,
+     1, VIRGA_FIRST_STORAGE},
+    {"glass.copies", AT(picture.copies), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT,
+     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
+    {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR_ASPECT, CLEARED_USE, COUNT_MIST_COLUMNS,
+     COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE},
+    {"glass.blank_depth", AT(picture.blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, SAMPLED_USE,
+     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    {"glass.blank_color", AT(picture.blank_color), VK_FORMAT_R8G8B8A8_UNORM, COLOR_ASPECT, SAMPLED_USE, VIRGA_COUNT_ONE,
+     VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+};
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+
+enum { BIND_IMPACTS = 14 };
+
+/* As in shaders/glass: what each file declares. */
+static const virga_binding_kind bindings[] = {
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring),
+     sizeof(virga_glass_tick_gpu)},                                                     /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                                 /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                                  /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(claims)},                                /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(occupants)},                             /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                                  /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                                /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(seeds)},                                 /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(ranks)},                                 /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid)},                                  /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                               /* 12 */
+    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE, VIRGA_SOURCE_TEXELS, AT(nodes)}, /* 13 */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},                                                /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 15 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(awake)},                                 /* 16 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                           /* 17 */
+};
+
+enum { LAYOUT_MOTION, LAYOUT_PICTURE };
+
+static const virga_effect_layout layouts[] = {
+    [LAYOUT_MOTION] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 5 * sizeof(uint32_t)},
+    [LAYOUT_PICTURE] = {AT(picture.bindings), glass_picture_bindings, GLASS_PICTURE_BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0},
+};
+
+#define MOTION(pass)                                                   \
+    {                                                                  \
+        "glass." #pass, AT(pass), VIRGA_SPIRV_ROW(glass_##pass##_comp) \
+    }
+#define DRAW(pass, ...)                                                                                        \
+    {                                                                                                          \
+        "glass." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(glass_draw_##pass##_comp), .layout = LAYOUT_PICTURE, \
+                                                                                     __VA_ARGS__               \
+    }
+
+static const virga_effect_pass passes[] = {
+    MOTION(live_mark),
+    MOTION(live_scan),
+    MOTION(live_compact),
+    MOTION(begin_tick),
+    MOTION(active_scan),
+    MOTION(active_compact),
+    MOTION(choose_cell),
+    MOTION(enter_cell),
+    MOTION(capture_mark),
+    MOTION(capture),
+    MOTION(wipe_film),
+    MOTION(split_drops),
+    MOTION(empty_bins),
+    MOTION(particle_grid),
+    MOTION(push_particles),
+    MOTION(to_drops_claim),
+    MOTION(to_drops),
+    MOTION(spawn_claim),
+    MOTION(spawn_scan),
+    MOTION(spawn),
+    MOTION(end_tick),
+    MOTION(dry_film),
+    MOTION(film_compact),
+    MOTION(measure),
+    {"glass.balls", AT(picture.ball_pass), VIRGA_SPIRV_ROW(glass_draw_balls_comp), .layout = LAYOUT_PICTURE},
+    DRAW(mist_blocks),
+    DRAW(film_tiles),
+    DRAW(tile_list),
+    DRAW(tile_fill),
+    DRAW(tile_quads),
+    DRAW(plate_copy),
+    DRAW(plate_shrink),
+    {"glass.mist", AT(picture.mist_passes), VIRGA_SPIRV_ROW(glass_draw_mist_comp), .forms = GLASS_MIST_FORMS,
+     .layout = LAYOUT_PICTURE},
+};
+
+/* How many drops it holds and how fine its picture is. Its cells stay: they say where drops can be. */
+static const virga_effect_pool pools[] = {
+    {"max_drops", offsetof(virga_glass_def, max_drops), VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP},
+    {"max_texels", offsetof(virga_glass_def, max_texels), 64, 1},
+};
+
+/* The uploads of the shape. */
+static VkDeviceSize extra_bytes(const void *given)
+{
+    const virga_glass_def *def = given;
+    const VkDeviceSize columns = glass_cells_along(def->width_m, def->cell_m);
+    return columns * glass_cells_along(def->height_m, def->cell_m) * 4 + NODE_BYTES;
+}
+
+static virga_result init(void *object)
+{
+    virga_glass *glass = object;
+    glass->columns = glass_cells_along(glass->def.width_m, glass->def.cell_m);
+    glass->rows = glass_cells_along(glass->def.height_m, glass->def.cell_m);
+    glass->settings = virga_default_glass_settings();
+    return VIRGA_OK;
+}
+
+static virga_result create(void *object)
+{
+    virga_glass *glass = object;
+    const virga_result result = glass_picture_create(glass);
+    return result < 0 ? result : glass_shape_init(glass); /* and the gathers of the shape */
+}
+
+static void destroy(void *object)
+{
+    virga_glass *glass = object;
+    glass_picture_destroy(glass);
+    VIRGA_RETIRE(glass->base.context, glass->surface_upload);
+    VIRGA_RETIRE(glass->base.context, glass->nodes_upload);
+}
+
+static void describe(const void *object, char *line, size_t size)
+{
+    const virga_glass *glass = object;
+    snprintf(line, size, "glass: %u x %u cells, up to %u drops", glass->columns, glass->rows, glass->def.max_drops);
+}
+
+static virga_result set(void *object, const void *settings)
+{
+    return virga_glass_set(object, settings);
+}
+
+static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
+{
+    return virga_glass_draw(object, cmd, target);
+}
+
+_Static_assert(sizeof(virga_glass_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
+
+const virga_effect_type glass_type = {
+    .name = "a pane",
+    .size = sizeof(virga_glass),
+    .def = {"glass_def", sizeof(virga_glass_def), DEF_COOKIE, AT(def)},
+    .settings = {"glass_settings", sizeof(virga_glass_settings), SETTINGS_COOKIE, AT(settings)},
+    .lighting = offsetof(virga_glass_settings, lighting),
+    .buffers = buffers,
+    .buffer_count = VIRGA_ROWS(buffers),
+    .rings = rings,
+    .ring_count = VIRGA_ROWS(rings),
+    .images = images,
+    .image_count = VIRGA_ROWS(images),
+    .layouts = layouts,
+    .layout_count = VIRGA_ROWS(layouts),
+    .passes = passes,
+    .pass_count = VIRGA_ROWS(passes),
+    .draws = glass_draws,
+    .draw_count = GLASS_DRAW_ROWS,
+    .draw_layout = LAYOUT_PICTURE,
+    .pools = pools,
+    .pool_count = VIRGA_ROWS(pools),
+    .readback_name = "glass.readback",
+    .readback_bytes = sizeof(glass_readback),
+    .check_def = check_def,
+    .count = count,
+    .extra_bytes = extra_bytes,
+    .init = init,
+    .create = create,
+    .destroy = destroy,
+    .describe = describe,
+    .draw_constant = glass_draw_constant,
+    .read_statistics = glass_read_statistics,
+    .set = set,
+    .draw = draw,
+};
 
 VkDescriptorSet glass_write_set(virga_glass *glass)
 {
-    const virga_bound impacts = {.buffer = glass->impacts ? glass->impacts : glass->state->buffer,
-                                 .offset = glass->impacts ? glass->impacts_offset : 0};
-    const virga_bound bound[BINDINGS] = {{.buffer = glass->tick_ring->buffer, .range = sizeof(virga_glass_tick_gpu)},
-                                         whole(glass->state),
-                                         whole(glass->drops),
-                                         whole(glass->picks),
-                                         whole(glass->list),
-                                         whole(glass->claims),
-                                         whole(glass->occupants),
-                                         whole(glass->film),
-                                         whole(glass->passed),
-                                         whole(glass->seeds),
-                                         whole(glass->ranks),
-                                         whole(glass->grid),
-                                         whole(glass->surface),
-                                         {.texels = glass->nodes->texels},
-                                         impacts,
-                                         whole(glass->moved),
-                                         whole(glass->awake),
-                                         whole(glass->film_blocks)};
-    return virga_bindings_write(glass->context, glass->bindings, 0, bound);
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&glass->base, glass->bindings, bound);
+    bound[BIND_IMPACTS] = (virga_bound){.buffer = glass->impacts ? glass->impacts : glass->state->buffer,
+                                        .offset = glass->impacts ? glass->impacts_offset : 0};
+    return virga_bindings_write(glass->base.context, glass->bindings, 0, bound);
 }
 
-static virga_result init(virga_glass *glass)
+/* ---- create and destroy */
+
+VkDeviceSize virga_glass_estimate(const virga_glass_def *def)
 {
-    virga_result result = VIRGA_OK;
-    virga_buffer_row buffers[BUFFERS];
-    virga_compute_row passes[PASSES];
-    list_buffers(glass, buffers);
-    list_passes(glass, passes);
-    TRY(virga_buffers_create(glass->context, buffers, BUFFERS));
-    TRY(virga_bindings_create(glass->context, kinds, BINDINGS, 1, 5 * sizeof(uint32_t), &glass->bindings));
-    TRY(virga_compute_pipelines_create(glass->context, glass->bindings->layout, 0, &glass->needed, passes, PASSES));
-    TRY(glass_shape_init(glass));
-    TRY(glass_picture_create(glass));
-error:
-    return result;
+    return virga_effect_estimate(&glass_type, def);
 }
 
-static virga_result make(virga_context *context, const void *def, void **glass)
+virga_result virga_glass_create(virga_context *context, const virga_glass_def *def, virga_glass **glass)
 {
-    virga_glass *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "a pane");
-    made->context = context;
-    made->def = *(const virga_glass_def *)def;
-    made->columns = glass_cells_along(made->def.width_m, made->def.cell_m);
-    made->rows = glass_cells_along(made->def.height_m, made->def.cell_m);
-    made->settings = virga_default_glass_settings();
-    context->effects++;
-    const virga_result result = init(made);
-    if (result < 0)
-        virga_glass_destroy(&made);
-    *glass = made;
-    return result;
-}
-
-/* How many drops it holds and how fine its picture is. Its cells stay: they say where drops can be. */
-static virga_result make_in_budget(virga_context *context, virga_glass_def *def, virga_glass **glass)
-{
-    const virga_pool pools[] = {
-        {"max_drops", &def->max_drops, VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP},
-        {"max_texels", &def->max_texels, 64, 1},
-    };
     void *made = NULL;
-    const virga_result result = virga_make_in_budget(context, "a pane", pools, 2, make, def, &made);
-    *glass = made;
-    return result;
-}
-
-virga_result virga_glass_create(virga_context *context, const virga_glass_def *given, virga_glass **glass)
-{
+    const virga_result result =
+        virga_effect_create(context, &glass_type, "virga_glass_create", def, glass ? &made : NULL);
     if (glass)
-        *glass = NULL;
-    if (!context || !given || !glass)
-        return virga_wrong_argument(context ? &context->log : NULL, "virga_glass_create: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_glass_def def;
-    virga_result result = check_def(&context->log, given, &def);
-    if (result)
-        return result;
-    virga_glass *made = NULL;
-    result = make_in_budget(context, &def, &made);
-    if (result < 0)
-        return result;
-    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
-                  "glass: %u x %u cells, up to %u drops, %.1f MB of device memory in use", made->columns, made->rows,
-                  made->def.max_drops, (double)context->device_used * 1e-6);
-    *glass = made;
+        *glass = made;
     return result;
 }
 
@@ -356,135 +491,97 @@ void virga_glass_destroy(virga_glass **glass)
 {
     if (!glass || !*glass)
         return;
-    virga_glass *dying = *glass;
-    virga_context *context = dying->context;
-    virga_buffer_row buffers[BUFFERS];
-    virga_compute_row passes[PASSES];
-    list_buffers(dying, buffers);
-    list_passes(dying, passes);
-    glass_picture_destroy(dying);
-    virga_compute_pipelines_retire(context, passes, PASSES);
-    virga_buffers_retire(context, buffers, BUFFERS);
-    VIRGA_RETIRE(context, dying->surface_upload);
-    VIRGA_RETIRE(context, dying->nodes_upload);
-    VIRGA_RETIRE(context, dying->bindings);
-    context->effects--;
-    virga_free(&context->heap, dying);
+    virga_effect_destroy(&(*glass)->base);
     *glass = NULL;
-}
-
-VkDeviceSize virga_glass_estimate(const virga_glass_def *given)
-{
-    virga_glass_def def;
-    if (!given || check_def(NULL, given, &def))
-        return 0;
-    virga_context context = {.frames_in_flight = VIRGA_MAX_FRAMES_IN_FLIGHT};
-    virga_glass glass = {.context = &context, .def = def};
-    glass.columns = glass_cells_along(def.width_m, def.cell_m);
-    glass.rows = glass_cells_along(def.height_m, def.cell_m);
-    virga_buffer_row rows[BUFFERS];
-    list_buffers(&glass, rows);
-    VkDeviceSize sum = glass_picture_estimate(&def);
-    for (uint32_t i = 0; i < BUFFERS; i++)
-        sum += rows[i].size;
-    return sum + (VkDeviceSize)glass.columns * glass.rows * 4 + /* the uploads */
-           VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu);
 }
 
 virga_result virga_glass_ready(const virga_glass *glass)
 {
-    return !glass                 ? VIRGA_ERROR_INVALID
-           : glass->context->lost ? VIRGA_ERROR_DEVICE_LOST
-                                  : virga_group_ready(&glass->needed);
+    return glass ? virga_effect_ready(&glass->base) : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
+{
+    return glass ? virga_effect_attach(&glass->base, "virga_glass_attach", target) : VIRGA_ERROR_INVALID;
 }
 
 /* ---- settings */
 
-typedef struct number_row {
-    float *value;
-    float low, high;
-    const char *name;
-} number_row;
-
-static virga_result check_rows(const virga_log *log, const number_row *rows, size_t count, bool *changed)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (virga_settings_finite(log, rows[i].name, rows[i].value, 1))
-            return VIRGA_ERROR_INVALID;
-        *rows[i].value =
-            virga_clamp_setting_float(log, rows[i].name, *rows[i].value, rows[i].low, rows[i].high, changed);
+#define WIPER(member, min, max)                                                                   \
+    {                                                                                             \
+        "glass_wiper." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_glass_wiper, member), min, max \
     }
-    return VIRGA_OK;
-}
+
+static const virga_setting_row wiper_rows[] = {
+    WIPER(pivot_m[0], -20, 20),   WIPER(pivot_m[1], -20, 20), WIPER(reach_m, 0.01, 10),   WIPER(blade_m, 0.01, 10),
+    WIPER(width_m, 0.001, 0.1),   WIPER(low_deg, -720, 720),  WIPER(high_deg, -720, 720), WIPER(blade_deg, -180, 180),
+    WIPER(blade_turn, 0, 1),      WIPER(sweep_s, 0.1, 60),    WIPER(pause_s, 0, 3600),    WIPER(phase_s, 0, 3600),
+    WIPER(host_deg, -7200, 7200), WIPER(film_mm, 0, 0.5),     WIPER(wear, 0, 1),
+};
 
 static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool *changed)
 {
-    const number_row rows[] = {
-        {&w->pivot_m[0], -20, 20, "glass_wiper.pivot_m[0]"},
-        {&w->pivot_m[1], -20, 20, "glass_wiper.pivot_m[1]"},
-        {&w->reach_m, 0.01f, 10, "glass_wiper.reach_m"},
-        {&w->blade_m, 0.01f, fminf(fmaxf(w->reach_m, 0.01f), 10), "glass_wiper.blade_m"},
-        {&w->width_m, 0.001f, 0.1f, "glass_wiper.width_m"},
-        {&w->low_deg, -720, 720, "glass_wiper.low_deg"},
-        {&w->high_deg, -720, 720, "glass_wiper.high_deg"},
-        {&w->blade_deg, -180, 180, "glass_wiper.blade_deg"},
-        {&w->blade_turn, 0, 1, "glass_wiper.blade_turn"},
-        {&w->sweep_s, 0.1f, 60, "glass_wiper.sweep_s"},
-        {&w->pause_s, 0, 3600, "glass_wiper.pause_s"},
-        {&w->phase_s, 0, 3600, "glass_wiper.phase_s"},
-        {&w->host_deg, -7200, 7200, "glass_wiper.host_deg"},
-        {&w->film_mm, 0, 0.5f, "glass_wiper.film_mm"},
-        {&w->wear, 0, 1, "glass_wiper.wear"},
-    };
     if ((uint32_t)w->drive > VIRGA_GLASS_HOST)
         return virga_wrong_argument(log, "glass_wiper.drive: there is no drive %d", (int)w->drive);
-    return check_rows(log, rows, sizeof rows / sizeof rows[0], changed);
+    if (virga_settings_apply_rows(log, wiper_rows, VIRGA_ROWS(wiper_rows), w, changed))
+        return VIRGA_ERROR_INVALID;
+    w->blade_m = virga_clamp_setting_float(log, "glass_wiper.blade_m", w->blade_m, 0.01f, w->reach_m, changed);
+    return VIRGA_OK;
 }
+
+#define NUMBER(member, min, max)                                                                        \
+    {                                                                                                   \
+        "glass_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_glass_settings, member), min, max \
+    }
+#define COUNT(member, min, max)                                                                       \
+    {                                                                                                 \
+        "glass_settings." #member, VIRGA_NUMBER_U32, offsetof(virga_glass_settings, member), min, max \
+    }
+
+static const virga_setting_row settings_rows[] = {
+    NUMBER(advancing_deg, 5, 175),
+    NUMBER(receding_deg, 1, 175),
+    NUMBER(drag, 0.01, 100),
+    NUMBER(run_hold, 0, 1),
+    NUMBER(affinity, 0, 2),
+    NUMBER(meander, 0, 1),
+    NUMBER(path_ease, 0, 1),
+    NUMBER(path_s, 0.1, 600),
+    NUMBER(touch, 0, 2),
+    NUMBER(tail_m, 0.001, 1),
+    NUMBER(tail_mm, 0, 2),
+    NUMBER(tail_s, 0.1, 3600),
+    NUMBER(film_um, 0, 100),
+    NUMBER(film_break_s, 0, 60),
+    NUMBER(evaporation_mm_h, 0, 100),
+    NUMBER(mist_mm, 0, 1),
+    NUMBER(air_share, 0, 2),
+    NUMBER(particle_mm, 0.2, 5),
+    NUMBER(penalty, 0, 1),
+    NUMBER(band, 1, 16),
+    NUMBER(hold_back_mm, 0, 20),
+    NUMBER(compress_from, 0, 2),
+    NUMBER(compress_step, 0, 1),
+    NUMBER(compress_k, 0, 1),
+    NUMBER(threshold, 0.05, 0.95),
+    NUMBER(impact_s, 0, 2),
+    NUMBER(paper_shift, 0, 4),
+    NUMBER(thickness_mm, 0, 50),
+    NUMBER(tint[0], 0, 1),
+    NUMBER(tint[1], 0, 1),
+    NUMBER(tint[2], 0, 1),
+    NUMBER(gain, 0, 100),
+    COUNT(hold_back_cells, 0, 8),
+    COUNT(compress_steps, 0, 16),
+    COUNT(wiper_count, 0, VIRGA_GLASS_MAX_WIPERS),
+};
 
 static virga_result check_numbers(const virga_log *log, virga_glass_settings *s, bool *changed)
 {
-    const number_row rows[] = {
-        {&s->advancing_deg, 5, 175, "glass_settings.advancing_deg"},
-        {&s->receding_deg, 1, fminf(fmaxf(s->advancing_deg, 5), 175), "glass_settings.receding_deg"},
-        {&s->drag, 0.01f, 100, "glass_settings.drag"},
-        {&s->run_hold, 0, 1, "glass_settings.run_hold"},
-        {&s->affinity, 0, 2, "glass_settings.affinity"},
-        {&s->meander, 0, 1, "glass_settings.meander"},
-        {&s->path_ease, 0, 1, "glass_settings.path_ease"},
-        {&s->path_s, 0.1f, 600, "glass_settings.path_s"},
-        {&s->touch, 0, 2, "glass_settings.touch"},
-        {&s->tail_m, 0.001f, 1, "glass_settings.tail_m"},
-        {&s->tail_mm, 0, 2, "glass_settings.tail_mm"},
-        {&s->tail_s, 0.1f, 3600, "glass_settings.tail_s"},
-        {&s->film_um, 0, 100, "glass_settings.film_um"},
-        {&s->film_break_s, 0, 60, "glass_settings.film_break_s"},
-        {&s->evaporation_mm_h, 0, 100, "glass_settings.evaporation_mm_h"},
-        {&s->mist_mm, 0, 1, "glass_settings.mist_mm"},
-        {&s->air_share, 0, 2, "glass_settings.air_share"},
-        {&s->particle_mm, 0.2f, 5, "glass_settings.particle_mm"},
-        {&s->penalty, 0, 1, "glass_settings.penalty"},
-        {&s->band, 1, 16, "glass_settings.band"},
-        {&s->hold_back_mm, 0, 20, "glass_settings.hold_back_mm"},
-        {&s->compress_from, 0, 2, "glass_settings.compress_from"},
-        {&s->compress_step, 0, 1, "glass_settings.compress_step"},
-        {&s->compress_k, 0, 1, "glass_settings.compress_k"},
-        {&s->threshold, 0.05f, 0.95f, "glass_settings.threshold"},
-        {&s->impact_s, 0, 2, "glass_settings.impact_s"},
-        {&s->paper_shift, 0, 4, "glass_settings.paper_shift"},
-        {&s->thickness_mm, 0, 50, "glass_settings.thickness_mm"},
-        {&s->tint[0], 0, 1, "glass_settings.tint[0]"},
-        {&s->tint[1], 0, 1, "glass_settings.tint[1]"},
-        {&s->tint[2], 0, 1, "glass_settings.tint[2]"},
-        {&s->gain, 0, 100, "glass_settings.gain"},
-    };
-    if (check_rows(log, rows, sizeof rows / sizeof rows[0], changed))
+    if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), s, changed))
         return VIRGA_ERROR_INVALID;
-    s->hold_back_cells =
-        virga_clamp_setting_u32(log, "glass_settings.hold_back_cells", s->hold_back_cells, 0, 8, changed);
-    s->compress_steps =
-        virga_clamp_setting_u32(log, "glass_settings.compress_steps", s->compress_steps, 0, 16, changed);
-    s->wiper_count =
-        virga_clamp_setting_u32(log, "glass_settings.wiper_count", s->wiper_count, 0, VIRGA_GLASS_MAX_WIPERS, changed);
+    s->receding_deg =
+        virga_clamp_setting_float(log, "glass_settings.receding_deg", s->receding_deg, 1, s->advancing_deg, changed);
     for (uint32_t i = 0; i < s->wiper_count; i++)
         if (check_wiper(log, &s->wipers[i], changed))
             return VIRGA_ERROR_INVALID;
@@ -495,28 +592,23 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
 {
     if (!glass)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &glass->context->log;
-    if (!settings)
-        return virga_wrong_argument(log, "virga_glass_set: NULL argument");
-    if (glass->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    const virga_result result = virga_settings_check(log, "glass_settings", settings->size, sizeof *settings,
-                                                     settings->cookie, SETTINGS_COOKIE);
+    const virga_log *log = &glass->base.context->log;
+    const virga_result result = virga_effect_check_set(&glass->base, "virga_glass_set", settings);
     if (result)
         return result;
-    virga_glass_settings taken = *settings;
+    virga_glass_settings next = *settings;
     bool changed = false;
-    if ((uint32_t)taken.density > VIRGA_GLASS_DENSITY_NISHIMURA || (uint32_t)taken.blend > VIRGA_GLASS_BLEND_WEIGHTED ||
-        (uint32_t)taken.style > VIRGA_GLASS_STYLE_PHYSICAL)
+    if ((uint32_t)next.density > VIRGA_GLASS_DENSITY_NISHIMURA || (uint32_t)next.blend > VIRGA_GLASS_BLEND_WEIGHTED ||
+        (uint32_t)next.style > VIRGA_GLASS_STYLE_PHYSICAL)
         return virga_wrong_argument(log, "glass_settings: there is no density %d, blend %d or style %d",
-                                    (int)taken.density, (int)taken.blend, (int)taken.style);
-    if (check_numbers(log, &taken, &changed) ||
-        virga_lighting_check(log, "glass_settings", &taken.lighting, &changed) < 0)
+                                    (int)next.density, (int)next.blend, (int)next.style);
+    if (check_numbers(log, &next, &changed) ||
+        virga_lighting_check(log, "glass_settings", &next.lighting, &changed) < 0)
         return VIRGA_ERROR_INVALID;
-    const virga_result needed = glass_picture_need(glass, &taken);
+    const virga_result needed = glass_picture_need(glass, &next);
     if (needed)
         return needed;
-    glass->settings = taken;
+    glass->settings = next;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
@@ -559,6 +651,6 @@ void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats)
     memset(stats, 0, sizeof *stats);
     if (!glass)
         return;
-    glass_take_statistics(glass);
+    virga_effect_read_statistics(&glass->base);
     *stats = glass->stats;
 }

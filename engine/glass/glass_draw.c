@@ -1,6 +1,5 @@
-/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), pipelines for a target (attach),
- * drawing. */
-#include "glass/glass_picture.h"
+/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), drawing. */
+#include "glass/glass_internal.h"
 
 #include "core/settings.h"
 #include "gpu/builds.h"
@@ -37,7 +36,7 @@
 /* ---- the pane, as a view has it */
 
 /* The pane's axes in the world; none given: they are the world's. */
-static void take_rotation(const virga_glass_pose *pose, float m[9])
+static void copy_rotation(const virga_glass_pose *pose, float m[9])
 {
     bool none = true;
     for (int i = 0; i < 9; i++) {
@@ -94,7 +93,7 @@ static uint32_t whole_tiles(double texels, uint32_t most)
 /* About a texel a pixel, whole tiles, not more than there are. */
 static void fit_map(const virga_glass *glass, glass_view_block *block)
 {
-    const struct glass_picture *picture = glass->picture;
+    const struct glass_picture *picture = &glass->picture;
     virga_glass_picture_gpu *look = &block->look;
     const double width = (double)glass->def.width_m, height = (double)glass->def.height_m;
     const double least = LEAST_TEXELS / fmax(width, height);
@@ -145,9 +144,9 @@ static void fit_boxes(const virga_glass *glass, glass_view_block *block)
 }
 
 /* A cell to a texel, or where cells are much smaller than pixels so many that a texel is about one. */
-static void fit_mist(const virga_glass *glass, virga_glass_picture_gpu *look)
+static void fit_mist(virga_glass *glass, virga_glass_picture_gpu *look)
 {
-    struct glass_picture *picture = glass->picture;
+    struct glass_picture *picture = &glass->picture;
     const float texel = look->texel_m[0] > look->texel_m[1] ? look->texel_m[0] : look->texel_m[1];
     uint32_t cells = 1;
     picture->beads = VIRGA_GLASS_BEAD_CELLS * glass->def.cell_m > VIRGA_GLASS_BEAD_SEEN * texel;
@@ -174,7 +173,7 @@ static void fill_pane(const virga_glass *glass, const virga_view *view, const vi
                                         .height_m = glass->def.height_m,
                                         .max_drops = glass->def.max_drops,
                                         .seed = glass->def.seed};
-    take_rotation(pose, look->world_from_pane);
+    copy_rotation(pose, look->world_from_pane);
     for (int i = 0; i < 3; i++) {
         look->origin[i] = (float)(pose->position_m[i] - view->position_m[i]);
         look->gravity[i] = (float)(-GRAVITY * (double)look->world_from_pane[3 * i + 1]);
@@ -211,19 +210,20 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     memcpy(look->tint, s->tint, sizeof look->tint);
     look->opaque = s->opaque;
     look->gain = s->gain;
-    look->max_tiles = glass->picture->max_tile_columns * glass->picture->max_tile_rows;
-    look->max_blocks = glass->picture->max_mist.width / BLOCK * (glass->picture->max_mist.height / BLOCK);
-    look->max_entries = glass->picture->max_entries;
+    look->max_tiles = glass->picture.max_tile_columns * glass->picture.max_tile_rows;
+    look->max_blocks = glass->picture.max_mist.width / BLOCK * (glass->picture.max_mist.height / BLOCK);
+    look->max_entries = glass->picture.max_entries;
     look->box_word = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
-    look->whole_map = glass->picture->whole_map;
+    look->whole_map = glass->picture.whole_map;
     look->sheets = s->style != VIRGA_GLASS_STYLE_PAPER || look->whole_map;
 }
 
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
                       glass_view_block *block)
 {
-    glass_view_block filled = {.look.view_texel = glass->picture->view_offset / 16};
+    glass_view_block filled = {.look.view_texel =
+                                   virga_ring_next_offset(glass->base.context, &glass->picture.view_ring) / 16};
     virga_view_fill(view, &glass->settings.lighting, pose->position_m, virga_glass_time(glass), time_s, &filled.view);
     fill_pane(glass, view, pose, &filled.look);
     fill_time(glass, time_s, &filled.look);
@@ -232,53 +232,21 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fit_map(glass, &filled);
     fit_boxes(glass, &filled);
     fit_mist(glass, &filled.look);
-    glass->picture->columns = filled.look.map_columns;
-    glass->picture->rows = filled.look.map_rows;
+    glass->picture.columns = filled.look.map_columns;
+    glass->picture.rows = filled.look.map_rows;
     *block = filled;
 }
 
 /* ---- prepare */
 
-/* What draws filter has to be numbers all over: beside the last texel that a view writes lies one that it does not, and
- * not a number times a weight of 0 is none. */
-static void record_zeros(virga_glass *glass, VkCommandBuffer cmd, const virga_image_2d *image, virga_image_state before,
-                         virga_image_state after)
-{
-    const VkClearColorValue zero = {.float32 = {0}};
-    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    virga_image_barrier(glass->context, cmd, image->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
-    glass->context->vk.CmdClearColorImage(cmd, image->image, after.layout, &zero, 1, &all);
-}
-
-/* Images get the layout that they keep. */
-static void record_first(virga_glass *glass, VkCommandBuffer cmd)
-{
-    virga_context *context = glass->context;
-    struct glass_picture *picture = glass->picture;
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0};
-    const virga_image_state storage = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE};
-    const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                       VK_ACCESS_SHADER_READ_BIT};
-    const virga_image_state copied = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                      VK_ACCESS_TRANSFER_WRITE_BIT};
-    record_zeros(glass, cmd, picture->relief, before, copied);
-    record_zeros(glass, cmd, picture->copies, before, copied);
-    virga_image_barrier(context, cmd, picture->map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
-    virga_image_barrier(context, cmd, picture->words->image, VK_IMAGE_ASPECT_COLOR_BIT, before, storage);
-    virga_image_barrier(context, cmd, picture->mist_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, copied);
-    virga_image_barrier(context, cmd, picture->blank_depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, sampled);
-    virga_image_barrier(context, cmd, picture->blank_color->image, VK_IMAGE_ASPECT_COLOR_BIT, before, sampled);
-    picture->cleared = true;
-}
-
 /* Tiles have all to be written once, and once more after another style, whose images are others. */
 static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
 {
-    struct glass_picture *picture = glass->picture;
-    glass->context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
-                                     VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
+    struct glass_picture *picture = &glass->picture;
+    glass->base.context->vk.CmdFillBuffer(cmd, picture->written->buffer, 0, VK_WHOLE_SIZE,
+                                          VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
     picture->written_style = glass->settings.style;
+    picture->has_written = true;
 }
 
 /* Texels of the mist's map in use, whole blocks. */
@@ -295,8 +263,8 @@ static uint32_t mist_rows(const struct glass_picture *picture)
 /* Lists of what lies over each tile begin anew, and so does the mist's map, of which only what has film is made. */
 static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
-    struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    struct glass_picture *picture = &glass->picture;
     const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
     virga_barrier(context, cmd,
@@ -308,32 +276,30 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
-    if (!picture->cleared || picture->written_style != glass->settings.style)
+    if (!picture->has_written || picture->written_style != glass->settings.style)
         record_unwritten(glass, cmd);
-    if (!picture->cleared)
-        record_first(glass, cmd);
     virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                   READ_WRITE);
 }
 
 static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
-    virga_dispatch_indirect(glass->context, cmd, pipeline, glass->picture->work->buffer, groups);
+    virga_dispatch_indirect(glass->base.context, cmd, pipeline, glass->picture.work->buffer, groups);
 }
 
 /* The mist's map, from film; and the tiles that have film with a shape. */
 static void record_film(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
-    const struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.film");
     const uint32_t mode = (picture->mist_cells > 1 ? GLASS_MIST_SEVERAL : 0) | (glass->masked ? GLASS_MIST_MASKED : 0);
     const uint32_t blocks = mist_pitch(picture) / BLOCK * (mist_rows(picture) / BLOCK);
-    virga_dispatch(context, cmd, picture->block_pass, (blocks + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
+    virga_dispatch(context, cmd, picture->mist_blocks, (blocks + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP);
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->mist_passes[mode], offsetof(virga_glass_work_gpu, mist_groups));
     virga_indirect_barrier(context, cmd);
-    over_work(glass, cmd, picture->film_pass, offsetof(virga_glass_work_gpu, block_groups));
+    over_work(glass, cmd, picture->film_tiles, offsetof(virga_glass_work_gpu, block_groups));
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
     const VkBufferImageCopy copy = {.bufferRowLength = mist_pitch(picture),
@@ -353,15 +319,15 @@ static uint32_t tile_groups(const struct glass_picture *picture)
 /* Balls, and the list of each tile's. */
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
-    const struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.balls");
     virga_dispatch_indirect(context, cmd, picture->ball_pass, glass->state->buffer,
                             offsetof(virga_glass_state_gpu, shown_groups));
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->list_pass, tile_groups(picture));
+    virga_dispatch(context, cmd, picture->tile_list, tile_groups(picture));
     virga_indirect_barrier(context, cmd);
-    over_work(glass, cmd, picture->fill_pass, offsetof(virga_glass_work_gpu, ball_groups));
+    over_work(glass, cmd, picture->tile_fill, offsetof(virga_glass_work_gpu, ball_groups));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -369,46 +335,32 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 /* Smaller copies of the host's picture. Its barriers may have had only draws in mind. */
 static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view)
 {
-    virga_context *context = glass->context;
-    const struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.plate");
     const VkPipelineStageFlags from =
         view->color.before.stage ? view->color.before.stage : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    virga_dispatch_2d(context, cmd, picture->copy_pass, 1, VIRGA_GLASS_COPY);
+    virga_dispatch_2d(context, cmd, picture->plate_copy, 1, VIRGA_GLASS_COPY);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_2d(context, cmd, picture->shrink_pass, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
+    virga_dispatch_2d(context, cmd, picture->plate_shrink, VIRGA_GLASS_COPY / 64, VIRGA_GLASS_COPY / 64);
     virga_pass_end(context, cmd, scope);
 }
 
-static void record_counts(virga_glass *glass, VkCommandBuffer cmd)
+static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
-    virga_context *context = glass->context;
-    const VkDeviceSize to = context->ring_slot * sizeof(glass_readback) + offsetof(glass_readback, balls);
-    const VkBufferCopy copy = {offsetof(virga_glass_work_gpu, shaped), to, 2 * sizeof(uint32_t)};
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
-    context->vk.CmdCopyBuffer(cmd, glass->picture->work->buffer, glass->readback_ring->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    glass->picture->frame_of_slot[context->ring_slot] = context->frame_index;
+    const struct glass_picture *picture = &glass->picture;
+    glass->base.context->vk.CmdBindDescriptorSets(cmd, point, picture->bindings->layout, 0, 1, &set, 1,
+                                                  &picture->view_offset);
 }
 
-static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point)
+static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view, VkDescriptorSet set)
 {
-    const struct glass_picture *picture = glass->picture;
-    glass->context->vk.CmdBindDescriptorSets(cmd, point, picture->bindings->layout, 0, 1, &picture->prepared_set, 1,
-                                             &picture->view_offset);
-}
-
-static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view)
-{
-    virga_context *context = glass->context;
-    const struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     record_clear(glass, cmd);
-    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     record_film(glass, cmd);
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
@@ -417,7 +369,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
     virga_indirect_barrier(context, cmd);
-    virga_dispatch(context, cmd, picture->box_pass, tile_groups(picture));
+    virga_dispatch(context, cmd, picture->tile_quads, tile_groups(picture));
     if (glass->settings.style != VIRGA_GLASS_STYLE_PAPER)
         over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0],
                   offsetof(virga_glass_work_gpu, relief_groups));
@@ -431,17 +383,19 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
                       VK_ACCESS_TRANSFER_READ_BIT);
-    record_counts(glass, cmd);
+    virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_PREPARE, picture->work,
+                                 offsetof(virga_glass_work_gpu, shaped), offsetof(glass_readback, balls),
+                                 2 * sizeof(uint32_t));
 }
 
 /* The passes of all panes, and the gathers of its density and blend. */
 static virga_result ready_to_prepare(const virga_glass *glass)
 {
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
-    const virga_pipeline *gathers[] = {glass->picture->gather_passes[mode],
-                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM],
-                                       glass->picture->gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
-    const virga_result result = virga_group_ready(&glass->needed);
+    const virga_pipeline *gathers[] = {glass->picture.gather_passes[mode],
+                                       glass->picture.gather_passes[mode | GLASS_GATHER_FILM],
+                                       glass->picture.gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
+    const virga_result result = virga_effect_ready(&glass->base);
     return result ? result : virga_pipelines_ready(gathers, 3);
 }
 
@@ -455,26 +409,12 @@ virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose
     return now ? now : glass_axes_check(log, "glass_pose.before_world_from_pane", pose->before_world_from_pane);
 }
 
-/* A place for a view in this frame's ring. */
-static virga_result take_place(virga_glass *glass, uint32_t *place)
-{
-    struct glass_picture *picture = glass->picture;
-    if (picture->view_frame != glass->context->frame_index)
-        picture->ring_views = 0;
-    picture->view_frame = glass->context->frame_index;
-    if (picture->ring_views >= VIRGA_GLASS_MAX_VIEWS)
-        return virga_wrong_argument(&glass->context->log, "virga_glass_prepare: more than %d views in a frame",
-                                    VIRGA_GLASS_MAX_VIEWS);
-    *place = picture->ring_views++;
-    return VIRGA_OK;
-}
-
-/* Which side of the pane all of it is seen from; 0 where that is not sure. */
+/* Which side of the pane all of it is seen from; 0 where that is not known. */
 static uint32_t side_of(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose)
 {
     float m[9];
     int behind = 0, before = 0;
-    take_rotation(pose, m);
+    copy_rotation(pose, m);
     for (int i = 0; i < 9; i++) {
         const float *normal = glass->normals[(VIRGA_GLASS_NODES - 1) / 2 * (i % 3 + i / 3 * VIRGA_GLASS_NODES)];
         double along = 0, length = 0;
@@ -505,39 +445,37 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
 {
     if (!glass)
         return VIRGA_ERROR_INVALID;
-    virga_context *context = glass->context;
-    struct glass_picture *picture = glass->picture;
+    virga_context *context = glass->base.context;
+    struct glass_picture *picture = &glass->picture;
     if (!cmd || !view || !pose)
         return virga_wrong_argument(&context->log, "virga_glass_prepare: NULL argument");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    picture->prepared = false;
+    glass->base.view.ready = false;
     virga_result result = virga_view_check(context, view, time_s);
     if (result)
         return result;
     if (glass_pose_check(&context->log, pose))
         return VIRGA_ERROR_INVALID;
-    if (!glass->started)
+    if (!glass->base.has_contents)
         return VIRGA_NOT_READY;
     result = ready_to_prepare(glass);
     if (result)
         return result;
-    uint32_t place = 0;
-    result = take_place(glass, &place);
-    if (result)
-        return result;
+    const uint32_t index = virga_ring_used(context, &picture->view_ring);
+    if (index >= VIRGA_GLASS_MAX_VIEWS)
+        return virga_wrong_argument(&context->log, "virga_glass_prepare: more than %d views in a frame",
+                                    VIRGA_GLASS_MAX_VIEWS);
     virga_timers_reset(context, cmd);
-    picture->view_offset = (context->ring_slot * VIRGA_GLASS_MAX_VIEWS + place) * glass_view_bytes();
-    char *mapped = picture->view_ring->memory.block.mapped;
-    fill_view(glass, view, pose, time_s, (glass_view_block *)(mapped + picture->view_offset));
-    virga_buffer_flush(context, picture->view_ring, picture->view_offset, glass_view_bytes());
-    picture->prepared_set = glass_picture_write_set(glass, place, view);
-    record_prepare(glass, cmd, view);
-    memcpy(picture->prepared_viewport, view->viewport, sizeof picture->prepared_viewport);
+    glass_view_block block;
+    fill_view(glass, view, pose, time_s, &block);
+    picture->view_offset = virga_ring_push(context, &picture->view_ring, &block, sizeof block);
+    const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
+    record_prepare(glass, cmd, view, set);
+    virga_effect_set_view(&glass->base, set, view->viewport);
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
     picture->prepared_style = glass->settings.style;
-    picture->prepared = true;
     return virga_uploaded(context);
 }
 
@@ -546,112 +484,51 @@ void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
     if (!map)
         return;
     *map = (virga_glass_map){0};
-    if (glass && glass->picture->whole_map && glass->picture->columns)
-        *map = (virga_glass_map){glass->picture->map->layer_views[0], glass->picture->map->image,
-                                 glass->picture->columns, glass->picture->rows};
-}
-
-/* A frame may draw without a step, so what prepares found is taken apart from it: the newest. */
-void glass_picture_take_statistics(virga_glass *glass)
-{
-    uint64_t newest = 0;
-    for (uint32_t i = 0; i < glass->context->frames_in_flight; i++) {
-        const uint64_t frame = glass->picture->frame_of_slot[i];
-        if (frame <= newest || frame > glass->context->completed_index)
-            continue;
-        newest = frame;
-        const char *mapped = (const char *)glass->readback_ring->memory.block.mapped + i * sizeof(glass_readback);
-        memcpy(&glass->stats.balls, mapped + offsetof(glass_readback, balls), sizeof(uint32_t));
-        memcpy(&glass->stats.balls_cut, mapped + offsetof(glass_readback, balls_cut), sizeof(uint32_t));
-    }
-}
-
-/* ---- attach */
-
-static glass_target *find_target(virga_glass *glass, uint64_t serial)
-{
-    for (uint32_t i = 0; i < GLASS_MAX_TARGETS; i++)
-        if (glass->picture->targets[i].serial == serial)
-            return &glass->picture->targets[i];
-    return NULL;
-}
-
-static void target_clear(virga_glass *glass, glass_target *target)
-{
-    for (int i = 0; i < GLASS_DRAWS; i++)
-        VIRGA_RETIRE(glass->context, target->draws[i]);
-    target->serial = 0;
-}
-
-/* What one of a target's pipelines differs in. */
-static void describe_draw(uint32_t i, virga_target_outputs outputs, virga_graphics_def *def)
-{
-    const bool mist = i >= GLASS_DRAW_MIST;
-    const bool paper = i >= GLASS_DRAW_PAPER && i < GLASS_DRAW_REFRACTION;
-    def->vertex = mist    ? VIRGA_SPIRV(glass_draw_mist_vert)
-                  : paper ? VIRGA_SPIRV(glass_draw_paper_vert)
-                          : VIRGA_SPIRV(glass_draw_pane_vert);
-    def->outputs = i < GLASS_DRAW_REFRACTION ? outputs : VIRGA_OUTPUTS_COLOR;
-    def->blend_premultiplied = i < GLASS_DRAW_REFRACTION || mist;
-    def->constant = i < GLASS_DRAW_PAPER ? i : i & VIRGA_GLASS_DRAW_DEPTH;
-    if (mist || paper) {
-        const uint32_t which = i - (mist ? GLASS_DRAW_MIST : GLASS_DRAW_PAPER);
-        def->constant |= which & GLASS_DRAW_OF_PLATE ? VIRGA_GLASS_DRAW_PLATE : VIRGA_GLASS_DRAW_ALONE;
-        def->constant |= which & GLASS_DRAW_OF_SOLID ? VIRGA_GLASS_DRAW_OPAQUE : 0;
-    } else if (i >= GLASS_DRAW_REFRACTION && (i - GLASS_DRAW_REFRACTION) & GLASS_DRAW_OF_PAPER)
-        def->constant |= VIRGA_GLASS_DRAW_PAPER;
-    def->fragment = i < GLASS_DRAW_PAPER        ? VIRGA_FRAGMENT_FORM(glass_draw_physical_frag, outputs)
-                    : i < GLASS_DRAW_REFRACTION ? VIRGA_FRAGMENT_FORM(glass_draw_paper_frag, outputs)
-                    : mist                      ? VIRGA_SPIRV(glass_draw_mist_frag)
-                                                : VIRGA_SPIRV(glass_draw_refraction_frag);
-    def->name = i < GLASS_DRAW_PAPER        ? "glass.physical"
-                : i < GLASS_DRAW_REFRACTION ? "glass.paper"
-                : mist                      ? "glass.mist"
-                                            : "glass.refraction";
-}
-
-virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
-{
-    if (!glass)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &glass->context->log;
-    if (!target || target->context != glass->context)
-        return virga_wrong_argument(log, "virga_glass_attach: expected a target of the same context");
-    if (glass->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    if (find_target(glass, target->serial))
-        return VIRGA_OK;
-    glass_target *slot = find_target(glass, 0);
-    if (!slot)
-        return virga_wrong_argument(log, "virga_glass_attach: more than %d targets", GLASS_MAX_TARGETS);
-    virga_result result = VIRGA_OK;
-    virga_graphics_def def = {.layout = glass->picture->bindings->layout, .depth_test = true};
-    for (uint32_t i = 0; i < GLASS_DRAWS; i++) {
-        describe_draw(i, virga_target_outputs_of(target), &def);
-        def.constant |= glass->picture->filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;
-        TRY(virga_target_pipeline(target, def, &slot->draws[i]));
-    }
-    slot->serial = target->serial;
-    return VIRGA_OK;
-error:
-    target_clear(glass, slot);
-    return result;
+    if (glass && glass->picture.whole_map && glass->picture.columns)
+        *map = (virga_glass_map){glass->picture.map->layer_views[0], glass->picture.map->image, glass->picture.columns,
+                                 glass->picture.rows};
 }
 
 /* ---- draw */
 
+#define ALONE  VIRGA_GLASS_DRAW_ALONE
+#define PLATE  VIRGA_GLASS_DRAW_PLATE
+#define DEPTH  VIRGA_GLASS_DRAW_DEPTH
+#define PAPER  VIRGA_GLASS_DRAW_PAPER
+#define OPAQUE VIRGA_GLASS_DRAW_OPAQUE
+
+static const uint32_t physical[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+static const uint32_t paper_draws[4] = {ALONE, ALONE | DEPTH, PLATE, PLATE | DEPTH};
+static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
+static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
+                                       ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
+
+/* In the order of GLASS_DRAW_... */
+const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
+    {"glass.physical", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FRAGMENT_FORMS(glass_draw_physical_frag), physical, 16},
+    {"glass.paper", VIRGA_FORM(glass_draw_paper_vert), VIRGA_FRAGMENT_FORMS(glass_draw_paper_frag), paper_draws, 4},
+    {"glass.refraction", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FORM(glass_draw_refraction_frag), refraction_draws, 4,
+     .replace = true},
+    {"glass.mist", VIRGA_FORM(glass_draw_mist_vert), VIRGA_FORM(glass_draw_mist_frag), mist_draws, 8},
+};
+
+uint32_t glass_draw_constant(const void *glass)
+{
+    return ((const virga_glass *)glass)->picture.filtered ? 0 : VIRGA_GLASS_DRAW_BY_HAND;
+}
+
 static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
 {
-    glass->context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    glass->context->vk.CmdDrawIndexedIndirect(cmd, glass->picture->work->buffer, arguments, 1,
-                                              sizeof(virga_glass_corners_gpu));
+    glass->base.context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    glass->base.context->vk.CmdDrawIndexedIndirect(cmd, glass->picture.work->buffer, arguments, 1,
+                                                   sizeof(virga_glass_corners_gpu));
 }
 
 static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_draw_area(glass->context, cmd, glass->picture->prepared_viewport);
-    bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS);
-    glass->context->vk.CmdBindIndexBuffer(cmd, glass->picture->corners->buffer, 0, VK_INDEX_TYPE_UINT32);
+    virga_draw_area(glass->base.context, cmd, glass->base.view.viewport);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, glass->base.view.set);
+    glass->base.context->vk.CmdBindIndexBuffer(cmd, glass->picture.corners->buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
 static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
@@ -659,20 +536,13 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
 {
     if (!glass)
         return VIRGA_ERROR_INVALID;
-    virga_context *context = glass->context;
-    const struct glass_picture *picture = glass->picture;
-    if (!cmd || !target)
-        return virga_wrong_argument(&context->log, "%s: NULL argument", call);
-    if (target->context != context) /* whose numbers of targets are others */
-        return virga_wrong_argument(&context->log, "%s: expected a target of the same context", call);
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    const glass_target *found = find_target(glass, target->serial);
-    /* What was prepared for an earlier frame or step is not what the map holds now. */
-    if (!found || !picture->prepared || picture->view_frame != context->frame_index)
-        return virga_not_drawn(context, call, found != NULL,
-                               glass->ticks ? virga_group_ready(&glass->needed) : VIRGA_NOT_READY,
-                               &glass->told_not_drawn);
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
+    const virga_effect_target *found;
+    virga_result result = virga_effect_check_draw(
+        &glass->base, call, cmd, target, glass->ticks ? virga_effect_ready(&glass->base) : VIRGA_NOT_READY, &found);
+    if (result)
+        return result;
     const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
     const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
     const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
@@ -682,8 +552,7 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
     const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
     const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
     const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + plate + depth]};
-    const virga_result result = virga_pipelines_ready(used, refraction ? 1 : 2);
-    glass->told_not_drawn = false;
+    result = virga_pipelines_ready(used, refraction ? 1 : 2);
     if (result)
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");

@@ -7,12 +7,12 @@
 #ifndef VIRGA_GLASS_PICTURE_H
 #define VIRGA_GLASS_PICTURE_H
 
-#include "glass/glass_internal.h"
+#include "gpu/effect.h"
 
+#include <virga/glass.h>
+#include <virga/shared/glass_gpu.h>
 #include <virga/shared/glass_picture_gpu.h>
 #include <virga/shared/view_gpu.h>
-
-#define GLASS_MAX_TARGETS 8
 
 /* Pipelines of a target: by Snell for each of VIRGA_GLASS_DRAW_..., the paper's, and refraction vectors by either,
  * without and with the scene's depth; then mist, also on what is not glass. The paper's and mist are made for a picture
@@ -22,10 +22,10 @@ enum {
     GLASS_DRAW_PAPER = 16,
     GLASS_DRAW_REFRACTION = 20,
     GLASS_DRAW_MIST = 24,
-    GLASS_DRAWS = 32,
     GLASS_DRAW_OF_PAPER = 2, /* what is added for refraction vectors in the paper's style */
     GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) for a picture of the host's */
-    GLASS_DRAW_OF_SOLID = 4  /* (mist) and for what is not glass */
+    GLASS_DRAW_OF_SOLID = 4, /* (mist) and for what is not glass */
+    GLASS_DRAW_ROWS = 4
 };
 
 #define GLASS_GATHER_FILM   16u  /* tiles with film */
@@ -36,12 +36,8 @@ enum {
 #define GLASS_GATHER_MASKED 512u /* (paper) there may be cells without glass */
 #define GLASS_MIST_SEVERAL  1u   /* cells to a texel */
 #define GLASS_MIST_MASKED   2u   /* there may be cells without glass */
+#define GLASS_MIST_FORMS    4    /* passes by these bits */
 #define GLASS_GATHERS       1024 /* of which three for each density, blend, style and length of compression are made */
-
-typedef struct glass_target {
-    uint64_t serial; /* of the virga_target; 0: free */
-    virga_pipeline *draws[GLASS_DRAWS];
-} glass_target;
 
 /* What a view's uniform block holds. */
 typedef struct glass_view_block {
@@ -54,7 +50,9 @@ struct glass_picture {
     uint32_t max_tile_columns, max_tile_rows; /* and tiles */
     uint32_t max_entries;
     VkExtent2D max_mist; /* texels of the mist's map, whole blocks */
-    virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners, *view_ring;
+    virga_buffer *balls, *tiles, *entries, *mist, *written, *work, *corners;
+    virga_ring view_ring;
+    uint32_t view_offset; /* of the newest view */
     virga_image_2d *map;
     bool whole_map;         /* the host wants it, also where there is only mist */
     virga_image_2d *words;  /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
@@ -63,35 +61,47 @@ struct glass_picture {
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *block_pass, *film_pass, *list_pass, *fill_pass, *box_pass, *copy_pass, *shrink_pass;
-    virga_pipeline *mist_passes[4];               /* by GLASS_MIST_... */
+    virga_pipeline *ball_pass, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy, *plate_shrink;
+    virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];             /* without and with a mask */
     virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
     uint32_t lanes; /* of a subgroup that passes hand values around in; 0: they use shared memory */
-    glass_target targets[GLASS_MAX_TARGETS];
-    bool cleared;                    /* images have their layout */
+    bool has_written;                /* `written` says something of every tile */
     virga_glass_style written_style; /* that `written` says of what its images hold */
 
-    uint64_t view_frame; /* that the cursors below belong to */
-    uint32_t ring_views, view_offset;
-    bool prepared, prepared_plate;
+    bool prepared_plate;
     uint32_t prepared_draw; /* VIRGA_GLASS_DRAW_... */
     virga_glass_style prepared_style;
-    VkDescriptorSet prepared_set;
-    float prepared_viewport[4];
     uint32_t columns, rows; /* texels in use since the newest prepare */
     VkExtent2D mist_size;   /* and of the mist's map */
     uint32_t mist_cells;
-    bool beads;                                         /* may have a shape in this view */
-    uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
+    bool beads;             /* may have a shape in this view */
 };
+
+/* ---- glass_picture.c */
+
+enum { GLASS_PICTURE_BINDINGS = 29 };
+extern const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS];
+
+/* The sizes of a definition's picture: fills `sizes`, in which nothing is made. */
+void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *sizes);
+
+/* Makes the passes that are chosen by the device and by settings. The rows' buffers, images and layouts are there. */
+virga_result glass_picture_create(virga_glass *glass);
+void glass_picture_destroy(virga_glass *glass);
+
+/* Pipelines that these settings need and that are not there yet, see virga_context_def.pipelines. */
+virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings);
 
 /* Of the gathers, those for these settings: without GLASS_GATHER_FILM and _BEADS. */
 uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings);
 
 /* Writes the set of a frame's view. */
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
-uint32_t glass_view_bytes(void);
+
+/* ---- glass_draw.c */
+extern const virga_effect_draw glass_draws[GLASS_DRAW_ROWS];
+uint32_t glass_draw_constant(const void *glass);
 
 /* Where the pane was in the previous frame's picture; world_from_pane is filled. In glass_temporal.c. */
 void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, virga_glass_picture_gpu *look);

@@ -409,7 +409,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
 {
     if (!glass)
         return VIRGA_ERROR_INVALID;
-    virga_context *context = glass->context;
+    virga_context *context = glass->base.context;
     if (!shape)
         return virga_wrong_argument(&context->log, "virga_glass_shape_set: NULL argument");
     if (context->lost)
@@ -431,8 +431,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_buffer_flush(context, cells, 0, cells->size);
     virga_buffer_flush(context, nodes, 0, nodes->size);
     glass->masked = shape->mask != NULL;
-    if (glass->picture)
-        TRY(glass_picture_need(glass, &glass->settings));
+    TRY(glass_picture_need(glass, &glass->settings));
     TRY(virga_uploaded(context));
     remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);

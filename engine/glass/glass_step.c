@@ -2,9 +2,6 @@
 #include "glass/glass_internal.h"
 
 #include "core/settings.h"
-#include "gpu/builds.h"
-#include "gpu/checks.h"
-#include "gpu/device_check.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -24,76 +21,46 @@
 #define HOLD_BACK      1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
 #define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
 
-uint32_t glass_tick_bytes(void)
-{
-    return (uint32_t)((sizeof(virga_glass_tick_gpu) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
-                      VIRGA_RING_ALIGNMENT);
-}
-
 /* ---- statistics */
 
-static uint64_t wide(virga_glass_count_gpu count)
+static uint64_t count_of(virga_glass_count_gpu count)
 {
     return (uint64_t)count.high << 32 | count.low;
 }
 
-static void take(virga_glass *glass, uint32_t slot)
+static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_glass_state_gpu *state)
 {
-    glass_readback found;
-    const char *mapped = glass->readback_ring->memory.block.mapped;
-    memcpy(&found, mapped + slot * sizeof found, sizeof found);
-    const virga_glass_state_gpu *state = &found.state;
-    virga_glass_stats *stats = &glass->stats;
-    stats->frame_index = glass->frame_of_slot[slot];
-    stats->landed_nl = wide(state->counts[VIRGA_GLASS_LANDED]);
-    stats->run_off_nl = wide(state->counts[VIRGA_GLASS_RUN_OFF]);
-    stats->wiped_nl = wide(state->counts[VIRGA_GLASS_WIPED]);
-    stats->evaporated_nl = wide(state->counts[VIRGA_GLASS_EVAPORATED]);
-    stats->arrived = wide(state->counts[VIRGA_GLASS_ARRIVED]);
-    stats->merged = wide(state->counts[VIRGA_GLASS_MERGED]);
-    stats->to_particles = wide(state->counts[VIRGA_GLASS_TO_PARTS]);
-    stats->to_drops = wide(state->counts[VIRGA_GLASS_TO_DROPS]);
-    stats->crowded = wide(state->counts[VIRGA_GLASS_CROWDED]);
-    stats->drops_nl = wide(state->measured[0]);
-    stats->particles_nl = wide(state->measured[1]);
-    stats->film_nl = wide(state->measured[2]);
+    stats->frame_index = frame;
+    stats->landed_nl = count_of(state->counts[VIRGA_GLASS_LANDED]);
+    stats->run_off_nl = count_of(state->counts[VIRGA_GLASS_RUN_OFF]);
+    stats->wiped_nl = count_of(state->counts[VIRGA_GLASS_WIPED]);
+    stats->evaporated_nl = count_of(state->counts[VIRGA_GLASS_EVAPORATED]);
+    stats->arrived = count_of(state->counts[VIRGA_GLASS_ARRIVED]);
+    stats->merged = count_of(state->counts[VIRGA_GLASS_MERGED]);
+    stats->to_particles = count_of(state->counts[VIRGA_GLASS_TO_PARTS]);
+    stats->to_drops = count_of(state->counts[VIRGA_GLASS_TO_DROPS]);
+    stats->crowded = count_of(state->counts[VIRGA_GLASS_CROWDED]);
+    stats->drops_nl = count_of(state->measured[0]);
+    stats->particles_nl = count_of(state->measured[1]);
+    stats->film_nl = count_of(state->measured[2]);
     stats->drops = state->drops;
     stats->particles = state->particles;
     stats->held = state->held;
-    glass->frame_of_slot[slot] = 0;
 }
 
-void glass_take_statistics(virga_glass *glass)
+/* A frame may draw without a step, and the other way round. */
+void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
-    const virga_context *context = glass->context;
-    virga_buffer_invalidate(glass->context, glass->readback_ring);
-    for (;;) {
-        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
-        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
-            const uint64_t frame = glass->frame_of_slot[i];
-            if (frame && frame <= context->completed_index &&
-                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || frame < glass->frame_of_slot[oldest]))
-                oldest = i;
-        }
-        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
-            break;
-        take(glass, oldest);
+    (void)ring_slot;
+    virga_glass_stats *stats = &((virga_glass *)object)->stats;
+    glass_readback read;
+    memcpy(&read, data, sizeof read);
+    if (parts & 1u << GLASS_PART_STEP)
+        read_state(stats, frame, &read.state);
+    if (parts & 1u << GLASS_PART_PREPARE) {
+        stats->balls = read.balls;
+        stats->balls_cut = read.balls_cut;
     }
-    glass_picture_take_statistics(glass);
-}
-
-static void record_readback(virga_glass *glass, VkCommandBuffer cmd)
-{
-    virga_context *context = glass->context;
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    const VkBufferCopy copy = {0, context->ring_slot * sizeof(glass_readback), sizeof(virga_glass_state_gpu)};
-    context->vk.CmdCopyBuffer(cmd, glass->state->buffer, glass->readback_ring->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    glass->frame_of_slot[context->ring_slot] = context->frame_index;
 }
 
 /* ---- the world, from the pane */
@@ -184,7 +151,7 @@ static void landing_of(virga_glass *glass, const virga_glass_step_info *info, vi
         tick->fall[axis] = (float)(mean[axis] / length);
     tick->fall_cosine = (float)facing;
     *per_tick = all * (double)glass->def.width_m * (double)glass->def.height_m * glass->def.tick_s;
-    const double stands_for = fmax(*per_tick / (GLASS_MOST_ARRIVALS - 1), 1);
+    const double stands_for = fmax(*per_tick / (GLASS_MAX_ARRIVALS - 1), 1);
     *per_tick /= stands_for;
     glass_fill_sizes(diameters, fluxes, SIZES, stands_for, tick->sizes_m);
 }
@@ -310,10 +277,7 @@ static void fill_place(const virga_glass *glass, const virga_glass_step_info *in
 static void push_tick(virga_glass *glass, const virga_glass_step_info *info, const virga_glass_tick_gpu *common,
                       double arrivals, uint32_t i)
 {
-    const uint32_t place = glass->context->ring_slot * glass->def.max_ticks_per_step + glass->ring_ticks++;
-    glass->tick_offset = place * glass_tick_bytes();
-    char *mapped = glass->tick_ring->memory.block.mapped;
-    virga_glass_tick_gpu *out = (virga_glass_tick_gpu *)(mapped + glass->tick_offset);
+    virga_glass_tick_gpu *out = &glass->blades;
     *out = *common;
     out->tick = info->first_tick + i;
     out->tick_in_step = i;
@@ -327,28 +291,27 @@ static void push_tick(virga_glass *glass, const virga_glass_step_info *info, con
     out->rolling_s = (float)(DRY_SHARE * glass->def.tick_s);
     glass_fill_blades(glass, (out->tick - 1.0) * glass->def.tick_s, out->tick * glass->def.tick_s,
                       (double)i / info->ticks, (i + 1.0) / info->ticks, out);
-    virga_buffer_flush(glass->context, glass->tick_ring, glass->tick_offset, glass_tick_bytes());
-    glass->blades = out;
+    glass->tick_offset = virga_ring_push(glass->base.context, &glass->tick_ring, out, sizeof *out);
 }
 
 /* ---- passes */
 
 static void bind(virga_glass *glass, VkCommandBuffer cmd)
 {
-    glass->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->bindings->layout, 0, 1,
-                                             &glass->step_set, 1, &glass->tick_offset);
+    glass->base.context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->bindings->layout, 0, 1,
+                                                  &glass->step_set, 1, &glass->tick_offset);
 }
 
 /* Over the list of places in use, or over all seeds: as large as a pass before it has written at `groups`. */
 static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
-    virga_dispatch_indirect_and_barrier(glass->context, cmd, pipeline, glass->state->buffer, groups);
+    virga_dispatch_indirect_and_barrier(glass->base.context, cmd, pipeline, glass->state->buffer, groups);
 }
 
 static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words, uint32_t count)
 {
-    glass->context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words,
-                                        words);
+    glass->base.context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words,
+                                             words);
 }
 
 #define CENSUS    offsetof(virga_glass_state_gpu, census_groups)
@@ -365,24 +328,24 @@ static uint32_t groups_of(uint64_t invocations)
 /* The mesh model: section 4.1. */
 static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.motion");
-    over(glass, cmd, glass->census_find, CENSUS);
-    virga_dispatch_and_barrier(glass->context, cmd, glass->census_scan, 1);
-    over(glass, cmd, glass->census_list, CENSUS);
-    over(glass, cmd, glass->move, ALIVE);
-    virga_dispatch_and_barrier(glass->context, cmd, glass->awake_scan, 1);
-    over(glass, cmd, glass->awake_list, ALIVE);
+    const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.motion");
+    over(glass, cmd, glass->live_mark, CENSUS);
+    virga_dispatch_and_barrier(glass->base.context, cmd, glass->live_scan, 1);
+    over(glass, cmd, glass->live_compact, CENSUS);
+    over(glass, cmd, glass->begin_tick, ALIVE);
+    virga_dispatch_and_barrier(glass->base.context, cmd, glass->active_scan, 1);
+    over(glass, cmd, glass->active_compact, ALIVE);
     for (uint32_t i = 0; i <= ROUNDS; i++) {
         const uint32_t round[2] = {i, ROUNDS};
         push(glass, cmd, round, 2);
         const size_t groups_of_round = offsetof(virga_glass_state_gpu, round_groups) + i * 3 * sizeof(uint32_t);
-        over(glass, cmd, glass->choose, i < ROUNDS ? groups_of_round : AWAKE);
+        over(glass, cmd, glass->choose_cell, i < ROUNDS ? groups_of_round : AWAKE);
         if (i < ROUNDS)
-            over(glass, cmd, glass->enter, groups_of_round);
+            over(glass, cmd, glass->enter_cell, groups_of_round);
     }
-    over(glass, cmd, glass->capture_find, AWAKE);
+    over(glass, cmd, glass->capture_mark, AWAKE);
     over(glass, cmd, glass->capture, ALIVE);
-    virga_pass_end(glass->context, cmd, scope);
+    virga_pass_end(glass->base.context, cmd, scope);
 }
 
 /* The cells around all that a blade passes over in a tick. */
@@ -419,46 +382,46 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
 {
     if (!glass->particles_ever)
         return;
-    virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.wipe");
-    for (uint32_t i = 0; i < glass->blades->blade_count; i++) {
+    virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.wipe");
+    for (uint32_t i = 0; i < glass->blades.blade_count; i++) {
         uint32_t words[5] = {i};
-        if (glass->blades->blades[i].side == 0 || !blade_box(glass, &glass->blades->blades[i], words + 1))
+        if (glass->blades.blades[i].side == 0 || !blade_box(glass, &glass->blades.blades[i], words + 1))
             continue;
         push(glass, cmd, words, 5);
-        virga_dispatch_2d(glass->context, cmd, glass->wipe, (words[3] + 15) / 16, (words[4] + 15) / 16);
-        virga_indirect_barrier(glass->context, cmd);
+        virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, (words[3] + 15) / 16, (words[4] + 15) / 16);
+        virga_indirect_barrier(glass->base.context, cmd);
     }
-    over(glass, cmd, glass->touch, AWAKE);
-    virga_dispatch_and_barrier(glass->context, cmd, glass->gather,
-                               groups_of((uint64_t)glass->blades->blade_count * VIRGA_GLASS_BINS));
-    virga_pass_end(glass->context, cmd, scope);
-    scope = virga_pass_begin(glass->context, cmd, "glass.particles");
-    over(glass, cmd, glass->relax_sort, PARTICLES);
+    over(glass, cmd, glass->split_drops, AWAKE);
+    virga_dispatch_and_barrier(glass->base.context, cmd, glass->empty_bins,
+                               groups_of((uint64_t)glass->blades.blade_count * VIRGA_GLASS_BINS));
+    virga_pass_end(glass->base.context, cmd, scope);
+    scope = virga_pass_begin(glass->base.context, cmd, "glass.particles");
+    over(glass, cmd, glass->particle_grid, PARTICLES);
     for (uint32_t i = 0; i < RELAX_ROUNDS; i++) {
         push(glass, cmd, &i, 1);
-        over(glass, cmd, glass->relax, PARTICLES);
+        over(glass, cmd, glass->push_particles, PARTICLES);
     }
-    over(glass, cmd, glass->leave_find, PARTICLES);
-    over(glass, cmd, glass->leave, PARTICLES);
-    virga_pass_end(glass->context, cmd, scope);
+    over(glass, cmd, glass->to_drops_claim, PARTICLES);
+    over(glass, cmd, glass->to_drops, PARTICLES);
+    virga_pass_end(glass->base.context, cmd, scope);
 }
 
 static void record_places(virga_glass *glass, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(glass->context, cmd, "glass.place");
-    over(glass, cmd, glass->place_claim, SEEDS);
-    virga_dispatch_and_barrier(glass->context, cmd, glass->place_scan, 1);
-    over(glass, cmd, glass->place, SEEDS);
-    over(glass, cmd, glass->settle, offsetof(virga_glass_state_gpu, settle_groups));
-    if (glass->blades->rolling_rows)
-        virga_dispatch_and_barrier(glass->context, cmd, glass->dry,
-                                   groups_of((uint64_t)glass->blades->rolling_rows * glass->columns));
-    virga_pass_end(glass->context, cmd, scope);
+    const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.place");
+    over(glass, cmd, glass->spawn_claim, SEEDS);
+    virga_dispatch_and_barrier(glass->base.context, cmd, glass->spawn_scan, 1);
+    over(glass, cmd, glass->spawn, SEEDS);
+    over(glass, cmd, glass->end_tick, offsetof(virga_glass_state_gpu, settle_groups));
+    if (glass->blades.rolling_rows)
+        virga_dispatch_and_barrier(glass->base.context, cmd, glass->dry_film,
+                                   groups_of((uint64_t)glass->blades.rolling_rows * glass->columns));
+    virga_pass_end(glass->base.context, cmd, scope);
 }
 
 static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
+    virga_context *context = glass->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.measure");
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -467,27 +430,16 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, film_blocks), 8, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-    virga_dispatch_and_barrier(context, cmd, glass->film_list, groups_of(glass_film_blocks(glass)));
+    virga_dispatch_and_barrier(context, cmd, glass->film_compact, groups_of(glass_film_blocks(&glass->def)));
     over(glass, cmd, glass->measure, offsetof(virga_glass_state_gpu, measure_groups));
     virga_pass_end(context, cmd, scope);
 }
 
 /* ---- a step */
 
-static void first_contents(virga_glass *glass, VkCommandBuffer cmd)
+static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_context *context = glass->context;
-    virga_buffer *const zero[] = {glass->state,  glass->drops, glass->occupants, glass->film,
-                                  glass->passed, glass->seeds, glass->grid,      glass->film_blocks};
-    for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
-        context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
-    context->vk.CmdFillBuffer(cmd, glass->claims->buffer, 0, VK_WHOLE_SIZE, VIRGA_GLASS_NOWHERE);
-    glass->started = true;
-}
-
-static void take_shape(virga_glass *glass, VkCommandBuffer cmd)
-{
-    virga_context *context = glass->context;
+    virga_context *context = glass->base.context;
     if (!glass->surface_upload)
         return;
     const VkBufferCopy cells = {0, 0, glass->surface->size}, nodes = {0, 0, glass->nodes->size};
@@ -501,19 +453,12 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
 {
     if (!glass)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &glass->context->log;
-    if (!cmd || !info)
-        return virga_wrong_argument(log, "virga_glass_step: NULL argument");
-    if (glass->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    if (!glass->context->frame_index)
-        return virga_wrong_argument(log, "virga_glass_step: expected virga_frame_begin before it");
-    if (glass->ring_frame == glass->context->frame_index)
-        return virga_wrong_argument(log, "virga_glass_step: expected one step a frame");
-    if (info->ticks > glass->def.max_ticks_per_step)
-        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
-                                    glass->def.max_ticks_per_step, info->ticks);
-    if (virga_ticks_check(log, info->first_tick, info->ticks, glass->ticks ? &glass->last_tick : NULL) ||
+    const virga_log *log = &glass->base.context->log;
+    const virga_result result = virga_effect_check_step(&glass->base, "virga_glass_step", cmd, info);
+    if (result)
+        return result;
+    const virga_tick_range ticks = {info->first_tick, info->ticks, glass->def.max_ticks_per_step};
+    if (virga_effect_check_ticks(&glass->base, "virga_glass_step", &ticks, glass->ticks ? &glass->last_tick : NULL) ||
         glass_axes_check(log, "step_info.world_from_pane", info->world_from_pane) ||
         virga_settings_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
         virga_settings_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
@@ -528,7 +473,7 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
         virga_sizes_densities(info->sizes, 1, (double)info->air_density, 0, NULL, NULL))
         return virga_wrong_argument(log, "step_info.sizes: expected Marshall-Palmer, Best, or a table of 2 to 256 "
                                          "rising diameters with numbers >= 0");
-    return virga_group_ready(&glass->needed);
+    return virga_effect_ready(&glass->base);
 }
 
 /* The motion of pane and air in its ranges. */
@@ -544,7 +489,7 @@ static bool clamp_motion(const virga_log *log, virga_glass_step_info *info)
 
 static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
 {
-    virga_glass_tick_gpu common = {.impacts = info->impacts ? GLASS_MOST_IMPACTS : 0};
+    virga_glass_tick_gpu common = {.impacts = info->impacts ? GLASS_MAX_IMPACTS : 0};
     double arrivals;
     fill_place(glass, info, &common);
     fill_holding(glass, &common);
@@ -571,14 +516,13 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     const virga_result result = check_step(glass, cmd, given);
     if (result)
         return result;
-    virga_context *context = glass->context;
-    virga_glass_step_info taken = *given;
-    const virga_glass_step_info *info = &taken;
-    const bool changed = clamp_motion(&context->log, &taken);
+    virga_context *context = glass->base.context;
+    virga_glass_step_info checked = *given;
+    const virga_glass_step_info *info = &checked;
+    const bool changed = clamp_motion(&context->log, &checked);
     virga_timers_reset(context, cmd);
-    glass_take_statistics(glass);
-    glass->ring_frame = context->frame_index;
-    glass->ring_ticks = 0;
+    virga_effect_read_statistics(&glass->base);
+    glass->base.step_frame = context->frame_index;
     glass->impacts = info->impacts;
     glass->impacts_offset = info->impacts_offset;
     glass->step_set = glass_write_set(glass);
@@ -590,9 +534,8 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    if (!glass->started)
-        first_contents(glass, cmd);
-    take_shape(glass, cmd);
+    virga_effect_first_contents(&glass->base, cmd);
+    upload_shape(glass, cmd);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
@@ -600,7 +543,8 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (info->ticks)
         record_ticks(glass, cmd, info);
-    record_readback(glass, cmd);
+    virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),
+                                 sizeof(virga_glass_state_gpu));
     const virga_result uploaded = virga_uploaded(context);
     return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

@@ -1,5 +1,5 @@
 /* glass/glass_temporal.c - where a pane was in the previous frame's picture. */
-#include "glass/glass_picture.h"
+#include "glass/glass_internal.h"
 
 #include "gpu/view.h"
 

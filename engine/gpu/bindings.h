@@ -4,12 +4,30 @@
 
 #include "gpu/retire.h"
 
+#include <stddef.h>
+
 #define VIRGA_MAX_BINDINGS 32
 #define VIRGA_ALL_STAGES   (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
 
+/* What a binding is bound to, where that is a member of the effect's object. */
+typedef enum virga_binding_source {
+    VIRGA_SOURCE_NONE,   /* the effect binds it itself */
+    VIRGA_SOURCE_BUFFER, /* a virga_buffer *; NULL: nothing */
+    VIRGA_SOURCE_RING,   /* a virga_ring, at a dynamic offset */
+    VIRGA_SOURCE_TEXELS, /* a virga_buffer *, as texels */
+    VIRGA_SOURCE_IMAGE,  /* a virga_image_2d *: its first layer, in the layout GENERAL */
+} virga_binding_source;
+
+typedef enum virga_binding_sampler { VIRGA_SAMPLER_NEAREST, VIRGA_SAMPLER_LINEAR } virga_binding_sampler;
+
+/* A row of an effect's layout. */
 typedef struct virga_binding_kind {
     VkDescriptorType type;
     VkShaderStageFlags stages;
+    virga_binding_source source;
+    size_t member;      /* offset in the object */
+    VkDeviceSize range; /* 0: to the end */
+    virga_binding_sampler sampler;
 } virga_binding_kind;
 
 typedef struct virga_bindings {

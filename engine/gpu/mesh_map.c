@@ -1,6 +1,7 @@
 /* gpu/mesh_map.c - a host's meshes seen from above along parallel lines: height, normal and material of what comes
  * first. Rain reads from it what keeps rain off, ground reads what gets wet. */
 #include "gpu/mesh_map.h"
+#include "core/log.h"
 
 #include "core/settings.h"
 #include "gpu/context.h"
@@ -155,6 +156,21 @@ static virga_result create_pipelines(virga_context *context, virga_pipeline_grou
         }
 error:
     return result;
+}
+
+VkDeviceSize virga_mesh_map_bytes(uint32_t size, uint32_t layers)
+{
+    const VkDeviceSize texels = size ? (VkDeviceSize)size * size * layers : 1;
+    return texels * 8; /* depth and surface */
+}
+
+virga_result virga_mesh_map_check_strides(const virga_log *log, const char *name,
+                                          const uint32_t strides[VIRGA_MAP_STRIDES])
+{
+    for (int i = 0; i < VIRGA_MAP_STRIDES; i++)
+        if (strides[i] && (strides[i] < 12 || strides[i] % 4))
+            return virga_wrong_argument(log, "%s: expected multiples of 4 from 12, got %u", name, strides[i]);
+    return VIRGA_OK;
 }
 
 virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,

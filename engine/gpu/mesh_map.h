@@ -6,6 +6,7 @@
 #ifndef VIRGA_GPU_MESH_MAP_H
 #define VIRGA_GPU_MESH_MAP_H
 
+#include "core/log.h"
 #include "gpu/pipelines.h"
 #include "gpu/resources.h"
 
@@ -43,6 +44,12 @@ typedef struct virga_map_view {
 virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32_t layers,
                                    const uint32_t strides[VIRGA_MAP_STRIDES], const char *name,
                                    virga_pipeline_group *group, virga_mesh_map **map);
+/* Device memory in bytes. */
+VkDeviceSize virga_mesh_map_bytes(uint32_t size, uint32_t layers);
+
+/* Whether the strides of a definition are such that its passes can read positions; logs what is wrong. */
+virga_result virga_mesh_map_check_strides(const virga_log *log, const char *name,
+                                          const uint32_t strides[VIRGA_MAP_STRIDES]);
 void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map);
 
 /* Puts the images into the layouts that descriptors expect, before anything was drawn. */

@@ -101,25 +101,6 @@ VkResult virga_compute_build(const virga_context *context, const virga_compute_d
     return result;
 }
 
-virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout, uint32_t constant,
-                                            virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count)
-{
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < count; i++) {
-        const virga_compute_def def = {
-            .shader = rows[i].shader, .layout = layout, .group = group, .name = rows[i].name, .constant = constant};
-        TRY(virga_compute_pipeline_create(context, &def, rows[i].pipeline));
-    }
-error:
-    return result;
-}
-
-void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        VIRGA_RETIRE(context, *rows[i].pipeline);
-}
-
 /* Everything about a graphics pipeline except its shaders. The structs point to each other, so they are on the
  * caller's stack. */
 typedef struct graphics_state {

@@ -29,8 +29,9 @@ typedef struct virga_spirv {
     size_t size; /* bytes */
 } virga_spirv;
 
-/* An embedded shader: the array that the build made of shaders/<effect>/<pass>. */
-#define VIRGA_SPIRV(name) ((virga_spirv){name##_spv, sizeof name##_spv})
+/* An embedded shader: the array that the build made of shaders/<effect>/<pass>. The first form is for tables. */
+#define VIRGA_SPIRV_ROW(name) {name##_spv, sizeof name##_spv}
+#define VIRGA_SPIRV(name)     ((virga_spirv)VIRGA_SPIRV_ROW(name))
 
 /* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one; constant 1
  * is the context's small_views. */
@@ -45,18 +46,6 @@ typedef struct virga_compute_def {
 virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
                                            virga_pipeline **pipeline);
 
-/* A row of an effect's table of compute passes. */
-typedef struct virga_compute_row {
-    virga_pipeline **pipeline;
-    virga_spirv shader;
-    const char *name;
-} virga_compute_row;
-
-/* As virga_buffers_create and virga_buffers_retire. `constant` is every row's, see virga_compute_def. */
-virga_result virga_compute_pipelines_create(virga_context *context, VkPipelineLayout layout, uint32_t constant,
-                                            virga_pipeline_group *group, const virga_compute_row *rows, uint32_t count);
-void virga_compute_pipelines_retire(virga_context *context, const virga_compute_row *rows, uint32_t count);
-
 /* What fragment shaders write besides the colour: bits. Such a shader is compiled once for each combination, see
  * shaders/meson.build. */
 typedef enum virga_target_outputs {
@@ -66,15 +55,6 @@ typedef enum virga_target_outputs {
     VIRGA_OUTPUTS_BOTH = 3,
     VIRGA_OUTPUTS_FORMS = 4,
 } virga_target_outputs;
-
-/* The four forms of a fragment shader, and the two of a vertex shader, by outputs. */
-#define VIRGA_FRAGMENT_FORM(name, outputs)                                \
-    ((outputs) == VIRGA_OUTPUTS_BOTH       ? VIRGA_SPIRV(name##_both)     \
-     : (outputs) == VIRGA_OUTPUTS_MOTION   ? VIRGA_SPIRV(name##_motion)   \
-     : (outputs) == VIRGA_OUTPUTS_REACTIVE ? VIRGA_SPIRV(name##_reactive) \
-                                           : VIRGA_SPIRV(name))
-#define VIRGA_VERTEX_FORM(name, outputs) \
-    ((outputs) & VIRGA_OUTPUTS_MOTION ? VIRGA_SPIRV(name##_motion) : VIRGA_SPIRV(name))
 
 /* What a graphics pipeline of ours varies in. Holds no pointer that must outlive the call. */
 typedef struct virga_graphics_def {

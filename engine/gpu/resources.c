@@ -116,22 +116,6 @@ error:
     return result;
 }
 
-virga_result virga_buffers_create(virga_context *context, const virga_buffer_row *rows, uint32_t count)
-{
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < count; i++)
-        if (rows[i].size)
-            TRY(virga_buffer_create(context, rows[i].size, rows[i].usage, rows[i].heap, rows[i].name, rows[i].buffer));
-error:
-    return result;
-}
-
-void virga_buffers_retire(virga_context *context, const virga_buffer_row *rows, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++)
-        VIRGA_RETIRE(context, *rows[i].buffer);
-}
-
 /* The mapped range, widened to whole atoms; virga_buffer_create made them the buffer's own. */
 static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset,
                                         VkDeviceSize size)

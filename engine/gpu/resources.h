@@ -37,21 +37,6 @@ typedef enum virga_heap_kind {
 virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBufferUsageFlags usage,
                                  virga_heap_kind heap, const char *name, virga_buffer **buffer);
 
-/* A row of an effect's table of buffers. */
-typedef struct virga_buffer_row {
-    virga_buffer **buffer;
-    VkDeviceSize size; /* 0: not made, an option that is off */
-    VkBufferUsageFlags usage;
-    virga_heap_kind heap;
-    const char *name;
-} virga_buffer_row;
-
-/* Makes the buffers of a table, up to the first that can not be made. */
-virga_result virga_buffers_create(virga_context *context, const virga_buffer_row *rows, uint32_t count);
-
-/* Retires those that were created; their sizes and names are ignored. */
-void virga_buffers_retire(virga_context *context, const virga_buffer_row *rows, uint32_t count);
-
 /* `layers` 0: a 3D image of depth 1. */
 virga_result virga_image_create(virga_context *context, VkFormat format, VkExtent2D extent, uint32_t layers,
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,

@@ -2,7 +2,6 @@
  * water of their own but show what has stood there in the rain, see standing.c. */
 #include "ground/ground_internal.h"
 
-#include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
@@ -21,40 +20,6 @@ static double cell_m(const virga_ground *ground)
 static double reach_m(const virga_ground *ground)
 {
     return ((double)ground->def.far_cells / 2 - 1.5 * STEP) * cell_m(ground);
-}
-
-virga_result ground_far_create(virga_ground *ground)
-{
-    virga_result result = VIRGA_OK;
-    virga_context *context = ground->context;
-    ground_far *far = &ground->far;
-    const uint32_t cells = ground->def.far_cells;
-    const VkDeviceSize floors = (VkDeviceSize)cells * cells * sizeof(virga_far_floor_gpu);
-    const virga_buffer_row wanted = {&far->floors, floors ? floors : sizeof(virga_far_floor_gpu),
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VIRGA_HEAP_DEVICE, "ground.far_floors"};
-    const VkExtent2D extent = {cells > VIRGA_GROUND_MATERIALS ? cells : VIRGA_GROUND_MATERIALS, cells + 1};
-    TRY(virga_buffers_create(context, &wanted, 1));
-    TRY(virga_image_create(context, VK_FORMAT_R16G16B16A16_SFLOAT, extent, 1,
-                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.far_map", &far->map));
-    TRY(virga_mesh_map_create(context, cells, 2, ground->def.occluder_strides, "ground.far_survey", &ground->needed,
-                              &far->survey));
-error:
-    return result;
-}
-
-void ground_far_retire(virga_ground *ground)
-{
-    virga_context *context = ground->context;
-    VIRGA_RETIRE(context, ground->far.floors);
-    VIRGA_RETIRE(context, ground->far.map);
-    virga_mesh_map_retire(context, &ground->far.survey);
-}
-
-VkDeviceSize ground_far_estimate(const virga_ground_def *def)
-{
-    const VkDeviceSize cells = (VkDeviceSize)def->far_cells * def->far_cells;
-    return cells * (sizeof(virga_far_floor_gpu) + 8 /* map */ + 2 * 8 /* survey */) + VIRGA_GROUND_MATERIALS * 8;
 }
 
 bool ground_far_follow(virga_ground *ground, const double camera_m[3])
@@ -90,10 +55,10 @@ void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_gr
     view.still_only = true;
     for (uint32_t layer = 0; layer < 2; layer++) {
         view.ground_only = layer == 0;
-        virga_mesh_map_draw(ground->context, cmd, far->survey, layer, &view, info->meshes, info->mesh_count);
+        virga_mesh_map_draw(ground->base.context, cmd, far->survey, layer, &view, info->meshes, info->mesh_count);
     }
-    virga_dispatch(ground->context, cmd, far->find_floors, cells * cells / VIRGA_GROUND_GROUP);
-    virga_compute_barrier(ground->context, cmd);
+    virga_dispatch(ground->base.context, cmd, far->find_floors, cells * cells / VIRGA_GROUND_GROUP);
+    virga_compute_barrier(ground->base.context, cmd);
     far->drawn = false;
 }
 
@@ -103,9 +68,9 @@ void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd)
     const uint32_t cells = ground->def.far_cells;
     if (far->drawn && ground->ticks - far->drawn_at < MAP_TICKS)
         return;
-    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.far");
-    virga_dispatch(ground->context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
-    virga_pass_end(ground->context, cmd, scope);
+    const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.far");
+    virga_dispatch(ground->base.context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
+    virga_pass_end(ground->base.context, cmd, scope);
     far->drawn = true;
     far->drawn_at = ground->ticks;
 }

@@ -12,11 +12,10 @@
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
 
-#include "gpu/bindings.h"
+#include "ground/ground.h"
 #include "gpu/context.h"
+#include "gpu/effect.h"
 #include "gpu/mesh_map.h"
-#include "gpu/pipelines.h"
-#include "gpu/resources.h"
 
 #include <virga/ground.h>
 #include <virga/shared/ground_gpu.h>
@@ -100,6 +99,7 @@ typedef struct ground_ripples {
 
 virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
                                    virga_pipeline_group *group, ground_ripples **ripples);
+VkDeviceSize ground_ripples_bytes(uint32_t texels);
 void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
 
@@ -120,10 +120,6 @@ typedef struct ground_far {
     bool placed, drawn;
     uint64_t drawn_at; /* in ticks */
 } ground_far;
-
-virga_result ground_far_create(virga_ground *ground);
-void ground_far_retire(virga_ground *ground);
-VkDeviceSize ground_far_estimate(const virga_ground_def *def);
 
 /* Whether it is to be surveyed at another place. */
 bool ground_far_follow(virga_ground *ground, const double camera_m[3]);
@@ -149,18 +145,19 @@ typedef struct ground_lists {
 } ground_lists;
 
 struct virga_ground {
-    virga_context *context;
+    virga_effect base; /* first */
     virga_ground_def def;
     virga_ground_settings settings;
     ground_window window;
     ground_move move;
     double base_m;
-    bool started, survey_all;
+    bool survey_all;
     uint64_t ticks; /* run since creation */
 
     virga_buffer *floors, *cells, *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
         *swings, *spawns, *no_rules;
-    virga_buffer *tick_ring, *list_ring, *readback_ring;
+    virga_ring tick_ring, list_ring;
+    uint32_t tick_offset, list_offset; /* of the newest blocks */
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *survey;
     ground_ripples *ripples;
@@ -169,23 +166,15 @@ struct virga_ground {
     double ripple_low_m[2]; /* in the world */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline_group needed; /* for all of it */
-    virga_pipeline *adopt, *forget, *spawn_find, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_kept,
+    virga_pipeline *tile_load, *tile_discard, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_kept,
         *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
-    uint64_t ring_frame;
-    uint32_t ring_ticks, tick_offset, list_offset;
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, by where water comes from */
     virga_ground_step_info info;          /* of this frame's step; its meshes are the host's */
     uint32_t tick_in_step;
-    uint64_t frame_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* whose counts the ring holds; 0: none */
     virga_ground_stats stats;
 };
-
-/* Bytes of a tick's and of a frame's lists' block in their rings. */
-uint32_t ground_tick_bytes(void);
-uint32_t ground_list_bytes(void);
 
 /* ---- ground.c */
 
@@ -195,7 +184,6 @@ void ground_write_sets(virga_ground *ground);
 
 /* ---- ground_step.c */
 
-/* Takes in what completed frames have left in the ring, oldest first. */
-void ground_take_statistics(virga_ground *ground);
+void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 #endif

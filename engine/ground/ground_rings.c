@@ -38,6 +38,12 @@ void ground_ripples_retire(virga_context *context, ground_ripples **ripples)
     VIRGA_RETIRE(context, *ripples);
 }
 
+VkDeviceSize ground_ripples_bytes(uint32_t texels)
+{
+    const VkDeviceSize map = (VkDeviceSize)texels * texels * 4, waves = WAVE_VALUES * 4 * sizeof(uint16_t);
+    return map + 2 * waves; /* and their upload */
+}
+
 static virga_result create_pass(virga_context *context, ground_ripples *ripples)
 {
     virga_result result = VIRGA_OK;

@@ -2,9 +2,7 @@
 #include "ground/ground_internal.h"
 
 #include "core/settings.h"
-#include "gpu/builds.h"
 #include "gpu/checks.h"
-#include "gpu/device_check.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -19,21 +17,6 @@
 #define FLOW_PASSES 4           /* a round: through all four sides of each cell, see flow.comp */
 #define TILE_GROUPS (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 
-static uint32_t ring_bytes(size_t size)
-{
-    return (uint32_t)((size + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT);
-}
-
-uint32_t ground_tick_bytes(void)
-{
-    return ring_bytes(sizeof(virga_ground_tick_gpu));
-}
-
-uint32_t ground_list_bytes(void)
-{
-    return ring_bytes(sizeof(ground_lists));
-}
-
 /* ---- statistics */
 
 static uint64_t count_of(const ground_readback *read, uint32_t index)
@@ -41,12 +24,15 @@ static uint64_t count_of(const ground_readback *read, uint32_t index)
     return (uint64_t)read->counts[index].high << 32 | read->counts[index].low;
 }
 
-static void take_counts(virga_ground *ground, uint32_t slot)
+void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
+    (void)ring_slot;
+    (void)parts;
+    virga_ground *ground = object;
     ground_readback read;
-    memcpy(&read, (const char *)ground->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
+    memcpy(&read, data, sizeof read);
     virga_ground_stats *stats = &ground->stats;
-    stats->frame_index = ground->frame_of_slot[slot];
+    stats->frame_index = frame;
     stats->flown_nl = count_of(&read, VIRGA_GROUND_FLOWN);
     stats->returned_nl = count_of(&read, VIRGA_GROUND_RETURNED);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
@@ -62,37 +48,6 @@ static void take_counts(virga_ground *ground, uint32_t slot)
     stats->kept_nl = count_of(&read, VIRGA_GROUND_KEPT);
     for (uint32_t i = 0; i < VIRGA_GROUND_STATES; i++)
         stats->cells[i] = read.counts[VIRGA_GROUND_CELLS + i].low;
-    ground->frame_of_slot[slot] = 0;
-}
-
-void ground_take_statistics(virga_ground *ground)
-{
-    const virga_context *context = ground->context;
-    virga_buffer_invalidate(ground->context, ground->readback_ring);
-    for (;;) {
-        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
-        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
-            const uint64_t index = ground->frame_of_slot[i];
-            if (index && index <= context->completed_index &&
-                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || index < ground->frame_of_slot[oldest]))
-                oldest = i;
-        }
-        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
-            return;
-        take_counts(ground, oldest);
-    }
-}
-
-static void record_readback(virga_ground *ground, VkCommandBuffer cmd)
-{
-    virga_context *context = ground->context;
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, COPY);
-    const VkBufferCopy copy = {0, context->ring_slot * sizeof(ground_readback), sizeof(ground_readback)};
-    context->vk.CmdCopyBuffer(cmd, ground->counts->buffer, ground->readback_ring->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    ground->frame_of_slot[context->ring_slot] = context->frame_index;
 }
 
 /* ---- a tick's numbers */
@@ -164,19 +119,16 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
 
 static void push_tick(virga_ground *ground, uint32_t tick)
 {
-    const uint32_t per_frame = ground->def.max_ticks_per_step + 1;
-    const uint32_t place = ground->context->ring_slot * per_frame + ground->ring_ticks++;
-    ground->tick_offset = place * ground_tick_bytes();
-    char *mapped = ground->tick_ring->memory.block.mapped;
-    fill_tick(ground, tick, (virga_ground_tick_gpu *)(mapped + ground->tick_offset));
-    virga_buffer_flush(ground->context, ground->tick_ring, ground->tick_offset, ground_tick_bytes());
+    virga_ground_tick_gpu block;
+    fill_tick(ground, tick, &block);
+    ground->tick_offset = virga_ring_push(ground->base.context, &ground->tick_ring, &block, sizeof block);
 }
 
 static void bind_source(virga_ground *ground, VkCommandBuffer cmd, uint32_t source)
 {
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
-    ground->context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
-                                              &ground->sets[source], 2, offsets);
+    ground->base.context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
+                                                   &ground->sets[source], 2, offsets);
 }
 
 static void bind(virga_ground *ground, VkCommandBuffer cmd)
@@ -187,7 +139,7 @@ static void bind(virga_ground *ground, VkCommandBuffer cmd)
 /* Over cells, in rows: see group_index() in shaders/ground/cells.glsl. Groups come in whole tiles. */
 static void dispatch_cells(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
 {
-    virga_dispatch_2d(ground->context, cmd, pipeline, groups / TILE_GROUPS, TILE_GROUPS);
+    virga_dispatch_2d(ground->base.context, cmd, pipeline, groups / TILE_GROUPS, TILE_GROUPS);
 }
 
 /* ---- the window follows */
@@ -201,7 +153,7 @@ static void copy_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_bu
         if (from_slots[i] != GROUND_NEW)
             ground->copies[copies++] = (VkBufferCopy){from_slots[i] * bytes, to_slots[i] * bytes, bytes};
     if (copies)
-        ground->context->vk.CmdCopyBuffer(cmd, from->buffer, to->buffer, copies, ground->copies);
+        ground->base.context->vk.CmdCopyBuffer(cmd, from->buffer, to->buffer, copies, ground->copies);
 }
 
 static void clear_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_buffer *buffer)
@@ -210,7 +162,7 @@ static void clear_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_b
     const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
     for (uint32_t i = 0; i < move->entering_count; i++)
         if (move->entering_from[i] == GROUND_NEW)
-            ground->context->vk.CmdFillBuffer(cmd, buffer->buffer, move->entering[i] * bytes, bytes, 0);
+            ground->base.context->vk.CmdFillBuffer(cmd, buffer->buffer, move->entering[i] * bytes, bytes, 0);
 }
 
 /* Places among the kept that were taken back hold nothing, so that their water is not counted twice. */
@@ -220,13 +172,13 @@ static void clear_taken(virga_ground *ground, VkCommandBuffer cmd)
     const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
     for (uint32_t i = 0; i < move->entering_count; i++)
         if (move->entering_from[i] != GROUND_NEW)
-            ground->context->vk.CmdFillBuffer(cmd, ground->kept_cells->buffer, move->entering_from[i] * bytes, bytes,
-                                              0);
+            ground->base.context->vk.CmdFillBuffer(cmd, ground->kept_cells->buffer, move->entering_from[i] * bytes,
+                                                   bytes, 0);
 }
 
 static void transfer_barrier(virga_ground *ground, VkCommandBuffer cmd)
 {
-    virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+    virga_barrier(ground->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, READ_WRITE | COPY);
 }
@@ -236,7 +188,7 @@ static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
     const ground_move *move = &ground->move;
     const virga_buffer *cells = ground->cells;
     if (move->forgotten_count) {
-        dispatch_cells(ground, cmd, ground->forget, move->forgotten_count * TILE_GROUPS);
+        dispatch_cells(ground, cmd, ground->tile_discard, move->forgotten_count * TILE_GROUPS);
         transfer_barrier(ground, cmd);
     }
     copy_tiles(ground, cmd, cells, ground->kept_cells, move->leaving, move->leaving_to, move->leaving_count);
@@ -261,20 +213,18 @@ static void survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
             ground->window.low[axis] * (double)VIRGA_GROUND_TILE * (double)ground->def.cell_m + 0.5 * side;
     view.origin_m[1] = ground->base_m;
     view.top_m = GROUND_SURVEY_TOP_M;
-    virga_mesh_map_draw(ground->context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
-    dispatch_cells(ground, cmd, ground->adopt, ground->move.entering_count * TILE_GROUPS);
-    virga_compute_barrier(ground->context, cmd);
+    virga_mesh_map_draw(ground->base.context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
+    dispatch_cells(ground, cmd, ground->tile_load, ground->move.entering_count * TILE_GROUPS);
+    virga_compute_barrier(ground->base.context, cmd);
 }
 
 static void write_lists(virga_ground *ground)
 {
-    ground->list_offset = ground->context->ring_slot * ground_list_bytes();
-    char *mapped = ground->list_ring->memory.block.mapped;
-    ground_lists *lists = (ground_lists *)(mapped + ground->list_offset);
+    ground_lists lists = {0};
     for (uint32_t i = 0; i < ground->move.entering_count; i++)
-        lists->entering[i] = ground->move.entering[i] | (ground->move.entering_from[i] == GROUND_NEW ? NEVER_SEEN : 0);
-    memcpy(lists->forgotten, ground->move.forgotten, ground->move.forgotten_count * sizeof lists->forgotten[0]);
-    virga_buffer_flush(ground->context, ground->list_ring, ground->list_offset, ground_list_bytes());
+        lists.entering[i] = ground->move.entering[i] | (ground->move.entering_from[i] == GROUND_NEW ? NEVER_SEEN : 0);
+    memcpy(lists.forgotten, ground->move.forgotten, ground->move.forgotten_count * sizeof lists.forgotten[0]);
+    ground->list_offset = virga_ring_write(ground->base.context, &ground->list_ring, 0, &lists, sizeof lists);
 }
 
 /* All tiles of the window are surveyed anew. */
@@ -297,7 +247,7 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     const bool far = ground_far_follow(ground, info->camera_m) || (ground->survey_all && ground->def.far_cells);
     if (!moved && !far && !ground->survey_all)
         return;
-    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.window");
+    const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.window");
     write_lists(ground);
     push_tick(ground, 0);
     bind(ground, cmd);
@@ -312,7 +262,7 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     if (moved || ground->survey_all)
         survey(ground, cmd, info);
     ground->survey_all = ground->survey_all && moved; /* all of them in the next step */
-    virga_pass_end(ground->context, cmd, scope);
+    virga_pass_end(ground->base.context, cmd, scope);
 }
 
 /* ---- ticks */
@@ -320,7 +270,7 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
 /* A pass over the drops of the tick and, in the first of a step, over what splashes gave back. */
 static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
 {
-    virga_context *context = ground->context;
+    virga_context *context = ground->base.context;
     const virga_ground_step_info *info = &ground->info;
     const VkDeviceSize groups = offsetof(virga_impacts_gpu, group_count);
     bind_source(ground, cmd, GROUND_DROPS);
@@ -335,17 +285,17 @@ static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pi
 /* Places for splashes, in the order of drops. */
 static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.spawn");
-    over_water(ground, cmd, ground->spawn_find);
+    const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.spawn");
+    over_water(ground, cmd, ground->spawn_mark);
     bind_source(ground, cmd, GROUND_DROPS);
-    virga_dispatch(ground->context, cmd, ground->spawn_scan, 1);
-    virga_compute_barrier(ground->context, cmd);
+    virga_dispatch(ground->base.context, cmd, ground->spawn_scan, 1);
+    virga_compute_barrier(ground->base.context, cmd);
     if (ground->info.returns && ground->tick_in_step == 0) {
         bind_source(ground, cmd, GROUND_RETURNS);
-        virga_dispatch(ground->context, cmd, ground->spawn_scan, 1);
-        virga_compute_barrier(ground->context, cmd);
+        virga_dispatch(ground->base.context, cmd, ground->spawn_scan, 1);
+        virga_compute_barrier(ground->base.context, cmd);
     }
-    virga_pass_end(ground->context, cmd, scope);
+    virga_pass_end(ground->base.context, cmd, scope);
 }
 
 /* Passes of a round that are done when so many ticks are. */
@@ -361,12 +311,13 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
     const uint32_t pairs_of_cells = ground->def.cells * ground->def.cells / 2;
     for (uint64_t pass = flow_passes(ground, ground->ticks); pass < end; pass++) {
         const uint32_t pairs = (uint32_t)(pass % FLOW_PASSES);
-        const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.flow");
-        ground->context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pairs, &pairs);
-        virga_dispatch(ground->context, cmd, ground->flow,
+        const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.flow");
+        ground->base.context->vk.CmdPushConstants(cmd, ground->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof pairs,
+                                                  &pairs);
+        virga_dispatch(ground->base.context, cmd, ground->flow,
                        pairs_of_cells / (VIRGA_GROUND_PAIRS_EACH * VIRGA_GROUND_GROUP));
-        virga_compute_barrier(ground->context, cmd);
-        virga_pass_end(ground->context, cmd, scope);
+        virga_compute_barrier(ground->base.context, cmd);
+        virga_pass_end(ground->base.context, cmd, scope);
     }
 }
 
@@ -396,21 +347,21 @@ static void run_tick(virga_ground *ground, VkCommandBuffer cmd, uint32_t tick)
     push_tick(ground, tick);
     if (ground->info.splash_rules && ground->def.max_spawns)
         find_spawns(ground, cmd);
-    virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.land");
+    virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.land");
     over_water(ground, cmd, ground->land);
     bind(ground, cmd);
-    virga_dispatch(ground->context, cmd, ground->ring, 1);
+    virga_dispatch(ground->base.context, cmd, ground->ring, 1);
     over_water(ground, cmd, ground->share);
     over_water(ground, cmd, ground->soak);
     bind(ground, cmd);
-    virga_pass_end(ground->context, cmd, scope);
+    virga_pass_end(ground->base.context, cmd, scope);
     flow(ground, cmd);
     ground->ticks++;
 }
 
 static void measure(virga_ground *ground, VkCommandBuffer cmd)
 {
-    virga_context *context = ground->context;
+    virga_context *context = ground->base.context;
     const VkDeviceSize first = VIRGA_GROUND_FIRST_MEASURED * sizeof(virga_ground_count_gpu);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.measure");
     transfer_barrier(ground, cmd);
@@ -433,7 +384,7 @@ static void place_ripples(virga_ground *ground, const double focus_m[3])
 
 static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
 {
-    virga_context *context = ground->context;
+    virga_context *context = ground->base.context;
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.ripples");
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
@@ -446,39 +397,27 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
 
 static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(ground->context, cmd, "ground.map");
+    const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.map");
     dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
     ground_far_draw(ground, cmd);
-    virga_barrier(ground->context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+    virga_barrier(ground->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-    virga_pass_end(ground->context, cmd, scope);
+    virga_pass_end(ground->base.context, cmd, scope);
 }
 
 /* ---- a step */
 
 static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
 {
-    virga_context *context = ground->context;
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const virga_image_state after = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                     VK_ACCESS_SHADER_WRITE_BIT};
-    virga_image_barrier(context, cmd, ground->wet_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
-    virga_image_barrier(context, cmd, ground->spot_map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
-    virga_image_barrier(context, cmd, ground->far.map->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
-    const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                    VK_ACCESS_SHADER_READ_BIT};
-    virga_image_barrier(context, cmd, ground->blank_materials->image, VK_IMAGE_ASPECT_COLOR_BIT, before, read);
+    virga_context *context = ground->base.context;
+    if (!virga_effect_first_contents(&ground->base, cmd))
+        return;
+    ground->base_m = (double)(float)floor(ground->info.camera_m[1]); /* a float, as shaders and hosts get it */
     virga_mesh_map_first_layouts(context, cmd, ground->survey);
     virga_mesh_map_first_layouts(context, cmd, ground->far.survey);
     ground_ripples_upload(context, cmd, ground->ripples);
-    virga_buffer *const zero[] = {ground->rings,    ground->stirs,  ground->swings,  ground->cells,
-                                  ground->arrivals, ground->spots,  ground->counts,  ground->kept_cells,
-                                  ground->landings, ground->spawns, ground->no_rules};
-    for (size_t i = 0; i < sizeof zero / sizeof zero[0]; i++)
-        context->vk.CmdFillBuffer(cmd, zero[i]->buffer, 0, VK_WHOLE_SIZE, 0);
-    transfer_barrier(ground, cmd);
     static const float first_near_m = 3;
     uint32_t bits;
     memcpy(&bits, &first_near_m, sizeof bits);
@@ -488,7 +427,7 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
 
 static virga_result check_buffers(const virga_ground *ground, const virga_ground_step_info *info)
 {
-    const virga_context *context = ground->context;
+    const virga_context *context = ground->base.context;
     const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
     if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
                               sizeof(virga_impacts_gpu)) ||
@@ -506,19 +445,14 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
 {
     if (!ground)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &ground->context->log;
-    if (!cmd || !info || !info->impacts || (info->mesh_count && !info->meshes))
-        return virga_wrong_argument(log, "virga_ground_step: NULL argument");
-    if (ground->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    if (!ground->context->frame_index)
-        return virga_wrong_argument(log, "virga_ground_step: expected virga_frame_begin before it");
-    if (ground->ring_frame == ground->context->frame_index)
-        return virga_wrong_argument(log, "virga_ground_step: expected one step a frame");
-    if (info->ticks > ground->def.max_ticks_per_step)
-        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u",
-                                    ground->def.max_ticks_per_step, info->ticks);
-    if (virga_ticks_check(log, info->first_tick, info->ticks, ground->ticks ? &ground->last_tick : NULL) ||
+    const virga_log *log = &ground->base.context->log;
+    const bool given = info && info->impacts && (!info->mesh_count || info->meshes);
+    const virga_result result = virga_effect_check_step(&ground->base, "virga_ground_step", cmd, given ? info : NULL);
+    if (result)
+        return result;
+    const virga_tick_range ticks = {info->first_tick, info->ticks, ground->def.max_ticks_per_step};
+    if (virga_effect_check_ticks(&ground->base, "virga_ground_step", &ticks,
+                                 ground->ticks ? &ground->last_tick : NULL) ||
         virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
         virga_settings_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
@@ -528,8 +462,9 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
         check_buffers(ground, info))
         return VIRGA_ERROR_INVALID;
-    const virga_result result = virga_mesh_map_check(ground->context, ground->survey, info->meshes, info->mesh_count);
-    return result ? result : virga_group_ready(&ground->needed);
+    if (virga_mesh_map_check(ground->base.context, ground->survey, info->meshes, info->mesh_count))
+        return VIRGA_ERROR_INVALID;
+    return virga_effect_ready(&ground->base);
 }
 
 virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
@@ -537,11 +472,10 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     const virga_result result = check_step(ground, cmd, info);
     if (result)
         return result;
-    virga_context *context = ground->context;
+    virga_context *context = ground->base.context;
     virga_timers_reset(context, cmd);
-    ground_take_statistics(ground);
-    ground->ring_frame = context->frame_index;
-    ground->ring_ticks = 0;
+    virga_effect_read_statistics(&ground->base);
+    ground->base.step_frame = context->frame_index;
     ground->info = *info;
     ground->info.open_rain_mm_h = fminf(fmaxf(info->open_rain_mm_h, 0), 1000);
     ground->info.open_drop_m = fminf(fmaxf(info->open_drop_m, 0), 0.01f);
@@ -555,11 +489,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-    if (!ground->started) {
-        ground->base_m = (double)(float)floor(info->camera_m[1]); /* as shaders and hosts are told */
-        first_contents(ground, cmd);
-        ground->started = true;
-    }
+    first_contents(ground, cmd);
     place_ripples(ground, info->focus_m);
     follow(ground, cmd, info);
     if (!info->ticks) {
@@ -574,6 +504,6 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     if (ground->settings.measure)
         measure(ground, cmd);
     write_maps(ground, cmd);
-    record_readback(ground, cmd);
+    virga_effect_copy_statistics(&ground->base, cmd, 0, ground->counts, 0, 0, sizeof(ground_readback));
     return virga_uploaded(context);
 }

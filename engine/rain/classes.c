@@ -5,12 +5,10 @@
  * cloudburst, and a lighter rain leaves some of them out (the ones of high rank), softly at the edge. */
 #include "rain/rain_internal.h"
 
-#include "core/settings.h"
+#include <virga/shared/random.h>
 
 #include <math.h>
 #include <string.h>
-
-#include <virga/shared/random.h>
 
 #define RANK_SOFTNESS   0.05  /* as in shaders/rain/field.glsl */
 #define DEALT_RATE_MM_H 150.0 /* the rain that slots are dealt for: heavier needs weights above 1 */

@@ -3,8 +3,7 @@
 
 #include "core/light.h"
 #include "core/settings.h"
-#include "gpu/budget.h"
-#include "gpu/builds.h"
+#include "gpu/device_check.h"
 #include "gpu/errors.h"
 
 #include "shaders/rain_compact_comp.spv.h"
@@ -29,6 +28,8 @@
 #include "shaders/rain_step_sway_comp.spv.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #define DEF_COOKIE        VIRGA_COOKIE(3)
@@ -78,37 +79,32 @@ virga_rain_settings virga_default_rain_settings(void)
 
 /* ---- the sizes that follow from a definition */
 
-static virga_result check_def(const virga_log *log, const virga_rain_def *given, virga_rain_def *def)
+static const virga_setting_row def_rows[] = {
+    {"rain_def.max_drops", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_drops), 1024, 4194304},
+    {"rain_def.range_m", VIRGA_NUMBER_FLOAT, offsetof(virga_rain_def, range_m), 4, 512},
+    {"rain_def.max_impacts", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_impacts), 256, 4194240},
+    {"rain_def.max_streaks", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_streaks), 256, 4194304},
+    {"rain_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_ticks_per_step), 1, 64},
+    {"rain_def.max_panes", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_panes), 0, VIRGA_RAIN_MAX_PANES},
+    {"rain_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_rain_def, tick_s), 1e-3, 0.05},
+    {"rain_def.occlusion_cascades", VIRGA_NUMBER_U32, offsetof(virga_rain_def, occlusion_cascades), 1, 4},
+    {"rain_def.occlusion_slants", VIRGA_NUMBER_U32, offsetof(virga_rain_def, occlusion_slants), 1, 4},
+};
+
+static virga_result check_def(const virga_log *log, void *given)
 {
-    const virga_result result =
-        virga_settings_check(log, "rain_def", given->size, sizeof *given, given->cookie, DEF_COOKIE);
-    if (result)
-        return result;
-    if (virga_settings_finite(log, "rain_def.range_m", &given->range_m, 1) ||
-        virga_settings_finite_double(log, "rain_def.tick_s", &given->tick_s, 1))
+    virga_rain_def *def = given;
+    const bool as_many_streaks = !def->max_streaks;
+    if (as_many_streaks)
+        def->max_streaks = 4194304;
+    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
         return VIRGA_ERROR_INVALID;
-    *def = *given;
-    def->max_drops = virga_clamp_setting_u32(log, "rain_def.max_drops", def->max_drops, 1024, 4194304, NULL);
-    def->range_m = virga_clamp_setting_float(log, "rain_def.range_m", def->range_m, 4, 512, NULL);
-    def->max_impacts = virga_clamp_setting_u32(log, "rain_def.max_impacts", def->max_impacts, 256, 4194240, NULL);
-    def->max_streaks = def->max_streaks ? def->max_streaks : def->max_drops;
-    def->max_streaks = virga_clamp_setting_u32(log, "rain_def.max_streaks", def->max_streaks, 256, 4194304, NULL);
-    def->max_ticks_per_step =
-        virga_clamp_setting_u32(log, "rain_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
-    def->max_panes = virga_clamp_setting_u32(log, "rain_def.max_panes", def->max_panes, 0, VIRGA_RAIN_MAX_PANES, NULL);
-    def->tick_s = virga_clamp_setting(log, "rain_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
+    if (as_many_streaks)
+        def->max_streaks = def->max_drops;
     if (def->occlusion_size)
         def->occlusion_size =
             virga_clamp_setting_u32(log, "rain_def.occlusion_size", def->occlusion_size, 64, 8192, NULL);
-    def->occlusion_cascades =
-        virga_clamp_setting_u32(log, "rain_def.occlusion_cascades", def->occlusion_cascades, 1, 4, NULL);
-    def->occlusion_slants =
-        virga_clamp_setting_u32(log, "rain_def.occlusion_slants", def->occlusion_slants, 1, 4, NULL);
-    for (int i = 0; i < 4; i++)
-        if (def->occluder_strides[i] && (def->occluder_strides[i] < 12 || def->occluder_strides[i] % 4))
-            return virga_wrong_argument(log, "rain_def.occluder_strides: expected multiples of 4 from 12, got %u",
-                                        def->occluder_strides[i]);
-    return VIRGA_OK;
+    return virga_mesh_map_check_strides(log, "rain_def.occluder_strides", def->occluder_strides);
 }
 
 /* Boxes double from one in which a cloudburst's drops are all slots up to one that holds the range. */
@@ -131,123 +127,138 @@ static void plan_boxes(const virga_rain_def *def, uint32_t *levels, uint32_t *gr
     *side_m = widest;
 }
 
-/* Six indices a streak, and counts by bucket and workgroup, see shaders/rain/order.glsl. */
-static VkDeviceSize order_bytes(const virga_rain_def *def)
-{
-    const VkDeviceSize groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
-    return (6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_BUCKETS * (1 + groups)) * sizeof(uint32_t);
-}
+/* ---- what it is made of */
 
-VkDeviceSize virga_rain_estimate(const virga_rain_def *given)
+enum {
+    COUNT_SLOTS = 1,
+    COUNT_PICK_BYTES,
+    COUNT_IMPACTS,
+    COUNT_STREAKS,
+    COUNT_ORDER,
+    COUNT_PANES,
+    COUNT_HIT_SLOTS,
+    COUNT_SWAYS,
+    COUNT_POINTS,
+    COUNT_TICKS,
+    COUNT_VIEWS,
+};
+
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
-    virga_rain_def def;
-    if (!given || check_def(NULL, given, &def))
-        return 0;
+    const virga_rain_def *def = given;
     uint32_t levels, groups_per_level;
-    double side;
-    plan_boxes(&def, &levels, &groups_per_level, &side);
+    double side_m;
+    plan_boxes(def, &levels, &groups_per_level, &side_m);
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
-    const VkDeviceSize maps =
-        (VkDeviceSize)def.occlusion_size * def.occlusion_size * 8 * def.occlusion_cascades * def.occlusion_slants;
-    return slots *
-               (sizeof(virga_slot_gpu) * 2 + sizeof(virga_drop_gpu) + sizeof(uint32_t) + (def.wind_texture ? 40 : 0) +
-                (def.points ? sizeof(virga_point_gpu) : 0) + (def.max_panes ? sizeof(uint32_t) : 0)) +
-           VIRGA_PICK_BYTES(slots) + def.max_impacts * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)def.max_streaks * RAIN_STREAK_BYTES + order_bytes(&def) + maps +
-           def.max_panes * rain_hits_bytes() +
-           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT *
-               ((def.max_ticks_per_step + 1) * rain_tick_bytes() + VIRGA_RAIN_MAX_VIEWS * rain_view_bytes());
+    const VkDeviceSize streak_groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
+    counts[COUNT_SLOTS] = slots;
+    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES(slots);
+    counts[COUNT_IMPACTS] = def->max_impacts;
+    counts[COUNT_STREAKS] = def->max_streaks;
+    /* Six indices a streak, and counts by bucket and workgroup, see shaders/rain/order.glsl. */
+    counts[COUNT_ORDER] = 6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_BUCKETS * (1 + streak_groups);
+    counts[COUNT_PANES] = def->max_panes;
+    counts[COUNT_HIT_SLOTS] = def->max_panes ? slots : 0;
+    counts[COUNT_SWAYS] = def->wind_texture ? slots : 0;
+    counts[COUNT_POINTS] = def->points ? slots : 0;
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one for a view without a step */
+    counts[COUNT_VIEWS] = VIRGA_RAIN_MAX_VIEWS;
 }
 
-/* ---- creating */
+#define AT(member)  offsetof(virga_rain, member)
+#define DEVICE      VIRGA_HEAP_DEVICE
+#define STORAGE_USE VIRGA_USE_STORAGE
+#define FILL        VIRGA_FIRST_FILL
 
-/* What rain makes and lets go of, each in one table for both. */
-enum { BUFFERS = 16, PASSES = 20 };
+static const virga_effect_buffer buffers[] = {
+    {"rain.slots", AT(slot_buffer), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_slot_gpu), COUNT_SLOTS},
+    {"rain.drops", AT(drop_buffer), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_drop_gpu), COUNT_SLOTS},
+    {"rain.impacts", AT(impact_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_impacts_gpu), sizeof(virga_impact_gpu),
+     COUNT_IMPACTS, FILL},
+    {"rain.picks", AT(pick_buffer), STORAGE_USE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"rain.list", AT(list_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_list_gpu), sizeof(uint32_t), COUNT_SLOTS},
+    {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS},
+    {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL},
+    {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
+    {"rain.hits", AT(hit_buffer), STORAGE_USE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
+    {"rain.hit_places", AT(hit_places), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
+    {"rain.sways", AT(sway_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
+    {"rain.points", AT(point_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},
+    {"rain.slot_upload", AT(slot_upload), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD, 0,
+     sizeof(virga_slot_gpu), COUNT_SLOTS},
+};
 
-static void list_buffers(virga_rain *rain, virga_buffer_row rows[BUFFERS])
+static const virga_effect_ring rings[] = {
+    {"rain.ticks", AT(tick_ring), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+     VIRGA_RING_BYTES(rain_tick_block), COUNT_TICKS},
+    {"rain.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(rain_view_block), COUNT_VIEWS},
+};
+
+/* For the scene's depth that a view has not, and for the wind that a host has not given. */
+static const virga_effect_image images[] = {
+    {"rain.blank", AT(blank), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
+     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    {"rain.blank_wind", AT(blank_wind), VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT,
+     VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 0, VIRGA_FIRST_SAMPLED},
+};
+
+#define STEP(pass)                                                        \
+    {                                                                     \
+        "rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_step_##pass##_comp) \
+    }
+#define DRAW(pass)                                                        \
+    {                                                                     \
+        "rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_draw_##pass##_comp) \
+    }
+
+static const virga_effect_pass passes[] = {
+    STEP(move),
+    STEP(sway),
+    STEP(impact_near_mark),
+    STEP(impact_near_scan),
+    STEP(impact_mark),
+    {"rain.compact", AT(compact), VIRGA_SPIRV_ROW(rain_compact_comp)},
+    STEP(impact_scan),
+    STEP(impact_write),
+    DRAW(streak_mark),
+    DRAW(streak_scan),
+    DRAW(streak_write),
+    DRAW(order_count),
+    DRAW(order_scan),
+    DRAW(order_indices),
+    STEP(hit_mark),
+    STEP(hit_scan),
+    STEP(hit_count),
+    STEP(hit_offsets),
+    STEP(hit_write),
+    STEP(points),
+};
+
+/* The field of drops, what is seen of it, what it hits, and its maps. */
+static const virga_effect_pool pools[] = {
+    {"max_drops", offsetof(virga_rain_def, max_drops), 1024, 1},
+    {"max_streaks", offsetof(virga_rain_def, max_streaks), 256, 1},
+    {"max_impacts", offsetof(virga_rain_def, max_impacts), 256, 1},
+    {"occlusion_size", offsetof(virga_rain_def, occlusion_size), 64, 1},
+};
+
+static VkDeviceSize extra_bytes(const void *given)
 {
-    const VkDeviceSize frames = rain->context->frames_in_flight, slots = rain->slots;
-    const VkDeviceSize slot_bytes = slots * sizeof(virga_slot_gpu);
-    const VkBufferUsageFlags storage =
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
-    const VkBufferUsageFlags uniform = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    const VkBufferUsageFlags texels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-    const virga_heap_kind device = VIRGA_HEAP_DEVICE, upload = VIRGA_HEAP_UPLOAD;
-    const virga_buffer_row all[] = {
-        {&rain->slot_buffer, slot_bytes, storage | texels, device, "rain.slots"},
-        {&rain->drop_buffer, slots * sizeof(virga_drop_gpu), storage | texels, device, "rain.drops"},
-        {&rain->impact_buffer, sizeof(virga_impacts_gpu) + rain->def.max_impacts * sizeof(virga_impact_gpu), indirect,
-         device, "rain.impacts"},
-        {&rain->pick_buffer, VIRGA_PICK_BYTES(slots), storage, device, "rain.picks"},
-        {&rain->list_buffer, sizeof(virga_list_gpu) + slots * sizeof(uint32_t), indirect, device, "rain.list"},
-        {&rain->streak_buffer, (VkDeviceSize)rain->def.max_streaks * RAIN_STREAK_BYTES, storage | texels, device,
-         "rain.streaks"},
-        {&rain->prepared_buffer, sizeof(virga_prepared_gpu), indirect, device, "rain.prepared"},
-        {&rain->order_buffer, order_bytes(&rain->def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, device,
-         "rain.order"},
-        {&rain->hit_buffer, rain->def.max_panes * rain_hits_bytes(), storage, device, "rain.hits"},
-        {&rain->hit_places, rain->def.max_panes ? slots * sizeof(uint32_t) : 0, storage, device, "rain.hit_places"},
-        {&rain->sway_buffer, rain->def.wind_texture ? slots * sizeof(virga_sway_gpu) : 0, storage, device,
-         "rain.sways"},
-        {&rain->point_buffer, rain->def.points ? slots * sizeof(virga_point_gpu) : 0, storage, device, "rain.points"},
-        {&rain->slot_upload, slot_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, upload, "rain.slot_upload"},
-        {&rain->tick_ring, frames * (rain->def.max_ticks_per_step + 1) * rain_tick_bytes(),
-         uniform | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, upload, "rain.ticks"},
-        {&rain->view_ring, frames * VIRGA_RAIN_MAX_VIEWS * rain_view_bytes(), uniform, upload, "rain.views"},
-        {&rain->readback_ring, frames * sizeof(rain_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK,
-         "rain.readback"},
-    };
-    _Static_assert(sizeof all == BUFFERS * sizeof all[0], "a row for each buffer");
-    memcpy(rows, all, sizeof all);
+    const virga_rain_def *def = given;
+    return virga_mesh_map_bytes(def->occlusion_size, def->occlusion_cascades * def->occlusion_slants);
 }
 
-static void list_passes(virga_rain *rain, virga_compute_row rows[PASSES])
+static virga_result init(void *object)
 {
-    const virga_compute_row all[] = {
-        {&rain->step, VIRGA_SPIRV(rain_step_move_comp), "rain.move"},
-        {&rain->sway, VIRGA_SPIRV(rain_step_sway_comp), "rain.sway"},
-        {&rain->impact_near, VIRGA_SPIRV(rain_step_impact_near_mark_comp), "rain.impact_near_mark"},
-        {&rain->impact_near_scan, VIRGA_SPIRV(rain_step_impact_near_scan_comp), "rain.impact_near_scan"},
-        {&rain->impact_find, VIRGA_SPIRV(rain_step_impact_mark_comp), "rain.impact_mark"},
-        {&rain->list, VIRGA_SPIRV(rain_compact_comp), "rain.compact"},
-        {&rain->impact_scan, VIRGA_SPIRV(rain_step_impact_scan_comp), "rain.impact_scan"},
-        {&rain->impact_write, VIRGA_SPIRV(rain_step_impact_write_comp), "rain.impact_write"},
-        {&rain->prepare_find, VIRGA_SPIRV(rain_draw_streak_mark_comp), "rain.streak_mark"},
-        {&rain->prepare_scan, VIRGA_SPIRV(rain_draw_streak_scan_comp), "rain.streak_scan"},
-        {&rain->prepare_write, VIRGA_SPIRV(rain_draw_streak_write_comp), "rain.streak_write"},
-        {&rain->prepare_order_count, VIRGA_SPIRV(rain_draw_order_count_comp), "rain.order_count"},
-        {&rain->prepare_order_scan, VIRGA_SPIRV(rain_draw_order_scan_comp), "rain.order_scan"},
-        {&rain->prepare_order, VIRGA_SPIRV(rain_draw_order_indices_comp), "rain.order_indices"},
-        {&rain->hit_find, VIRGA_SPIRV(rain_step_hit_mark_comp), "rain.hit_mark"},
-        {&rain->hit_scan, VIRGA_SPIRV(rain_step_hit_scan_comp), "rain.hit_scan"},
-        {&rain->hit_count, VIRGA_SPIRV(rain_step_hit_count_comp), "rain.hit_count"},
-        {&rain->hit_place, VIRGA_SPIRV(rain_step_hit_offsets_comp), "rain.hit_offsets"},
-        {&rain->hit_write, VIRGA_SPIRV(rain_step_hit_write_comp), "rain.hit_write"},
-        {&rain->points, VIRGA_SPIRV(rain_step_points_comp), "rain.points"},
-    };
-    _Static_assert(sizeof all == PASSES * sizeof all[0], "a row for each pass");
-    memcpy(rows, all, sizeof all);
-}
-
-/* What the host writes before the first frame. */
-static void fill_host_buffers(virga_rain *rain)
-{
-    rain_classes_fill_slots(rain->classes, rain->def.seed, rain->slot_upload->memory.block.mapped);
-    virga_buffer_flush(rain->context, rain->slot_upload, 0, rain->slot_upload->size);
-    memset(rain->readback_ring->memory.block.mapped, 0, rain->readback_ring->size);
-    virga_buffer_flush(rain->context, rain->readback_ring, 0, rain->readback_ring->size);
-}
-
-static virga_result create_field(virga_rain *rain)
-{
+    virga_rain *rain = object;
+    rain->settings = virga_default_rain_settings();
     double side_m;
     plan_boxes(&rain->def, &rain->levels, &rain->groups_per_level, &side_m);
     rain->groups = rain->levels * rain->groups_per_level;
     rain->slots = rain->groups * VIRGA_RAIN_GROUP;
-    rain->classes = virga_alloc(&rain->context->heap, sizeof *rain->classes);
+    rain->classes = virga_alloc(&rain->base.context->heap, sizeof *rain->classes);
     if (!rain->classes)
-        return virga_out_of_host_memory(rain->context, "the size classes of rain");
+        return virga_out_of_host_memory(rain->base.context, "the size classes of rain");
     rain_classes_init(rain->classes, rain->levels, rain->groups_per_level * VIRGA_RAIN_GROUP, side_m);
     const virga_rain_settings *settings = &rain->settings;
     rain_classes_set_rain(rain->classes, &settings->sizes, (double)settings->rate_mm_h, (double)settings->air_density,
@@ -257,83 +268,97 @@ static virga_result create_field(virga_rain *rain)
     return VIRGA_OK;
 }
 
-static virga_result init(virga_rain *rain)
+static virga_result create(void *object)
 {
-    virga_result result = VIRGA_OK;
-    virga_buffer_row buffers[BUFFERS];
-    virga_compute_row passes[PASSES];
-    const virga_rain_def *def = &rain->def;
-    const uint32_t form = VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
-    TRY(create_field(rain));
-    list_buffers(rain, buffers);
-    list_passes(rain, passes);
-    TRY(virga_buffers_create(rain->context, buffers, BUFFERS));
-    fill_host_buffers(rain);
-    TRY(virga_uploaded(rain->context));
-    TRY(virga_image_create(rain->context, VK_FORMAT_D32_SFLOAT, (VkExtent2D){1, 1}, 1,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                           VK_IMAGE_ASPECT_DEPTH_BIT, "rain.blank", &rain->blank));
-    TRY(virga_image_create(rain->context, VK_FORMAT_R16G16B16A16_SFLOAT, (VkExtent2D){1, 1}, 0,
-                           VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "rain.blank_wind",
-                           &rain->blank_wind));
-    TRY(rain_occlusion_create(rain));
-    TRY(rain_descriptors_create(rain));
-    TRY(virga_compute_pipelines_create(rain->context, rain->bindings->layout, form, &rain->needed, passes, PASSES));
-error:
-    return result;
+    virga_rain *rain = object;
+    rain_classes_fill_slots(rain->classes, rain->def.seed, rain->slot_upload->memory.block.mapped);
+    virga_buffer_flush(rain->base.context, rain->slot_upload, 0, rain->slot_upload->size);
+    return rain_occlusion_create(rain);
 }
 
-static virga_result make(virga_context *context, const void *def, void **rain)
+static void destroy(void *object)
 {
-    virga_rain *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "rain");
-    made->context = context;
-    made->def = *(const virga_rain_def *)def;
-    made->settings = virga_default_rain_settings();
-    context->effects++;
-    const virga_result result = init(made);
-    if (result)
-        virga_rain_destroy(&made);
-    *rain = made;
-    return result;
+    virga_rain *rain = object;
+    virga_host_heap *heap = &rain->base.context->heap;
+    virga_mesh_map_retire(rain->base.context, &rain->map);
+    virga_free(heap, rain->classes);
+    virga_free(heap, rain->table_diameter_m);
+    virga_free(heap, rain->table_number);
 }
 
-/* The field of drops, what is seen of it, what it hits, and its maps. */
-static virga_result make_in_budget(virga_context *context, virga_rain_def *def, virga_rain **rain)
+static void describe(const void *object, char *line, size_t size)
 {
-    const virga_pool pools[] = {
-        {"max_drops", &def->max_drops, 1024, 1},
-        {"max_streaks", &def->max_streaks, 256, 1},
-        {"max_impacts", &def->max_impacts, 256, 1},
-        {"occlusion_size", &def->occlusion_size, def->occlusion_size < 64 ? def->occlusion_size : 64, 1},
-    };
-    void *made = NULL;
-    const virga_result result = virga_make_in_budget(context, "rain", pools, 4, make, def, &made);
-    *rain = made;
-    return result;
+    const virga_rain *rain = object;
+    snprintf(line, size, "rain: %u slots in %u boxes up to %.4g m wide", rain->slots, rain->levels,
+             rain->classes->side_m);
+}
+
+static uint32_t pass_constant(const void *object)
+{
+    const virga_rain_def *def = &((const virga_rain *)object)->def;
+    return VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
+}
+
+static virga_result set(void *object, const void *settings)
+{
+    return virga_rain_set(object, settings);
+}
+
+static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
+{
+    return virga_rain_draw(object, cmd, target);
+}
+
+_Static_assert(sizeof(virga_rain_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
+
+const virga_effect_type rain_type = {
+    .name = "rain",
+    .size = sizeof(virga_rain),
+    .def = {"rain_def", sizeof(virga_rain_def), DEF_COOKIE, AT(def)},
+    .settings = {"rain_settings", sizeof(virga_rain_settings), SETTINGS_COOKIE, AT(settings)},
+    .lighting = offsetof(virga_rain_settings, lighting),
+    .buffers = buffers,
+    .buffer_count = VIRGA_ROWS(buffers),
+    .rings = rings,
+    .ring_count = VIRGA_ROWS(rings),
+    .images = images,
+    .image_count = VIRGA_ROWS(images),
+    .layouts = rain_layouts,
+    .layout_count = RAIN_LAYOUTS,
+    .passes = passes,
+    .pass_count = VIRGA_ROWS(passes),
+    .draws = rain_draws,
+    .draw_count = RAIN_DRAW_ROWS,
+    .pools = pools,
+    .pool_count = VIRGA_ROWS(pools),
+    .readback_name = "rain.readback",
+    .readback_bytes = sizeof(rain_readback),
+    .check_def = check_def,
+    .count = count,
+    .extra_bytes = extra_bytes,
+    .init = init,
+    .create = create,
+    .destroy = destroy,
+    .describe = describe,
+    .pass_constant = pass_constant,
+    .read_statistics = rain_read_statistics,
+    .set = set,
+    .draw = draw,
+};
+
+/* ---- create and destroy */
+
+VkDeviceSize virga_rain_estimate(const virga_rain_def *def)
+{
+    return virga_effect_estimate(&rain_type, def);
 }
 
 virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain)
 {
+    void *made = NULL;
+    const virga_result result = virga_effect_create(context, &rain_type, "virga_rain_create", def, rain ? &made : NULL);
     if (rain)
-        *rain = NULL;
-    if (!context || !def || !rain)
-        return virga_wrong_argument(context ? &context->log : NULL, "virga_rain_create: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_rain_def checked;
-    virga_result result = check_def(&context->log, def, &checked);
-    if (result)
-        return result;
-    virga_rain *made = NULL;
-    result = make_in_budget(context, &checked, &made);
-    if (result < 0)
-        return result;
-    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
-                  "rain: %u slots in %u boxes up to %.4g m wide, %.1f MB of device memory in use", made->slots,
-                  made->levels, made->classes->side_m, (double)context->device_used * 1e-6);
-    *rain = made;
+        *rain = made;
     return result;
 }
 
@@ -341,90 +366,63 @@ void virga_rain_destroy(virga_rain **rain)
 {
     if (!rain || !*rain)
         return;
-    virga_rain *dying = *rain;
-    virga_context *context = dying->context;
-    rain_targets_destroy(dying);
-    virga_compute_row passes[PASSES];
-    virga_buffer_row buffers[BUFFERS];
-    list_passes(dying, passes);
-    list_buffers(dying, buffers);
-    virga_compute_pipelines_retire(context, passes, PASSES);
-    virga_buffers_retire(context, buffers, BUFFERS);
-    VIRGA_RETIRE(context, dying->blank);
-    VIRGA_RETIRE(context, dying->blank_wind);
-    virga_mesh_map_retire(context, &dying->map);
-    VIRGA_RETIRE(context, dying->bindings);
-    virga_free(&context->heap, dying->classes);
-    virga_free(&context->heap, dying->table_diameter_m);
-    virga_free(&context->heap, dying->table_number);
-    context->effects--;
-    virga_free(&context->heap, dying);
+    virga_effect_destroy(&(*rain)->base);
     *rain = NULL;
+}
+
+virga_result virga_rain_ready(const virga_rain *rain)
+{
+    return rain ? virga_effect_ready(&rain->base) : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
+{
+    return rain ? virga_effect_attach(&rain->base, "virga_rain_attach", target) : VIRGA_ERROR_INVALID;
 }
 
 /* ---- settings */
 
-static virga_result check_finite(const virga_log *log, const virga_rain_settings *s)
-{
-    const struct {
-        const char *name;
-        const float *values;
-        uint32_t count;
-    } floats[] = {{"rain.rate_mm_h", &s->rate_mm_h, 1},
-                  {"rain.air_density", &s->air_density, 1},
-                  {"rain.transition_s", &s->transition_s, 1},
-                  {"rain.wind_m_s", s->wind_m_s, 3},
-                  {"rain.gust_m_s", &s->gust_m_s, 1},
-                  {"rain.gust_time_s", &s->gust_time_s, 1},
-                  {"rain.streak_gain", &s->streak_gain, 1},
-                  {"rain.light_gain", &s->light_gain, 1},
-                  {"rain.min_width_px", &s->min_width_px, 1},
-                  {"rain.soft_m", &s->soft_m, 1},
-                  {"rain.near_m", &s->near_m, 1},
-                  {"rain.oscillation", &s->oscillation, 1},
-                  {"rain.haze", &s->haze, 1},
-                  {"rain.haze_sky_m", &s->haze_sky_m, 1},
-                  {"rain.glow", &s->glow, 1},
-                  {"rain.bodies_min_mm", &s->bodies_min_mm, 1}};
-    for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++)
-        if (virga_settings_finite(log, floats[i].name, floats[i].values, floats[i].count))
-            return VIRGA_ERROR_INVALID;
-    if (virga_settings_places(log, "rain.wind_min_m", s->wind_min_m, 3) ||
-        virga_settings_places(log, "rain.wind_max_m", s->wind_max_m, 3))
-        return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
-}
+#define NUMBER(member, min, max)                                                             \
+    {                                                                                        \
+        "rain." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_rain_settings, member), min, max \
+    }
+#define COUNT(member, min, max)                                                            \
+    {                                                                                      \
+        "rain." #member, VIRGA_NUMBER_U32, offsetof(virga_rain_settings, member), min, max \
+    }
 
-static bool clamp_settings(const virga_log *log, virga_rain_settings *s)
+static const virga_setting_row settings_rows[] = {
+    NUMBER(rate_mm_h, 0, 200),
+    NUMBER(air_density, 0.3, 2),
+    NUMBER(transition_s, 0, 60),
+    NUMBER(wind_m_s[0], -60, 60),
+    NUMBER(wind_m_s[1], -60, 60),
+    NUMBER(wind_m_s[2], -60, 60),
+    NUMBER(gust_m_s, 0, 30),
+    NUMBER(gust_time_s, 0.1, 600),
+    NUMBER(streak_gain, 0, 100),
+    NUMBER(light_gain, 0, 100),
+    NUMBER(min_width_px, 0.5, 4),
+    NUMBER(soft_m, 0, 1),
+    NUMBER(near_m, 0, 5),
+    NUMBER(oscillation, 0, 4),
+    NUMBER(haze, 0, 4),
+    NUMBER(haze_sky_m, 0, 1e5),
+    NUMBER(glow, 0, 100),
+    NUMBER(bodies_min_mm, 0.2, 2),
+    COUNT(default_material, 0, 255),
+    COUNT(occlusion_turns, 1, 16),
+};
+
+static virga_result check_settings(const virga_log *log, virga_rain_settings *settings, bool *changed)
 {
-    bool changed = false;
-    const struct {
-        const char *name;
-        float *value, lo, hi;
-    } ranges[] = {{"rain.rate_mm_h", &s->rate_mm_h, 0, 200},
-                  {"rain.air_density", &s->air_density, 0.3f, 2},
-                  {"rain.transition_s", &s->transition_s, 0, 60},
-                  {"rain.wind_m_s.x", &s->wind_m_s[0], -60, 60},
-                  {"rain.wind_m_s.y", &s->wind_m_s[1], -60, 60},
-                  {"rain.wind_m_s.z", &s->wind_m_s[2], -60, 60},
-                  {"rain.gust_m_s", &s->gust_m_s, 0, 30},
-                  {"rain.gust_time_s", &s->gust_time_s, 0.1f, 600},
-                  {"rain.streak_gain", &s->streak_gain, 0, 100},
-                  {"rain.light_gain", &s->light_gain, 0, 100},
-                  {"rain.min_width_px", &s->min_width_px, 0.5f, 4},
-                  {"rain.soft_m", &s->soft_m, 0, 1},
-                  {"rain.near_m", &s->near_m, 0, 5},
-                  {"rain.oscillation", &s->oscillation, 0, 4},
-                  {"rain.haze", &s->haze, 0, 4},
-                  {"rain.haze_sky_m", &s->haze_sky_m, 0, 1e5f},
-                  {"rain.glow", &s->glow, 0, 100},
-                  {"rain.bodies_min_mm", &s->bodies_min_mm, 0.2f, 2}};
-    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
-        *ranges[i].value =
-            virga_clamp_setting_float(log, ranges[i].name, *ranges[i].value, ranges[i].lo, ranges[i].hi, &changed);
-    s->default_material = virga_clamp_setting_u32(log, "rain.default_material", s->default_material, 0, 255, &changed);
-    s->occlusion_turns = virga_clamp_setting_u32(log, "rain.occlusion_turns", s->occlusion_turns, 1, 16, &changed);
-    return changed;
+    if (virga_settings_places(log, "rain.wind_min_m", settings->wind_min_m, 3) ||
+        virga_settings_places(log, "rain.wind_max_m", settings->wind_max_m, 3))
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = virga_lighting_check(log, "rain", &settings->lighting, changed);
+    if (result)
+        return result;
+    return virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), settings, changed);
 }
 
 /* Copies of the host's table, so that its pointers need not live on. NULL tables where it is of another kind. */
@@ -433,18 +431,19 @@ static virga_result copy_table(virga_rain *rain, const virga_sizes *sizes, doubl
     *diameters = *numbers = NULL;
     const virga_result result = virga_sizes_densities(sizes, 1, VIRGA_AIR_DENSITY, 0, NULL, NULL);
     if (result)
-        return virga_wrong_argument(&rain->context->log, "rain.sizes: expected Marshall-Palmer, Best, or a table of 2 "
-                                                         "to 256 rising diameters with numbers >= 0");
+        return virga_wrong_argument(&rain->base.context->log,
+                                    "rain.sizes: expected Marshall-Palmer, Best, or a table of 2 "
+                                    "to 256 rising diameters with numbers >= 0");
     if (sizes->kind != VIRGA_SIZES_TABLE)
         return VIRGA_OK;
     const size_t bytes = sizes->table_count * sizeof(double);
-    *diameters = virga_memdup(&rain->context->heap, sizes->table_diameter_m, bytes);
-    *numbers = virga_memdup(&rain->context->heap, sizes->table_number, bytes);
+    *diameters = virga_memdup(&rain->base.context->heap, sizes->table_diameter_m, bytes);
+    *numbers = virga_memdup(&rain->base.context->heap, sizes->table_number, bytes);
     if (*diameters && *numbers)
         return VIRGA_OK;
-    virga_free(&rain->context->heap, *diameters);
-    virga_free(&rain->context->heap, *numbers);
-    return virga_out_of_host_memory(rain->context, "a table of drop sizes");
+    virga_free(&rain->base.context->heap, *diameters);
+    virga_free(&rain->base.context->heap, *numbers);
+    return virga_out_of_host_memory(rain->base.context, "a table of drop sizes");
 }
 
 static bool same_sizes(const virga_sizes *a, const virga_sizes *b)
@@ -458,7 +457,7 @@ static bool same_sizes(const virga_sizes *a, const virga_sizes *b)
            !memcmp(a->table_number, b->table_number, a->table_count * sizeof(double));
 }
 
-/* Takes what was checked into force. */
+/* Puts what was checked into force. */
 static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters, double *numbers)
 {
     const virga_rain_settings *old = &rain->settings;
@@ -466,8 +465,8 @@ static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters
                           !same_sizes(&old->sizes, &next->sizes);
     next->sizes.table_diameter_m = diameters;
     next->sizes.table_number = numbers;
-    virga_free(&rain->context->heap, rain->table_diameter_m);
-    virga_free(&rain->context->heap, rain->table_number);
+    virga_free(&rain->base.context->heap, rain->table_diameter_m);
+    virga_free(&rain->base.context->heap, rain->table_number);
     rain->table_diameter_m = diameters;
     rain->table_number = numbers;
     if (next->wind_texture) {
@@ -491,25 +490,17 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &rain->context->log;
-    if (!settings)
-        return virga_wrong_argument(log, "virga_rain_set: NULL settings");
-    if (rain->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_result result =
-        virga_settings_check(log, "rain_settings", settings->size, sizeof *settings, settings->cookie, SETTINGS_COOKIE);
-    if (!result)
-        result = check_finite(log, settings);
+    const virga_log *log = &rain->base.context->log;
+    virga_result result = virga_effect_check_set(&rain->base, "virga_rain_set", settings);
     if (result)
         return result;
     if (settings->wind_texture && (!rain->def.wind_texture || !settings->wind_texture->view))
         return virga_wrong_argument(log, "rain.wind_texture: expected def.wind_texture at creation and an image view");
     virga_rain_settings next = *settings;
     bool changed = false;
-    result = virga_lighting_check(log, "rain", &next.lighting, &changed);
+    result = check_settings(log, &next, &changed);
     if (result)
         return result;
-    changed |= clamp_settings(log, &next);
     double *diameters, *numbers;
     result = copy_table(rain, &next.sizes, &diameters, &numbers);
     if (result)
@@ -525,13 +516,6 @@ void virga_rain_get(const virga_rain *rain, virga_rain_settings *settings)
 }
 
 /* ---- what others read */
-
-virga_result virga_rain_ready(const virga_rain *rain)
-{
-    return !rain                 ? VIRGA_ERROR_INVALID
-           : rain->context->lost ? VIRGA_ERROR_DEVICE_LOST
-                                 : virga_group_ready(&rain->needed);
-}
 
 void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *impacts)
 {
@@ -555,7 +539,7 @@ void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats)
 {
     if (!rain || !stats)
         return;
-    rain_take_statistics(rain);
+    virga_effect_read_statistics(&rain->base);
     *stats = rain->stats;
     stats->slots = rain->slots;
     stats->bodies_radius_m = (float)rain_classes_bodies_radius(rain->classes);

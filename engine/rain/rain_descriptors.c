@@ -2,88 +2,90 @@
  * shaders/rain/field.glsl. Sets are written when a frame uses them, so that a host's images may change. */
 #include "rain/rain_internal.h"
 
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#include "gpu/device_check.h"
 
-static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 tick, maps, classes */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 1 view */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 2 slots as texels */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 drops */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 4 impacts */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 5 picks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 6 prepared */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 7 streaks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 sways */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VIRGA_ALL_STAGES},             /* 9 occlusion depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VIRGA_ALL_STAGES},             /* 10 occlusion surface */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, COMPUTE},                      /* 11 wind */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 12 scene depth */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 13 points */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE},                      /* 14 travels */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE},                      /* 15 weights */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 16 list of picked slots */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},     /* 17 streaks as texels */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE},                      /* 18 hits of a pane */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 19 where each slot's hits go */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE},                        /* 20 drops as texels */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 21 order of streaks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 22 slots */
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#define VERTEX  VK_SHADER_STAGE_VERTEX_BIT
+#define UNIFORM VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define DYNAMIC VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC
+#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+
+#define AT(member) offsetof(virga_rain, member)
+
+enum {
+    BIND_SWAYS = 8,
+    BIND_MAP_DEPTH,
+    BIND_MAP_SURFACE,
+    BIND_WIND,
+    BIND_SCENE_DEPTH,
+    BIND_POINTS,
+    BIND_HITS = 18,
+    BIND_HIT_PLACES,
 };
 
-enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
+static const virga_binding_kind bindings[] = {
+    {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(rain_tick_tables)}, /* 0 tick, maps, classes */
+    {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(rain_view_block)},  /* 1 view */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(slot_buffer)},                                 /* 2 slots as texels */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drop_buffer)},                                /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(impact_buffer)},                              /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(pick_buffer)},                                /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(prepared_buffer)},                            /* 6 */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(streak_buffer)},                     /* 7 */
+    [BIND_SWAYS] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(sway_buffer)},                 /* 8 */
+    [BIND_MAP_DEPTH] = {SAMPLED, VIRGA_ALL_STAGES},                                          /* 9 occlusion maps */
+    [BIND_MAP_SURFACE] = {SAMPLED, VIRGA_ALL_STAGES},                                        /* 10 */
+    [BIND_WIND] = {SAMPLED, COMPUTE},                                                        /* 11 */
+    [BIND_SCENE_DEPTH] = {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT},                            /* 12 */
+    [BIND_POINTS] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(point_buffer)},               /* 13 */
+    {UNIFORM, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->travels}, /* 14 */
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->weights}, /* 15 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                    /* 16 */
+    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                    /* 17 */
+    [BIND_HITS] = {DYNAMIC, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer), RAIN_HITS_BYTES},      /* 18 of a pane */
+    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_places)}, /* 19 where each slot's hits go */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                     /* 20 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                   /* 21 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                    /* 22 */
+};
 
-virga_result rain_descriptors_create(virga_rain *rain)
-{
-    return virga_bindings_create(rain->context, kinds, BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu),
-                                 &rain->bindings);
-}
-
-static virga_bound bound_buffer(const virga_buffer *buffer, VkDeviceSize range)
-{
-    return (virga_bound){.buffer = buffer->buffer, .range = range};
-}
+const virga_effect_layout rain_layouts[RAIN_LAYOUTS] = {
+    {AT(bindings), bindings, VIRGA_ROWS(bindings), RAIN_SETS, sizeof(virga_rain_pane_gpu)},
+};
 
 static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayout layout)
 {
     return (virga_bound){.sampler = sampler, .view = view, .image_layout = layout};
 }
 
+/* A buffer that stands in where an option is off. */
+static void bind_unused(const virga_rain *rain, virga_bound *bound)
+{
+    if (!bound->buffer)
+        *bound = (virga_bound){.buffer = rain->prepared_buffer->buffer, .range = sizeof(virga_prepared_gpu)};
+}
+
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkSampler nearest = context->nearest, linear = context->linear;
+    const VkSampler nearest = context->nearest;
     const virga_image *host_map = rain->host_maps ? &rain->host_map_image : NULL;
     const virga_image *wind = rain->settings.wind_texture ? &rain->wind_image : NULL;
-    const virga_buffer *const unused = rain->prepared_buffer; /* stands in where an option is off */
-    const virga_bound bound[BINDINGS] = {
-        bound_buffer(rain->tick_ring, sizeof(rain_tick_tables)),
-        bound_buffer(rain->view_ring, sizeof(rain_view_block)),
-        {.texels = rain->slot_buffer->texels},
-        bound_buffer(rain->drop_buffer, 0),
-        bound_buffer(rain->impact_buffer, 0),
-        bound_buffer(rain->pick_buffer, 0),
-        bound_buffer(rain->prepared_buffer, 0),
-        bound_buffer(rain->streak_buffer, 0),
-        bound_buffer(rain->sway_buffer ? rain->sway_buffer : unused, 0),
-        bound_image(nearest, host_map ? host_map->view : rain->map->depth->view,
-                    host_map ? host_map->before.layout : read_only),
-        bound_image(nearest, rain->map->surface->view, read_only),
-        bound_image(linear, wind ? wind->view : rain->blank_wind->view, wind ? wind->before.layout : read_only),
-        bound_image(nearest, scene_depth ? scene_depth->view : rain->blank->layer_views[0],
-                    scene_depth ? scene_depth->before.layout : read_only),
-        bound_buffer(rain->point_buffer ? rain->point_buffer : unused, 0),
-        bound_buffer(rain->tick_ring, sizeof((rain_tick_block *)0)->travels),
-        bound_buffer(rain->tick_ring, sizeof((rain_tick_block *)0)->weights),
-        bound_buffer(rain->list_buffer, 0),
-        {.texels = rain->streak_buffer->texels},
-        rain->hit_buffer ? bound_buffer(rain->hit_buffer, rain_hits_bytes())
-                         : bound_buffer(unused, sizeof(virga_prepared_gpu)),
-        bound_buffer(rain->hit_places ? rain->hit_places : unused, 0),
-        {.texels = rain->drop_buffer->texels},
-        bound_buffer(rain->order_buffer, 0),
-        bound_buffer(rain->slot_buffer, 0),
-    };
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&rain->base, rain->bindings, bound);
+    bind_unused(rain, &bound[BIND_SWAYS]);
+    bind_unused(rain, &bound[BIND_POINTS]);
+    bind_unused(rain, &bound[BIND_HITS]);
+    bind_unused(rain, &bound[BIND_HIT_PLACES]);
+    bound[BIND_MAP_DEPTH] = bound_image(nearest, host_map ? host_map->view : rain->map->depth->view,
+                                        host_map ? host_map->before.layout : read_only);
+    bound[BIND_MAP_SURFACE] = bound_image(nearest, rain->map->surface->view, read_only);
+    bound[BIND_WIND] = bound_image(context->linear, wind ? wind->view : rain->blank_wind->view,
+                                   wind ? wind->before.layout : read_only);
+    bound[BIND_SCENE_DEPTH] = virga_bound_or_blank(scene_depth, rain->blank, nearest);
     return virga_bindings_write(context, rain->bindings, index, bound);
 }
 
@@ -93,5 +95,5 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
     const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
                                  tick + (uint32_t)offsetof(rain_tick_block, travels),
                                  tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset};
-    rain->context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 5, offsets);
+    rain->base.context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 5, offsets);
 }

@@ -1,11 +1,9 @@
-/* rain/rain_draw.c - what a view sees: selection and shading (prepare), pipelines for a
- * target (attach), and drawing. */
+/* rain/rain_draw.c - what a view sees: selection and shading (prepare), and drawing. */
 #include "rain/rain_internal.h"
 
 #include "core/phase.h"
 #include "core/settings.h"
 #include "gpu/builds.h"
-#include "gpu/device_check.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/target.h"
@@ -32,17 +30,11 @@
 #include <math.h>
 #include <string.h>
 
-uint32_t rain_view_bytes(void)
-{
-    return (uint32_t)((sizeof(rain_view_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
-                      VIRGA_RING_ALIGNMENT);
-}
-
 /* ---- a view in the device's terms */
 
-#define MOST_COVERAGE 0.25 /* as in shaders/rain/draw/streak_write.comp */
+#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
 #define LEAST_COVERAGE \
-    (1.0 / 400) /* as in shaders/rain/draw/view.glsl: what covers less is below what the eye and 8 bits see */
+    (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
 
 /* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
 static double streak_coverage(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
@@ -87,15 +79,6 @@ static void fill_haze(const virga_rain *rain, rain_view_block *out)
     out->look.haze_inner_m = (float)(0.5 * ldexp(rain->classes->side_m, 1 - (int)rain->levels));
 }
 
-/* Whether any target has motion vectors, so that prepare has to find those of streaks. */
-static bool wants_motion(const virga_rain *rain)
-{
-    for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++)
-        if (rain->targets[i].serial && rain->targets[i].motion)
-            return true;
-    return false;
-}
-
 /* Where the glow of lamps takes its light from, see shaders/rain/glow.glsl. */
 static void fill_bent(rain_view_block *out)
 {
@@ -125,8 +108,8 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     fill_bent(out);
     out->look.begin[3] = AT_THE_CAMERA;
     out->look.max_streaks = rain->def.max_streaks;
-    out->look.lines = rain->context->lines;
-    out->look.motion = wants_motion(rain);
+    out->look.lines = rain->base.context->lines;
+    out->look.motion = virga_effect_wants_motion(&rain->base);
 }
 
 static void fill_view(const virga_rain *rain, const virga_view *view, double time_s, rain_view_block *out)
@@ -155,16 +138,15 @@ static void fill_haze_alone(const virga_rain *rain, const virga_view *view, cons
     out->look.begin[3] = 0;
 }
 
-/* Takes the next place of the frame's ring. Blocks are copied into it at once: what is mapped may be slow to read. */
-static virga_result push_view(virga_rain *rain, const rain_view_block *block, uint32_t *place)
+/* The next block of the frame's ring, and which one it is. */
+static virga_result push_view(virga_rain *rain, const rain_view_block *block, uint32_t *index)
 {
-    if (rain->ring_views >= VIRGA_RAIN_MAX_VIEWS)
-        return virga_wrong_argument(&rain->context->log, "rain: more than %d views in a frame", VIRGA_RAIN_MAX_VIEWS);
+    virga_context *context = rain->base.context;
+    *index = virga_ring_used(context, &rain->view_ring);
+    if (*index >= VIRGA_RAIN_MAX_VIEWS)
+        return virga_wrong_argument(&context->log, "rain: more than %d views in a frame", VIRGA_RAIN_MAX_VIEWS);
     rain_keep_tick(rain);
-    *place = rain->ring_views++;
-    rain->view_offset = (rain->context->ring_slot * VIRGA_RAIN_MAX_VIEWS + *place) * rain_view_bytes();
-    memcpy((char *)rain->view_ring->memory.block.mapped + rain->view_offset, block, sizeof *block);
-    virga_buffer_flush(rain->context, rain->view_ring, rain->view_offset, rain_view_bytes());
+    rain->view_offset = virga_ring_push(context, &rain->view_ring, block, sizeof *block);
     return VIRGA_OK;
 }
 
@@ -172,7 +154,7 @@ static virga_result push_view(virga_rain *rain, const rain_view_block *block, ui
 
 static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.prepare");
     /* The draw before, of this or an earlier frame, may still read the streaks. */
     virga_barrier(context, cmd,
@@ -181,27 +163,21 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
                       VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
-    virga_record_list(context, cmd, rain->prepare_find, rain->prepare_scan, rain->list, rain->groups);
-    virga_dispatch_indirect(context, cmd, rain->prepare_write, rain->list_buffer->buffer, 0);
+    virga_record_list(context, cmd, rain->streak_mark, rain->streak_scan, rain->compact, rain->groups);
+    virga_dispatch_indirect(context, cmd, rain->streak_write, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_indirect(context, cmd, rain->prepare_order_count, rain->list_buffer->buffer, 0);
+    virga_dispatch_indirect(context, cmd, rain->order_count, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, rain->prepare_order_scan, VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES);
+    virga_dispatch(context, cmd, rain->order_scan, VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_indirect(context, cmd, rain->prepare_order, rain->list_buffer->buffer, 0);
+    virga_dispatch_indirect(context, cmd, rain->order_indices, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
                       VK_ACCESS_TRANSFER_READ_BIT);
-    const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback) + offsetof(rain_readback, prepared),
-                               sizeof(virga_prepared_gpu)};
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
-    context->vk.CmdCopyBuffer(cmd, rain->prepared_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_PREPARE, rain->prepared_buffer, 0,
+                                 offsetof(rain_readback, prepared), sizeof(virga_prepared_gpu));
     virga_pass_end(context, cmd, scope);
 }
 
@@ -221,130 +197,56 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     if (!rain)
         return VIRGA_ERROR_INVALID;
     if (!cmd || !view)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_prepare: NULL argument");
-    if (rain->context->lost)
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_prepare: NULL argument");
+    if (rain->base.context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    rain->prepared = false;
-    virga_result result = virga_view_check(rain->context, view, time_s);
+    rain->base.view.ready = false;
+    virga_result result = virga_view_check(rain->base.context, view, time_s);
     if (!result)
-        result = virga_group_ready(&rain->needed);
+        result = virga_effect_ready(&rain->base);
     if (result)
         return result;
     if (!rain->stepped)
         return VIRGA_NOT_READY;
     rain_begin_frame(rain, cmd);
-    uint32_t place;
+    uint32_t index;
     rain_view_block block;
     fill_view(rain, view, time_s, &block);
-    result = push_view(rain, &block, &place);
+    result = push_view(rain, &block, &index);
     if (result)
         return result;
-    rain->view_frame = rain->context->frame_index;
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
-    rain->prepared_set = rain_write_set(rain, place, has_depth ? &view->depth : NULL);
-    record_prepare(rain, cmd, rain->prepared_set);
-    memcpy(rain->prepared_viewport, view->viewport, sizeof rain->prepared_viewport);
-    rain->frame_stats[rain->context->ring_slot].frame_index = rain->context->frame_index;
-    rain->frame_stats[rain->context->ring_slot].prepared = true;
+    const VkDescriptorSet set = rain_write_set(rain, index, has_depth ? &view->depth : NULL);
+    record_prepare(rain, cmd, set);
+    virga_effect_set_view(&rain->base, set, view->viewport);
     rain->prepared_depth = has_depth;
     rain->prepared_line_px = rain->settings.min_width_px + 1; /* as their corners would be, see streak.glsl */
     rain->prepared_haze = has_depth && hazes(rain);
     rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
-    rain->prepared = true;
-    return virga_uploaded(rain->context);
+    return virga_uploaded(rain->base.context);
 }
 
-/* ---- attach and draw */
+/* ---- draw */
 
-static rain_target *find_target(virga_rain *rain, uint64_t serial)
-{
-    for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++)
-        if (rain->targets[i].serial == serial)
-            return &rain->targets[i];
-    return NULL;
-}
+static const uint32_t plain[2] = {0, VIRGA_RAIN_STREAKS_DEPTH};
+static const uint32_t lines[2] = {VIRGA_RAIN_STREAKS_LINES, VIRGA_RAIN_STREAKS_LINES | VIRGA_RAIN_STREAKS_DEPTH};
 
-static void target_clear(virga_rain *rain, rain_target *target)
-{
-    for (int depth = 0; depth < 2; depth++) {
-        VIRGA_RETIRE(rain->context, target->thin[depth]);
-        VIRGA_RETIRE(rain->context, target->lines[depth]);
-        VIRGA_RETIRE(rain->context, target->wide[depth]);
-    }
-    VIRGA_RETIRE(rain->context, target->haze);
-    VIRGA_RETIRE(rain->context, target->glow);
-    target->serial = 0;
-}
-
-void rain_targets_destroy(virga_rain *rain)
-{
-    for (uint32_t i = 0; i < VIRGA_RAIN_MAX_TARGETS; i++) {
-        target_clear(rain, &rain->targets[i]);
-    }
-}
-
-/* Of thin streaks, but as lines. */
-static virga_result line_pipeline(const virga_target *target, virga_graphics_def def, virga_pipeline **pipeline)
-{
-    def.lines = true;
-    def.constant |= VIRGA_RAIN_STREAKS_LINES;
-    def.name = "rain.line_streaks";
-    return virga_target_pipeline(target, def, pipeline);
-}
-
-virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
-{
-    if (!rain)
-        return VIRGA_ERROR_INVALID;
-    if (!target || target->context != rain->context)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_attach: expected a target of the same context");
-    if (rain->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    if (find_target(rain, target->serial))
-        return VIRGA_OK;
-    rain_target *slot = find_target(rain, 0);
-    if (!slot)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_attach: more than %d targets",
-                                    VIRGA_RAIN_MAX_TARGETS);
-    virga_result result = VIRGA_OK;
-    const virga_target_outputs outputs = virga_target_outputs_of(target);
-    virga_graphics_def def = {
-        .layout = rain->bindings->layout, .blend_premultiplied = true, .depth_test = true, .outputs = outputs};
-    for (uint32_t depth = 0; depth < 2; depth++) {
-        def.constant = depth ? VIRGA_RAIN_STREAKS_DEPTH : 0;
-        def.vertex = VIRGA_VERTEX_FORM(rain_draw_streak_thin_vert, outputs);
-        def.fragment = VIRGA_FRAGMENT_FORM(rain_draw_streak_thin_frag, outputs);
-        def.name = "rain.thin_streaks";
-        TRY(virga_target_pipeline(target, def, &slot->thin[depth]));
-        if (rain->context->lines)
-            TRY(line_pipeline(target, def, &slot->lines[depth]));
-        def.vertex = VIRGA_VERTEX_FORM(rain_draw_streak_wide_vert, outputs);
-        def.fragment = VIRGA_FRAGMENT_FORM(rain_draw_streak_wide_frag, outputs);
-        def.name = "rain.wide_streaks";
-        TRY(virga_target_pipeline(target, def, &slot->wide[depth]));
-    }
-    def.vertex = VIRGA_SPIRV(rain_draw_haze_vert);
-    def.fragment = VIRGA_SPIRV(rain_draw_haze_frag);
-    def.outputs = VIRGA_OUTPUTS_COLOR; /* haze moves with what it lies over */
-    def.depth_test = false;
-    def.name = "rain.haze";
-    TRY(virga_target_pipeline(target, def, &slot->haze));
-    def.vertex = VIRGA_SPIRV(rain_draw_glow_vert);
-    def.fragment = VIRGA_SPIRV(rain_draw_glow_frag);
-    def.name = "rain.glow";
-    TRY(virga_target_pipeline(target, def, &slot->glow));
-    slot->motion = outputs & VIRGA_OUTPUTS_MOTION;
-    slot->serial = target->serial;
-    return VIRGA_OK;
-error:
-    target_clear(rain, slot);
-    return result;
-}
+/* In the order of RAIN_DRAW_... Haze moves with what it lies over, so it writes no motion. */
+const virga_effect_draw rain_draws[RAIN_DRAW_ROWS] = {
+    {"rain.line_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_thin_vert),
+     VIRGA_FRAGMENT_FORMS(rain_draw_streak_thin_frag), lines, 2, .lines = true},
+    {"rain.thin_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_thin_vert),
+     VIRGA_FRAGMENT_FORMS(rain_draw_streak_thin_frag), plain, 2},
+    {"rain.wide_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_wide_vert),
+     VIRGA_FRAGMENT_FORMS(rain_draw_streak_wide_frag), plain, 2},
+    {"rain.haze", VIRGA_FORM(rain_draw_haze_vert), VIRGA_FORM(rain_draw_haze_frag), .no_depth = true},
+    {"rain.glow", VIRGA_FORM(rain_draw_glow_vert), VIRGA_FORM(rain_draw_glow_frag), .no_depth = true},
+};
 
 static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t corners,
                        uint32_t count, const char *name)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, name);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     context->vk.CmdDraw(cmd, corners, count, 0, 0);
@@ -353,7 +255,7 @@ static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeli
 
 static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
 {
-    const virga_functions *vk = &rain->context->vk;
+    const virga_functions *vk = &rain->base.context->vk;
     vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
 }
@@ -362,36 +264,31 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    if (!cmd || !target)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_draw: NULL argument");
-    if (target->context != rain->context) /* whose numbers of targets are others */
-        return virga_wrong_argument(&rain->context->log, "virga_rain_draw: expected a target of the same context");
-    if (rain->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    const rain_target *found = find_target(rain, target->serial);
-    /* What was prepared for an earlier frame lies where a later one writes. */
-    if (!found || !rain->prepared || rain->view_frame != rain->context->frame_index)
-        return virga_not_drawn(rain->context, "virga_rain_draw", found != NULL, virga_group_ready(&rain->needed),
-                               &rain->told_not_drawn);
-    const virga_pipeline *thin = found->thin[rain->prepared_depth], *wide = found->wide[rain->prepared_depth],
-                         *lines = found->lines[rain->prepared_depth];
-    const virga_pipeline *used[] = {found->haze, found->glow, thin, wide, lines ? lines : thin};
-    const virga_result result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
-    rain->told_not_drawn = false;
+    const virga_effect_target *found;
+    virga_result result =
+        virga_effect_check_draw(&rain->base, "virga_rain_draw", cmd, target, virga_effect_ready(&rain->base), &found);
     if (result)
         return result;
-    virga_context *context = rain->context;
-    virga_draw_area(context, cmd, rain->prepared_viewport);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->prepared_set);
+    const virga_pipeline *thin = found->draws[RAIN_DRAW_THIN + rain->prepared_depth],
+                         *wide = found->draws[RAIN_DRAW_WIDE + rain->prepared_depth],
+                         *line = found->draws[RAIN_DRAW_LINES + rain->prepared_depth],
+                         *haze = found->draws[RAIN_DRAW_HAZE], *glow = found->draws[RAIN_DRAW_GLOW];
+    const virga_pipeline *used[] = {haze, glow, thin, wide, line ? line : thin};
+    result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
+    if (result)
+        return result;
+    virga_context *context = rain->base.context;
+    virga_draw_area(context, cmd, rain->base.view.viewport);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->base.view.set);
     if (rain->prepared_haze)
-        draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze");
+        draw_plain(rain, cmd, haze, 3, 1, "rain.haze");
     if (rain->prepared_glows)
-        draw_plain(rain, cmd, found->glow, 6, rain->prepared_glows, "rain.glow");
+        draw_plain(rain, cmd, glow, 6, rain->prepared_glows, "rain.glow");
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "rain.streaks");
     context->vk.CmdBindIndexBuffer(cmd, rain->order_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
-    if (lines) {
+    if (line) {
         context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
-        draw_streaks(rain, cmd, lines, offsetof(virga_prepared_gpu, lines));
+        draw_streaks(rain, cmd, line, offsetof(virga_prepared_gpu, lines));
     }
     draw_streaks(rain, cmd, thin, offsetof(virga_prepared_gpu, thin));
     draw_streaks(rain, cmd, wide, offsetof(virga_prepared_gpu, wide));
@@ -402,18 +299,17 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
 /* ---- haze alone */
 
 static virga_result check_haze_alone(virga_rain *rain, VkCommandBuffer cmd, const virga_view *view,
-                                     const double begin[4], const virga_target *target)
+                                     const double begin[4], const virga_target *target,
+                                     const virga_effect_target **found)
 {
-    const virga_log *log = &rain->context->log;
-    if (!cmd || !view || !target)
-        return virga_wrong_argument(log, "virga_rain_draw_haze: NULL argument");
-    if (target->context != rain->context)
-        return virga_wrong_argument(log, "virga_rain_draw_haze: expected a target of the same context");
-    if (rain->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
+    const virga_log *log = &rain->base.context->log;
+    virga_result result =
+        virga_effect_find_target(&rain->base, "virga_rain_draw_haze", view ? cmd : VK_NULL_HANDLE, target, found);
+    if (result)
+        return result;
     if (begin && virga_settings_finite_double(log, "virga_rain_draw_haze: begin", begin, 4))
         return VIRGA_ERROR_INVALID;
-    const virga_result result = virga_view_check(rain->context, view, 0);
+    result = virga_view_check(rain->base.context, view, 0);
     if (result)
         return result;
     if (view->depth.view == VK_NULL_HANDLE)
@@ -426,30 +322,30 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    virga_result result = check_haze_alone(rain, cmd, view, begin, target);
+    const virga_effect_target *found;
+    virga_result result = check_haze_alone(rain, cmd, view, begin, target, &found);
     if (result)
         return result;
-    const rain_target *found = find_target(rain, target->serial);
     /* Inside rendering a frame can not be begun. */
-    if (!found || !rain->stepped || rain->ring_frame != rain->context->frame_index)
+    if (!found || !rain->stepped || rain->base.step_frame != rain->base.context->frame_index)
         return VIRGA_NOT_READY;
-    const virga_pipeline *used[] = {found->haze, found->glow};
+    const virga_pipeline *used[] = {found->draws[RAIN_DRAW_HAZE], found->draws[RAIN_DRAW_GLOW]};
     result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result || !hazes(rain))
         return result;
-    uint32_t place;
+    uint32_t index;
     rain_view_block block;
     const uint32_t prepared_offset = rain->view_offset;
     fill_view(rain, view, virga_rain_time(rain), &block);
     fill_haze_alone(rain, view, begin, &block);
-    result = push_view(rain, &block, &place);
+    result = push_view(rain, &block, &index);
     if (result)
         return result;
-    virga_draw_area(rain->context, cmd, view->viewport);
-    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, place, &view->depth));
-    draw_plain(rain, cmd, found->haze, 3, 1, "rain.haze_alone");
+    virga_draw_area(rain->base.context, cmd, view->viewport);
+    rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, index, &view->depth));
+    draw_plain(rain, cmd, used[0], 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))
-        draw_plain(rain, cmd, found->glow, 6, glowing_lamps(rain), "rain.glow_alone");
+        draw_plain(rain, cmd, used[1], 6, glowing_lamps(rain), "rain.glow_alone");
     rain->view_offset = prepared_offset; /* virga_rain_draw may still come */
-    return virga_uploaded(rain->context);
+    return virga_uploaded(rain->base.context);
 }

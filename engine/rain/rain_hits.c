@@ -2,20 +2,12 @@
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
-#include "gpu/builds.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
 
 #include <math.h>
-
-#define HITS_SIZE (sizeof(virga_impacts_gpu) + VIRGA_RAIN_MAX_HITS * sizeof(virga_impact_gpu))
-
-VkDeviceSize rain_hits_bytes(void)
-{
-    return (HITS_SIZE + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT;
-}
 
 static bool unit_length(const float v[3])
 {
@@ -25,10 +17,10 @@ static bool unit_length(const float v[3])
 
 static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane)
 {
-    const virga_log *log = &rain->context->log;
+    const virga_log *log = &rain->base.context->log;
     if (!cmd || !pane)
         return virga_wrong_argument(log, "virga_rain_hits: NULL argument");
-    if (rain->context->lost)
+    if (rain->base.context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     if (virga_settings_places(log, "rain_pane.corner_m", pane->corner_m, 3) ||
         virga_settings_finite(log, "rain_pane.velocity_m_s", pane->velocity_m_s, 3))
@@ -38,10 +30,10 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
     if (!(pane->width_m > 0 && pane->width_m <= 100 && pane->height_m > 0 && pane->height_m <= 100))
         return virga_wrong_argument(log, "rain_pane: expected a width and height of up to 100 m, got %g x %g",
                                     (double)pane->width_m, (double)pane->height_m);
-    if (rain->hits_frame == rain->context->frame_index && rain->hits_panes >= rain->def.max_panes)
+    if (rain->hits_frame == rain->base.context->frame_index && rain->hits_panes >= rain->def.max_panes)
         return virga_wrong_argument(log, "virga_rain_hits: more than rain_def.max_panes = %u in a frame",
                                     rain->def.max_panes);
-    return virga_group_ready(&rain->needed);
+    return virga_effect_ready(&rain->base);
 }
 
 /* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of
@@ -83,7 +75,7 @@ static virga_rain_pane_gpu pane_of(const virga_rain *rain, const virga_rain_pane
 
 static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_gpu *pane)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
     /* Lists are shared with the impacts; a pane may still read the hits of a step before. */
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -92,10 +84,10 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
                   READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
-    virga_record_list(context, cmd, rain->hit_find, rain->hit_scan, rain->list, pane->groups);
+    virga_record_list(context, cmd, rain->hit_mark, rain->hit_scan, rain->compact, pane->groups);
     virga_dispatch_indirect(context, cmd, rain->hit_count, rain->list_buffer->buffer, 0);
     virga_compute_barrier(context, cmd);
-    virga_dispatch(context, cmd, rain->hit_place, 1);
+    virga_dispatch(context, cmd, rain->hit_offsets, 1);
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->hit_write, rain->list_buffer->buffer, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -110,23 +102,24 @@ virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (!rain)
         return VIRGA_ERROR_INVALID;
     if (!hits)
-        return virga_wrong_argument(&rain->context->log, "virga_rain_hits: NULL argument");
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_hits: NULL argument");
     *hits = (virga_rain_buffer){0};
     const virga_result result = check_pane(rain, cmd, pane);
     if (result)
         return result;
-    if (!rain->stepped || rain->step_set_frame != rain->context->frame_index)
+    if (!rain->stepped || rain->step_set_frame != rain->base.context->frame_index)
         return VIRGA_NOT_READY;
-    if (rain->hits_frame != rain->context->frame_index)
+    if (rain->hits_frame != rain->base.context->frame_index)
         rain->hits_panes = 0;
-    rain->hits_frame = rain->context->frame_index;
-    rain->hits_offset = (uint32_t)(rain->hits_panes++ * rain_hits_bytes());
+    rain->hits_frame = rain->base.context->frame_index;
+    rain->hits_offset = (uint32_t)(rain->hits_panes++ * RAIN_HITS_BYTES);
     virga_rain_pane known = *pane;
     bool changed = false;
-    virga_clamp_vector(&rain->context->log, "rain_pane.velocity_m_s", known.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(&rain->base.context->log, "rain_pane.velocity_m_s", known.velocity_m_s, VIRGA_FASTEST_M_S,
+                       &changed);
     const virga_rain_pane_gpu pushed = pane_of(rain, &known);
     record(rain, cmd, &pushed);
-    *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, HITS_SIZE};
+    *hits = (virga_rain_buffer){rain->hit_buffer->buffer, rain->hits_offset, RAIN_HITS_SIZE};
     rain->hits_offset = 0;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

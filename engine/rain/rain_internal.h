@@ -11,11 +11,10 @@
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H
 
-#include "gpu/bindings.h"
+#include "rain/rain.h"
 #include "gpu/context.h"
+#include "gpu/effect.h"
 #include "gpu/mesh_map.h"
-#include "gpu/pipelines.h"
-#include "gpu/resources.h"
 
 #include <stddef.h>
 
@@ -86,35 +85,40 @@ typedef struct rain_map {
     double half_m, top_m, height_m;
 } rain_map;
 
-typedef struct rain_target {
-    uint64_t serial;                   /* of the virga_target; 0: free */
-    virga_pipeline *thin[2], *wide[2]; /* without and with the scene's depth to read */
-    virga_pipeline *lines[2];          /* thin streaks that are lines, NULL where none is */
-    virga_pipeline *haze, *glow;
-    bool motion; /* it has motion vectors */
-} rain_target;
+/* A target's pipelines: those of streaks without and, behind it, with the scene's depth to read. */
+enum {
+    RAIN_DRAW_LINES = 0, /* thin streaks as lines, where the context has them */
+    RAIN_DRAW_THIN = 2,
+    RAIN_DRAW_WIDE = 4,
+    RAIN_DRAW_HAZE = 6,
+    RAIN_DRAW_GLOW = 7,
+    RAIN_DRAW_ROWS = 5
+};
 
 /* A streak, and behind all of them its motion: four texels and one. */
 #define RAIN_STREAK_BYTES ((uint32_t)sizeof(virga_streak_gpu) + 16)
 
 enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
-/* What the statistics ring reads back for one frame. */
+enum { RAIN_LAYOUTS = 1 };
+
+/* What is read back of one frame. */
 typedef struct rain_readback {
-    virga_impacts_gpu impacts;
-    virga_prepared_gpu prepared;
+    virga_impacts_gpu impacts;   /* of its step */
+    virga_prepared_gpu prepared; /* of its prepare */
 } rain_readback;
 
+enum { RAIN_PART_STEP, RAIN_PART_PREPARE }; /* of the statistics */
+
+/* What the host knows of a frame's step. */
 typedef struct rain_frame_stats {
-    uint64_t frame_index; /* 0: nothing was recorded */
     double time_s;
     uint32_t ticks;
     float wind_m_s[3];
-    bool stepped, prepared; /* which parts were recorded in that frame */
 } rain_frame_stats;
 
 struct virga_rain {
-    virga_context *context;
+    virga_effect base; /* first */
     virga_rain_def def;
     virga_rain_settings settings;
     virga_image wind_image;                  /* copy of what settings.wind_texture points to */
@@ -128,16 +132,17 @@ struct virga_rain {
     uint32_t ticks_of_step; /* run by the newest step */
     double left_over_s;     /* host time not yet run */
     double origin[3];       /* of the newest tick */
-    bool stepped, slots_uploaded, sway_cleared, sway_on;
+    bool stepped, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
         *prepared_buffer, *hit_buffer, *hit_places, *sway_buffer, *order_buffer, *point_buffer;
-    virga_buffer *tick_ring, *view_ring, *readback_ring;
+    virga_ring tick_ring, view_ring;
+    uint32_t tick_offset, view_offset; /* of the newest blocks */
+    uint64_t tick_frame;               /* in whose part of the ring the newest tick is */
     virga_mesh_map *map;
     virga_image_2d *blank;      /* depth, for the scene depth that a view has not */
     virga_image_2d *blank_wind; /* a 3D image of one texel, for the wind that a host has not given */
-    bool images_ready;          /* first layouts have been recorded */
 
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
     uint32_t map_count; /* drawn and in use */
@@ -149,26 +154,15 @@ struct virga_rain {
     virga_bindings *bindings;
     VkDescriptorSet step_set; /* of the frame step_set_frame */
     uint64_t step_set_frame;
-    virga_pipeline_group needed; /* for all but the draws */
-    virga_pipeline *step, *sway, *impact_near, *impact_near_scan, *impact_find, *impact_scan, *impact_write,
-        *prepare_find, *prepare_scan, *prepare_write, *prepare_order_count, *prepare_order_scan, *prepare_order, *list,
-        *points, *hit_find, *hit_scan, *hit_count, *hit_place, *hit_write;
-    rain_target targets[VIRGA_RAIN_MAX_TARGETS];
+    virga_pipeline *move, *sway, *impact_near_mark, *impact_near_scan, *impact_mark, *impact_scan, *impact_write,
+        *streak_mark, *streak_scan, *streak_write, *order_count, *order_scan, *order_indices, *compact,
+        *points, *hit_mark, *hit_scan, *hit_count, *hit_offsets, *hit_write;
 
     uint64_t hits_frame; /* that hits_panes belongs to */
     uint32_t hits_panes, hits_offset;
-    uint64_t ring_frame; /* frame that the ring cursors below belong to */
-    uint32_t ring_ticks, ring_views;
-    uint32_t tick_offset, view_offset; /* of the newest tick and view, bytes */
-    uint64_t tick_frame, view_frame;   /* in whose parts of the rings they are */
-    uint32_t view_slot;
-    bool prepared;
-    bool told_not_drawn; /* since the last draw that had all it needs */
     float prepared_line_px; /* width of lines */
     bool prepared_haze, prepared_depth;
     uint32_t prepared_glows; /* lamps that glow */
-    VkDescriptorSet prepared_set;
-    float prepared_viewport[4];
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
     virga_rain_stats stats;
 };
@@ -198,15 +192,14 @@ typedef struct rain_view_block {
     virga_rain_look_gpu look;
 } rain_view_block;
 
-/* Bytes that one tick or view takes in its ring. */
-uint32_t rain_tick_bytes(void);
-uint32_t rain_view_bytes(void);
+/* Bytes of the hits of one pane, see rain_hits.c. */
+#define RAIN_HITS_SIZE  (sizeof(virga_impacts_gpu) + VIRGA_RAIN_MAX_HITS * sizeof(virga_impact_gpu))
+#define RAIN_HITS_BYTES ((RAIN_HITS_SIZE + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
 
-/* ---- rain_hits.c: bytes of one pane's hits. */
-VkDeviceSize rain_hits_bytes(void);
+/* ---- rain.c */
 
 /* ---- rain_descriptors.c */
-virga_result rain_descriptors_create(virga_rain *rain);
+extern const virga_effect_layout rain_layouts[RAIN_LAYOUTS];
 
 /* Writes a set of this frame; `scene_depth` NULL for a blank. */
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);
@@ -218,9 +211,9 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
  * anew by the time that the device reads it. */
 void rain_keep_tick(virga_rain *rain);
 
-/* Puts the ring cursors to the start of a new frame, takes in its old statistics, and makes first layouts. */
+/* Before a call records: first contents, and the statistics of completed frames. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
-void rain_take_statistics(virga_rain *rain);
+void rain_read_statistics(void *rain, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 /* ---- rain_occlusion.c */
 virga_result rain_occlusion_create(virga_rain *rain);
@@ -229,6 +222,6 @@ void rain_occlusion_tick(virga_rain *rain);
 void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS]);
 
 /* ---- rain_draw.c */
-void rain_targets_destroy(virga_rain *rain);
+extern const virga_effect_draw rain_draws[RAIN_DRAW_ROWS];
 
 #endif

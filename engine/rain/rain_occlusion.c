@@ -8,7 +8,6 @@
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
-#include "gpu/builds.h"
 #include "gpu/errors.h"
 #include "gpu/timers.h"
 
@@ -144,9 +143,9 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
 
 virga_result rain_occlusion_create(virga_rain *rain)
 {
-    return virga_mesh_map_create(rain->context, rain->def.occlusion_size,
+    return virga_mesh_map_create(rain->base.context, rain->def.occlusion_size,
                                  rain->def.occlusion_cascades * rain->def.occlusion_slants, rain->def.occluder_strides,
-                                 "rain.map", &rain->needed, &rain->map);
+                                 "rain.map", &rain->base.passes, &rain->map);
 }
 
 static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, const double camera_m[3],
@@ -159,27 +158,27 @@ static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, cons
                            .height_m = map->height_m};
     memcpy(view.origin_m, camera_m, sizeof view.origin_m);
     centre_from(map, camera_m, view.centre);
-    virga_mesh_map_draw(rain->context, cmd, rain->map, index, &view, occluders, count);
+    virga_mesh_map_draw(rain->base.context, cmd, rain->map, index, &view, occluders, count);
 }
 
 static virga_result check_call(const virga_rain *rain, const double camera_m[3])
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    if (rain->context->lost)
+    if (rain->base.context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->def.occlusion_size)
         return VIRGA_NOT_READY;
-    return camera_m ? virga_settings_places(&rain->context->log, "camera_m", camera_m, 3) : VIRGA_OK;
+    return camera_m ? virga_settings_places(&rain->base.context->log, "camera_m", camera_m, 3) : VIRGA_OK;
 }
 
 /* The same for calls that record: what they use belongs to a frame. */
 static virga_result check_recording(const virga_rain *rain, const double camera_m[3])
 {
     const virga_result result = check_call(rain, camera_m);
-    if (result || rain->context->frame_index)
+    if (result || rain->base.context->frame_index)
         return result;
-    return virga_wrong_argument(&rain->context->log, "occlusion: expected virga_frame_begin before it");
+    return virga_wrong_argument(&rain->base.context->log, "occlusion: expected virga_frame_begin before it");
 }
 
 virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
@@ -189,10 +188,10 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
     if (result)
         return result;
     if (!cmd || !camera_m || (count && !occluders))
-        return virga_wrong_argument(&rain->context->log, "virga_rain_occlusion: NULL argument");
-    result = virga_mesh_map_check(rain->context, rain->map, occluders, count);
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_occlusion: NULL argument");
+    result = virga_mesh_map_check(rain->base.context, rain->map, occluders, count);
     if (!result)
-        result = virga_group_ready(&rain->needed);
+        result = virga_effect_ready(&rain->base);
     if (result)
         return result;
     rain_begin_frame(rain, cmd);
@@ -204,13 +203,13 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
     rain->host_maps = false;
     rain->maps_drawn = true;
     rain->map_turn++;
-    const virga_pass_scope scope = virga_pass_begin(rain->context, cmd, "rain.occlusion");
+    const virga_pass_scope scope = virga_pass_begin(rain->base.context, cmd, "rain.occlusion");
     for (uint32_t i = 0; i < rain->map_count; i++)
         if (all || (i + rain->map_turn) % rain->settings.occlusion_turns == 0) {
             plan_map(rain, i, camera_m, top_m);
             draw_map(rain, cmd, i, camera_m, occluders, count);
         }
-    virga_pass_end(rain->context, cmd, scope);
+    virga_pass_end(rain->base.context, cmd, scope);
     return VIRGA_OK;
 }
 
@@ -261,7 +260,7 @@ virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, 
         return result;
     const uint32_t count = planned_count(rain);
     if (!cmd || !depth || !depth->view || depth->extent.width != depth->extent.height || depth->layers < count)
-        return virga_wrong_argument(&rain->context->log,
+        return virga_wrong_argument(&rain->base.context->log,
                                     "virga_rain_occlusion_import: expected a square image with %u layers", count);
     rain_begin_frame(rain, cmd);
     rain->map_count = count;

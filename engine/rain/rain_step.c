@@ -2,8 +2,6 @@
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
-#include "gpu/builds.h"
-#include "gpu/device_check.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -11,107 +9,62 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_STEP_S 10.0
-
-uint32_t rain_tick_bytes(void)
-{
-    return (uint32_t)((sizeof(rain_tick_block) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT *
-                      VIRGA_RING_ALIGNMENT);
-}
+#define MAX_STEP_S 10.0
 
 /* ---- a frame's start */
 
-static void take_slot(virga_rain *rain, uint32_t slot)
+static void read_step(virga_rain *rain, const rain_frame_stats *frame, const virga_impacts_gpu *impacts)
 {
-    rain_frame_stats *frame = &rain->frame_stats[slot];
-    rain_readback read;
-    memcpy(&read, (const char *)rain->readback_ring->memory.block.mapped + slot * sizeof read, sizeof read);
     virga_rain_stats *stats = &rain->stats;
-    stats->frame_index = frame->frame_index;
-    stats->slots = rain->slots;
-    if (frame->prepared)
-        stats->streaks = read.prepared.streaks;
-    const bool stepped = frame->stepped;
-    if (stepped) {
-        stats->time_s = frame->time_s;
-        stats->ticks = frame->ticks;
-        stats->impacts = frame->ticks ? read.impacts.count : 0;
-        stats->impacts_dropped = frame->ticks ? read.impacts.dropped : 0;
-        stats->impact_water_nl =
-            frame->ticks ? (uint64_t)read.impacts.water_nl_high << 32 | read.impacts.water_nl_low : 0;
-        stats->total_water_nl += stats->impact_water_nl;
-        memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
-    }
-    if (stepped && stats->impacts_dropped)
-        virga_log_say(&rain->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
+    stats->time_s = frame->time_s;
+    stats->ticks = frame->ticks;
+    stats->impacts = frame->ticks ? impacts->count : 0;
+    stats->impacts_dropped = frame->ticks ? impacts->dropped : 0;
+    stats->impact_water_nl = frame->ticks ? (uint64_t)impacts->water_nl_high << 32 | impacts->water_nl_low : 0;
+    stats->total_water_nl += stats->impact_water_nl;
+    memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
+    if (stats->impacts_dropped)
+        virga_log_say(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
                       "%u impacts of a step found no room; max_impacts is %u", stats->impacts_dropped,
                       rain->def.max_impacts);
-    memset(frame, 0, sizeof *frame);
 }
 
-/* Takes in what completed frames have left in the ring, oldest first. */
-void rain_take_statistics(virga_rain *rain)
+void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
-    const virga_context *context = rain->context;
-    virga_buffer_invalidate(rain->context, rain->readback_ring);
-    for (;;) {
-        uint32_t oldest = VIRGA_MAX_FRAMES_IN_FLIGHT;
-        for (uint32_t i = 0; i < context->frames_in_flight; i++) {
-            const uint64_t index = rain->frame_stats[i].frame_index;
-            if (index && index <= context->completed_index &&
-                (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT || index < rain->frame_stats[oldest].frame_index))
-                oldest = i;
-        }
-        if (oldest == VIRGA_MAX_FRAMES_IN_FLIGHT)
-            return;
-        take_slot(rain, oldest);
-    }
+    virga_rain *rain = object;
+    rain_readback read;
+    memcpy(&read, data, sizeof read);
+    rain->stats.frame_index = frame;
+    rain->stats.slots = rain->slots;
+    if (parts & 1u << RAIN_PART_PREPARE)
+        rain->stats.streaks = read.prepared.streaks;
+    if (parts & 1u << RAIN_PART_STEP)
+        read_step(rain, &rain->frame_stats[ring_slot], &read.impacts);
 }
 
-/* Images that nothing has been drawn into yet get the layout that descriptors promise. */
-static void first_layouts(virga_rain *rain, VkCommandBuffer cmd)
+static void upload_slots(virga_rain *rain, VkCommandBuffer cmd)
 {
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const virga_image_state after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                     VK_ACCESS_SHADER_READ_BIT};
-    virga_mesh_map_first_layouts(rain->context, cmd, rain->map);
-    virga_image_barrier(rain->context, cmd, rain->blank->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
-    virga_image_barrier(rain->context, cmd, rain->blank_wind->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
-}
-
-static void upload_tables(virga_rain *rain, VkCommandBuffer cmd)
-{
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     const VkBufferCopy slots = {0, 0, rain->slot_buffer->size};
     context->vk.CmdCopyBuffer(cmd, rain->slot_upload->buffer, rain->slot_buffer->buffer, 1, &slots);
-    if (rain->sway_buffer)
-        context->vk.CmdFillBuffer(cmd, rain->sway_buffer->buffer, 0, VK_WHOLE_SIZE, 0);
-    context->vk.CmdFillBuffer(cmd, rain->impact_buffer->buffer, 0, sizeof(virga_impacts_gpu), 0);
-    context->vk.CmdFillBuffer(cmd, rain->prepared_buffer->buffer, 0, VK_WHOLE_SIZE, 0);
-    virga_barrier(
-        context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-        READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    /* The staging buffer waits in the graveyard until this frame has completed. */
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    /* The staging buffer is destroyed once this frame has completed. */
     VIRGA_RETIRE(context, rain->slot_upload);
 }
 
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     virga_timers_reset(context, cmd);
-    if (!rain->images_ready) {
-        first_layouts(rain, cmd);
-        upload_tables(rain, cmd);
-        rain->images_ready = true;
+    if (virga_effect_first_contents(&rain->base, cmd)) {
+        virga_mesh_map_first_layouts(context, cmd, rain->map);
+        upload_slots(rain, cmd);
     }
-    if (rain->ring_frame == context->frame_index)
+    if (rain->base.step_frame == context->frame_index)
         return;
-    rain->ring_frame = context->frame_index;
-    rain->ring_ticks = 0;
-    rain->ring_views = 0;
-    rain_take_statistics(rain);
+    rain->base.step_frame = context->frame_index;
+    virga_effect_read_statistics(&rain->base);
 }
 
 /* ---- a tick */
@@ -184,32 +137,29 @@ static void fill_tick(const virga_rain *rain, uint32_t tick_in_step, rain_tick_b
     fill_classes(rain, block);
 }
 
-/* Writes the block of a tick at a place of the frame's ring and points the dynamic offset at it. */
-static void write_tick(virga_rain *rain, uint32_t place, uint32_t tick_in_step)
-{
-    const uint32_t per_frame = rain->def.max_ticks_per_step + 1;
-    rain->tick_offset = (rain->context->ring_slot * per_frame + place) * rain_tick_bytes();
-    rain->tick_frame = rain->context->frame_index;
-    fill_tick(rain, tick_in_step,
-              (rain_tick_block *)((char *)rain->tick_ring->memory.block.mapped + rain->tick_offset));
-    virga_buffer_flush(rain->context, rain->tick_ring, rain->tick_offset, rain_tick_bytes());
-}
-
 static void push_tick(virga_rain *rain, uint32_t tick_in_step)
 {
-    write_tick(rain, rain->ring_ticks++, tick_in_step);
+    rain_tick_block block;
+    fill_tick(rain, tick_in_step, &block);
+    rain->tick_frame = rain->base.context->frame_index;
+    rain->tick_offset = virga_ring_push(rain->base.context, &rain->tick_ring, &block, sizeof block);
 }
 
 /* Behind those of steps, so that a step after it in the frame has all of its own. */
 void rain_keep_tick(virga_rain *rain)
 {
-    if (rain->tick_frame != rain->context->frame_index)
-        write_tick(rain, rain->def.max_ticks_per_step, 0);
+    rain_tick_block block;
+    virga_context *context = rain->base.context;
+    if (rain->tick_frame == context->frame_index)
+        return;
+    fill_tick(rain, 0, &block);
+    rain->tick_frame = context->frame_index;
+    rain->tick_offset = virga_ring_write(context, &rain->tick_ring, rain->def.max_ticks_per_step, &block, sizeof block);
 }
 
 static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_pass_scope scope;
     if (rain->sway_on) {
@@ -219,13 +169,13 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
         virga_pass_end(context, cmd, scope);
     }
     scope = virga_pass_begin(context, cmd, "rain.step");
-    virga_dispatch(context, cmd, rain->step, rain->groups);
+    virga_dispatch(context, cmd, rain->move, rain->groups);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
     scope = virga_pass_begin(context, cmd, "rain.impacts");
     const VkBuffer list = rain->list_buffer->buffer;
-    virga_record_list(context, cmd, rain->impact_near, rain->impact_near_scan, rain->list, rain->groups);
-    virga_dispatch_indirect_and_barrier(context, cmd, rain->impact_find, list, 0);
+    virga_record_list(context, cmd, rain->impact_near_mark, rain->impact_near_scan, rain->compact, rain->groups);
+    virga_dispatch_indirect_and_barrier(context, cmd, rain->impact_mark, list, 0);
     virga_dispatch_and_barrier(context, cmd, rain->impact_scan, 1);
     virga_dispatch_indirect(context, cmd, rain->impact_write, list, 0);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
@@ -236,11 +186,11 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
 /* The state of the field at the newest tick, seen from a new place: no time passes, nothing lands. */
 static void record_refresh(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     push_tick(rain, 0);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.step");
-    virga_dispatch(context, cmd, rain->step, rain->groups);
+    virga_dispatch(context, cmd, rain->move, rain->groups);
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -254,15 +204,21 @@ static void advance(virga_rain *rain)
     rain->ticks++;
 }
 
-/* Whole ticks that host time completes; the rest is kept, or dropped where a step can not run that many. */
-static uint32_t take_ticks(virga_rain *rain, double dt_s, bool *dropped)
+static uint32_t ticks_of_frame(const virga_rain *rain)
 {
+    return virga_ring_used(rain->base.context, &rain->tick_ring);
+}
+
+/* Whole ticks that host time completes; the rest is kept, or dropped where a step can not run that many. */
+static uint32_t whole_ticks(virga_rain *rain, double dt_s, bool *dropped)
+{
+    const uint32_t left = rain->def.max_ticks_per_step - ticks_of_frame(rain);
     rain->left_over_s += dt_s;
     /* A tick that is short by rounding alone counts, or 1/24 s at a tick of 1/48 s would run 1, 2, 3, 2, ... */
     double whole = floor(rain->left_over_s / rain->def.tick_s + 1e-9);
-    if (whole > rain->def.max_ticks_per_step - rain->ring_ticks) {
-        whole = rain->def.max_ticks_per_step - rain->ring_ticks;
-        virga_log_say(&rain->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
+    if (whole > left) {
+        whole = left;
+        virga_log_say(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
                       "a step of %g s at ticks of %g s: only %g are run (max_ticks_per_step)", dt_s, rain->def.tick_s,
                       whole);
         rain->left_over_s = whole * rain->def.tick_s;
@@ -277,36 +233,29 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &rain->context->log;
-    if (!cmd || !info)
-        return virga_wrong_argument(log, "virga_rain_step: NULL argument");
-    if (rain->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    if (!rain->context->frame_index)
-        return virga_wrong_argument(log, "virga_rain_step: expected virga_frame_begin before it");
+    const virga_log *log = &rain->base.context->log;
+    const virga_result result = virga_effect_check_step(&rain->base, "virga_rain_step", cmd, info);
+    if (result)
+        return result;
     if (virga_settings_places(log, "step_info.camera_m", info->camera_m, 3))
         return VIRGA_ERROR_INVALID;
-    if (!(info->dt_s >= 0 && info->dt_s <= MOST_STEP_S))
+    if (!(info->dt_s >= 0 && info->dt_s <= MAX_STEP_S))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 10 s, got %g", info->dt_s);
-    if (rain->ring_frame == rain->context->frame_index && rain->ring_ticks >= rain->def.max_ticks_per_step)
+    if (ticks_of_frame(rain) >= rain->def.max_ticks_per_step)
         return virga_wrong_argument(log, "virga_rain_step: this frame has run all of max_ticks_per_step");
-    return virga_group_ready(&rain->needed);
+    return virga_effect_ready(&rain->base);
 }
 
-/* Copies the heads of the buffers to where the host reads them when the frame has completed. */
-static void record_impact_readback(virga_rain *rain, VkCommandBuffer cmd)
+/* The head of the impacts comes back; what others do with the impacts waits for them here. */
+static void record_readback(virga_rain *rain, VkCommandBuffer cmd)
 {
-    virga_context *context = rain->context;
-    const VkBufferCopy copy = {0, context->ring_slot * sizeof(rain_readback), sizeof(virga_impacts_gpu)};
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+    virga_barrier(rain->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT |
-                      VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-    context->vk.CmdCopyBuffer(cmd, rain->impact_buffer->buffer, rain->readback_ring->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_STEP, rain->impact_buffer, 0,
+                                 offsetof(rain_readback, impacts), sizeof(virga_impacts_gpu));
 }
 
 virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_step_info *info)
@@ -314,7 +263,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     const virga_result result = check_step(rain, cmd, info);
     if (result)
         return result;
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     rain_begin_frame(rain, cmd);
     for (int axis = 0; axis < 3; axis++)
         rain->origin[axis] = (double)(float)info->camera_m[axis];
@@ -330,7 +279,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
     bool dropped = false;
-    const uint32_t ticks = take_ticks(rain, info->dt_s, &dropped);
+    const uint32_t ticks = whole_ticks(rain, info->dt_s, &dropped);
     for (uint32_t i = 0; i < ticks; i++) {
         advance(rain);
         push_tick(rain, i);
@@ -339,10 +288,8 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     if (!ticks)
         record_refresh(rain, cmd, set);
     rain->stepped = true;
-    record_impact_readback(rain, cmd);
+    record_readback(rain, cmd);
     rain_frame_stats *frame = &rain->frame_stats[context->ring_slot];
-    frame->frame_index = context->frame_index;
-    frame->stepped = true;
     frame->time_s = virga_rain_time(rain);
     frame->ticks = ticks;
     rain->ticks_of_step = ticks;
@@ -357,7 +304,7 @@ virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    virga_context *context = rain->context;
+    virga_context *context = rain->base.context;
     if (!cmd || !points || !count || !origin_m)
         return virga_wrong_argument(&context->log, "virga_rain_points: NULL argument");
     if (context->lost)

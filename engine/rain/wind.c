@@ -1,8 +1,9 @@
 /* rain/wind.c - the uniform wind: a mean and gusts that are smooth noise in time. */
 #include "rain/rain_internal.h"
 
-#include <math.h>
 #include <virga/shared/random.h>
+
+#include <math.h>
 
 #define WIND_STREAM    0x77696e64u /* of random numbers */
 #define VERTICAL_SHARE 0.4         /* of a gust, against its horizontal components: near the ground it has less room */

@@ -1,26 +1,20 @@
-/* scene/scene.c - the effects of a place along their events. The only file that knows them all. */
+/* scene/scene.c - the life of a scene. Every function walks the effects that scene_effects.c lists. */
+#include "scene/scene_internal.h"
+
+#include "core/memory.h"
 #include "core/settings.h"
-#include "glass/glass_internal.h"
+#include "glass/glass.h"
+#include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/view.h"
-
-#include <virga/scene.h>
+#include "ground/ground.h"
+#include "rain/rain.h"
+#include "splash/splash.h"
 
 #include <math.h>
 #include <string.h>
 
 #define SCENE_COOKIE VIRGA_COOKIE(6)
-
-struct virga_scene {
-    virga_context *context;
-    virga_rain *rain;
-    virga_ground *ground; /* NULL: none */
-    virga_splash *splash; /* NULL: none */
-    virga_glass *panes[VIRGA_SCENE_MAX_PANES];
-    uint32_t pane_count;
-    bool told_far;     /* that the view's camera is beyond the rain, since it was within */
-    uint32_t catching; /* so many of them, from the first on, catch the rain's drops; the others get its rate */
-};
 
 virga_scene_def virga_default_scene_def(void)
 {
@@ -31,42 +25,7 @@ virga_scene_def virga_default_scene_def(void)
                              .splash = virga_default_splash_def()};
 }
 
-/* What must be the same as the rain's is taken from it. */
-static virga_ground_def ground_of(const virga_scene_def *def)
-{
-    virga_ground_def taken = def->ground;
-    taken.seed = def->rain.seed;
-    if (def->with_splash && taken.max_returns < taken.max_spawns)
-        taken.max_returns = taken.max_spawns; /* as splash needs */
-    taken.tick_s = def->rain.tick_s;
-    taken.max_impacts = def->rain.max_impacts;
-    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
-    for (int i = 0; i < 4; i++)
-        taken.occluder_strides[i] = def->rain.occluder_strides[i];
-    return taken;
-}
-
-static virga_splash_def splash_of(const virga_scene_def *def)
-{
-    virga_splash_def taken = def->splash;
-    taken.tick_s = def->rain.tick_s;
-    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
-    taken.max_spawns = def->ground.max_spawns;
-    taken.max_returns = def->ground.max_returns > taken.max_spawns ? def->ground.max_returns : taken.max_spawns;
-    return taken;
-}
-
-static virga_glass_def pane_of(const virga_scene_def *def, uint32_t index)
-{
-    virga_glass_def taken = def->panes[index];
-    taken.seed = def->rain.seed + index;
-    taken.tick_s = def->rain.tick_s;
-    taken.max_ticks_per_step = def->rain.max_ticks_per_step;
-    return taken;
-}
-
-/* The first error, else the last remark. */
-static virga_result worst(virga_result a, virga_result b)
+virga_result scene_merge_results(virga_result a, virga_result b)
 {
     return a < 0 ? a : b ? b : a;
 }
@@ -85,21 +44,18 @@ static virga_result check_def(const virga_log *log, const virga_scene_def *def)
     return VIRGA_OK;
 }
 
-/* Parts of a scene, in the order they are made. */
-enum { PART_RAIN, PART_GROUND, PART_SPLASH, PART_PANES };
+/* ---- which effects a definition asks for */
 
-static VkDeviceSize part_estimate(const virga_scene_def *def, uint32_t part)
+static uint32_t count_of_kind(const virga_scene_def *def, const scene_kind *kind)
 {
-    const virga_ground_def ground = ground_of(def);
-    const virga_splash_def splash = splash_of(def);
-    if (part == PART_RAIN)
-        return virga_rain_estimate(&def->rain);
-    if (part == PART_GROUND)
-        return def->with_ground ? virga_ground_estimate(&ground) : 0;
-    if (part == PART_SPLASH)
-        return def->with_splash ? virga_splash_estimate(&splash) : 0;
-    const virga_glass_def pane = pane_of(def, part - PART_PANES);
-    return virga_glass_estimate(&pane);
+    return kind->count ? kind->count(def) : 1;
+}
+
+static VkDeviceSize effect_estimate(const virga_scene_def *def, const scene_kind *kind, uint32_t index)
+{
+    _Alignas(16) char effect_def[VIRGA_EFFECT_MAX_DEF];
+    kind->define(def, index, effect_def);
+    return virga_effect_estimate(kind->type, effect_def);
 }
 
 VkDeviceSize virga_scene_estimate(const virga_scene_def *def)
@@ -107,59 +63,74 @@ VkDeviceSize virga_scene_estimate(const virga_scene_def *def)
     VkDeviceSize sum = 0;
     if (!def || check_def(NULL, def))
         return 0;
-    for (uint32_t part = 0; part < PART_PANES + def->pane_count; part++)
-        sum += part_estimate(def, part);
+    for (uint32_t i = 0; i < scene_kind_count; i++)
+        for (uint32_t index = 0; index < count_of_kind(def, &scene_kinds[i]); index++)
+            sum += effect_estimate(def, &scene_kinds[i], index);
     return sum;
 }
 
-static virga_result create_part(virga_scene *scene, const virga_scene_def *def, uint32_t part)
+/* ---- create and destroy */
+
+static virga_result create_effect(virga_scene *scene, const virga_scene_def *def, const scene_kind *kind,
+                                  uint32_t index)
 {
-    virga_context *context = scene->context;
-    const virga_ground_def ground = ground_of(def);
-    const virga_splash_def splash = splash_of(def);
-    if (part == PART_RAIN)
-        return virga_rain_create(context, &def->rain, &scene->rain);
-    if (part == PART_GROUND)
-        return def->with_ground ? virga_ground_create(context, &ground, &scene->ground) : VIRGA_OK;
-    if (part == PART_SPLASH)
-        return def->with_splash ? virga_splash_create(context, &splash, &scene->splash) : VIRGA_OK;
-    const virga_glass_def pane = pane_of(def, part - PART_PANES);
-    const virga_result result = virga_glass_create(context, &pane, &scene->panes[part - PART_PANES]);
-    scene->pane_count += result >= 0;
+    _Alignas(16) char effect_def[VIRGA_EFFECT_MAX_DEF];
+    void *made = NULL;
+    kind->define(def, index, effect_def);
+    const virga_result result =
+        virga_effect_create(scene->context, kind->type, "virga_scene_create", effect_def, &made);
+    if (result >= 0)
+        scene->effects[scene->effect_count++] = (scene_effect){kind, index, made};
     return result;
 }
 
-/* Parts that are still to come keep their share of what the budget has left, by what they ask for: a scene over the
- * budget is then smaller in all of its parts, instead of having first ones that leave nothing. A share is a wish: a
- * part whose smallest does not fit into it may have all that is left. */
-static virga_result create_in_share(virga_scene *scene, const virga_scene_def *def, uint32_t part, VkDeviceSize to_come)
+/* Effects that are still to come keep their share of what the budget has left, by their estimates: a scene over the
+ * budget is then smaller in all of its effects, instead of having first ones that leave nothing. A share is a wish: an
+ * effect whose minimum does not fit into it may have all that is left. */
+static virga_result create_in_share(virga_scene *scene, const virga_scene_def *def, const scene_kind *kind,
+                                    uint32_t index, VkDeviceSize to_come)
 {
     virga_context *context = scene->context;
-    const VkDeviceSize budget = context->memory_budget, taken = context->device_bytes;
-    const VkDeviceSize left = budget > taken ? budget - taken : 0;
+    const VkDeviceSize budget = context->memory_budget, used = context->device_bytes;
+    const VkDeviceSize left = budget > used ? budget - used : 0;
     if (!budget || to_come <= left)
-        return create_part(scene, def, part);
-    context->budget_share = taken + (VkDeviceSize)((double)left * (double)part_estimate(def, part) / (double)to_come);
+        return create_effect(scene, def, kind, index);
+    const double share = (double)effect_estimate(def, kind, index) / (double)to_come;
+    context->budget_share = used + (VkDeviceSize)((double)left * share);
     context->share_is_wish = true;
-    virga_result result = create_part(scene, def, part);
+    virga_result result = create_effect(scene, def, kind, index);
     context->budget_share = 0;
     context->share_is_wish = false;
     if (result == VIRGA_ERROR_DEVICE_MEMORY && context->over_budget)
-        result = create_part(scene, def, part);
+        result = create_effect(scene, def, kind, index);
     return result;
 }
 
-static virga_result create_effects(const virga_scene_def *def, virga_scene *scene)
+static virga_result create_effects(virga_scene *scene, const virga_scene_def *def)
 {
-    const uint32_t parts = PART_PANES + def->pane_count;
     VkDeviceSize to_come = virga_scene_estimate(def);
     virga_result result = VIRGA_OK;
-    for (uint32_t part = 0; part < parts && result >= 0; part++) {
-        result = worst(result, create_in_share(scene, def, part, to_come));
-        to_come -= part_estimate(def, part);
-    }
-    scene->catching = def->rain.max_panes;
+    for (uint32_t i = 0; i < scene_kind_count; i++)
+        for (uint32_t index = 0; index < count_of_kind(def, &scene_kinds[i]) && result >= 0; index++) {
+            const virga_result made = create_in_share(scene, def, &scene_kinds[i], index, to_come);
+            result = scene_merge_results(result, made);
+            to_come -= effect_estimate(def, &scene_kinds[i], index);
+        }
     return result;
+}
+
+/* A stable sort: panes stay in the order of their definitions. */
+static void sort_draws(virga_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->effect_count; i++) {
+        uint32_t at = i;
+        while (at > 0 &&
+               scene->effects[scene->draw_order[at - 1]].kind->draw_order > scene->effects[i].kind->draw_order) {
+            scene->draw_order[at] = scene->draw_order[at - 1];
+            at--;
+        }
+        scene->draw_order[at] = i;
+    }
 }
 
 virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene)
@@ -175,7 +146,9 @@ virga_result virga_scene_create(virga_context *context, const virga_scene_def *d
     if (!made)
         return virga_out_of_host_memory(context, "a scene");
     made->context = context;
-    result = create_effects(def, made);
+    made->catching_panes = def->rain.max_panes;
+    result = create_effects(made, def);
+    sort_draws(made);
     if (result < 0)
         virga_scene_destroy(&made);
     *scene = made;
@@ -186,33 +159,40 @@ void virga_scene_destroy(virga_scene **scene)
 {
     if (!scene || !*scene)
         return;
-    for (uint32_t i = 0; i < (*scene)->pane_count; i++)
-        virga_glass_destroy(&(*scene)->panes[i]);
-    virga_splash_destroy(&(*scene)->splash);
-    virga_ground_destroy(&(*scene)->ground);
-    virga_rain_destroy(&(*scene)->rain);
+    for (uint32_t i = (*scene)->effect_count; i-- > 0;)
+        virga_effect_destroy((*scene)->effects[i].effect);
     virga_free(&(*scene)->context->heap, *scene);
     *scene = NULL;
 }
 
+/* ---- the effects, for their own functions */
+
+void *scene_find(const virga_scene *scene, const virga_effect_type *type, uint32_t index)
+{
+    for (uint32_t i = 0; scene && i < scene->effect_count; i++)
+        if (scene->effects[i].kind->type == type && scene->effects[i].index == index)
+            return scene->effects[i].effect;
+    return NULL;
+}
+
 virga_rain *virga_scene_rain(virga_scene *scene)
 {
-    return scene ? scene->rain : NULL;
+    return scene_find(scene, &rain_type, 0);
 }
 
 virga_ground *virga_scene_ground(virga_scene *scene)
 {
-    return scene ? scene->ground : NULL;
+    return scene_find(scene, &ground_type, 0);
 }
 
 virga_splash *virga_scene_splash(virga_scene *scene)
 {
-    return scene ? scene->splash : NULL;
+    return scene_find(scene, &splash_type, 0);
 }
 
 virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
 {
-    return scene && index < scene->pane_count ? scene->panes[index] : NULL;
+    return scene_find(scene, &glass_type, index);
 }
 
 virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting)
@@ -221,96 +201,15 @@ virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lightin
         return VIRGA_ERROR_INVALID;
     if (!lighting)
         return virga_wrong_argument(&scene->context->log, "virga_scene_light: NULL argument");
-    virga_rain_settings rain;
-    virga_rain_get(scene->rain, &rain);
-    rain.lighting = *lighting;
-    virga_result result = virga_rain_set(scene->rain, &rain);
-    if (scene->splash && result >= 0) {
-        virga_splash_settings splash;
-        virga_splash_get(scene->splash, &splash);
-        splash.lighting = *lighting;
-        result = worst(result, virga_splash_set(scene->splash, &splash));
-    }
-    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++) {
-        virga_glass_settings glass;
-        virga_glass_get(scene->panes[i], &glass);
-        glass.lighting = *lighting;
-        result = worst(result, virga_glass_set(scene->panes[i], &glass));
-    }
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++)
+        result = scene_merge_results(result, virga_effect_set_lighting(scene->effects[i].effect, lighting));
     return result;
 }
 
-static virga_result step_ground(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
-{
-    virga_rain_buffer impacts;
-    virga_rain_impacts(scene->rain, &impacts);
-    virga_ground_step_info info = {.meshes = frame->occluders,
-                                   .mesh_count = frame->occluder_count,
-                                   .materials = frame->materials,
-                                   .impacts = impacts.buffer,
-                                   .impacts_offset = impacts.offset,
-                                   .impacts_size = impacts.size};
-    for (int axis = 0; axis < 3; axis++) {
-        info.camera_m[axis] = frame->camera_m[axis];
-        info.focus_m[axis] = frame->focus_m[axis];
-    }
-    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
-    virga_rain_fall fall;
-    virga_rain_fall_get(scene->rain, &fall);
-    info.open_rain_mm_h = fall.rate_mm_h;
-    info.open_drop_m = fall.drop_m;
-    info.impacts_reach_m = fall.reach_m;
-    if (scene->splash) {
-        virga_splash_buffer rules, returns;
-        virga_splash_rules(scene->splash, &rules);
-        virga_splash_returns(scene->splash, &returns);
-        info.splash_rules = rules.buffer;
-        info.splash_rules_offset = rules.offset;
-        info.returns = returns.buffer;
-        info.returns_offset = returns.offset;
-        info.returns_size = returns.size;
-    }
-    return virga_ground_step(scene->ground, cmd, &info);
-}
+/* ---- a frame */
 
-static virga_result step_splash(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
-{
-    virga_splash_step_info info = {.spawns_offset = 0};
-    for (int axis = 0; axis < 3; axis++)
-        info.camera_m[axis] = frame->camera_m[axis];
-    virga_ground_spawns(scene->ground, &info.spawns, &info.spawns_size);
-    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
-    virga_rain_wind(scene->rain, info.wind_m_s);
-    return virga_splash_step(scene->splash, cmd, &info);
-}
-
-/* From the pane's own frame to the world; a pose without axes has the world's. */
-static void turn_to_world(const virga_glass_pose *pose, const float local[3], float world[3])
-{
-    bool none = true;
-    for (int i = 0; i < 9; i++)
-        none = none && pose->world_from_pane[i] == 0;
-    for (int i = 0; i < 3; i++)
-        world[i] = none ? local[i]
-                        : pose->world_from_pane[i] * local[0] + pose->world_from_pane[3 + i] * local[1] +
-                              pose->world_from_pane[6 + i] * local[2];
-}
-
-/* ---- what a host says of a frame, before any of it is recorded */
-
-static virga_result check_pane(const virga_log *log, const virga_scene_pane *pane)
-{
-    if (!(pane->shelter >= 0 && pane->shelter <= 1))
-        return virga_wrong_argument(log, "scene_pane.shelter: expected 0 to 1, got %g", (double)pane->shelter);
-    if (glass_pose_check(log, &pane->pose) ||
-        virga_settings_finite(log, "scene_pane.velocity_m_s", pane->velocity_m_s, 3) ||
-        virga_settings_finite(log, "scene_pane.acceleration_m_s2", pane->acceleration_m_s2, 3) ||
-        virga_settings_finite(log, "scene_pane.turn_rad_s", pane->turn_rad_s, 3))
-        return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
-}
-
-static virga_result check_places(const virga_log *log, const virga_scene_frame *frame)
+static virga_result check_positions(const virga_log *log, const virga_scene_frame *frame)
 {
     if (virga_settings_places(log, "scene_frame.camera_m", frame->camera_m, 3) ||
         virga_settings_places(log, "scene_frame.focus_m", frame->focus_m, 3) ||
@@ -332,130 +231,61 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
         return virga_wrong_argument(log, "scene_frame.dt_s: expected 0 to 10 s, got %g", frame->dt_s);
     if (frame->occluder_count && !frame->occluders)
         return virga_wrong_argument(log, "scene_frame.occluders: expected %u, got NULL", frame->occluder_count);
-    if (scene->pane_count && !frame->panes)
-        return virga_wrong_argument(log, "scene_frame.panes: expected %u, got NULL", scene->pane_count);
-    if (check_places(log, frame))
+    if (check_positions(log, frame))
         return VIRGA_ERROR_INVALID;
-    for (uint32_t i = 0; i < scene->pane_count; i++)
-        if (check_pane(log, &frame->panes[i]))
+    for (uint32_t i = 0; i < scene->effect_count; i++) {
+        const scene_effect *effect = &scene->effects[i];
+        if (effect->kind->check_frame && effect->kind->check_frame(scene, effect->index, frame))
             return VIRGA_ERROR_INVALID;
-    return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(scene->rain)) : VIRGA_OK;
+    }
+    const virga_rain *rain = scene_find(scene, &rain_type, 0);
+    return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(rain)) : VIRGA_OK;
 }
 
-/* camera_m that was forgotten, or is in other units than the view's, looks like rain that does not work. */
-static void tell_far(virga_scene *scene, const virga_scene_frame *frame)
+/* A camera_m that was forgotten, or is in other units than the view's, looks like rain that does not work. */
+static void log_if_far(virga_scene *scene, const virga_scene_frame *frame)
 {
     virga_rain_fall fall;
-    double far2 = 0;
-    virga_rain_fall_get(scene->rain, &fall);
+    double distance2 = 0;
+    virga_rain_fall_get(scene_find(scene, &rain_type, 0), &fall);
     for (int axis = 0; axis < 3; axis++)
-        far2 += pow(frame->view->position_m[axis] - frame->camera_m[axis], 2);
-    const bool beyond = sqrt(far2) > (double)fall.reach_m;
-    if (beyond && !scene->told_far)
+        distance2 += pow(frame->view->position_m[axis] - frame->camera_m[axis], 2);
+    const bool is_far = sqrt(distance2) > (double)fall.reach_m;
+    if (is_far && !scene->far_logged)
         virga_log_say(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
                       "scene_frame.camera_m: is %g m from view.position_m, where no drops are: they reach %g m",
-                      sqrt(far2), (double)fall.reach_m);
-    scene->told_far = beyond;
-}
-
-/* ---- panes */
-
-/* The rain's own drops, as long as there is room for them to be caught and nothing keeps a share of them off. */
-static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
-                                virga_glass_step_info *info)
-{
-    virga_rain_pane caught;
-    virga_rain_buffer hits;
-    float corner[3], along_u[3], along_v[3], offset[3];
-    if (index >= scene->catching || pane->shelter > 0)
-        return VIRGA_OK;
-    virga_glass_rectangle(scene->panes[index], corner, along_u, along_v, &caught.width_m, &caught.height_m);
-    turn_to_world(&pane->pose, corner, offset);
-    turn_to_world(&pane->pose, along_u, caught.along_u);
-    turn_to_world(&pane->pose, along_v, caught.along_v);
-    for (int axis = 0; axis < 3; axis++)
-        caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
-    memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
-    const virga_result result = virga_rain_hits(scene->rain, cmd, &caught, &hits);
-    if (result < 0 || result == VIRGA_NOT_READY)
-        return result;
-    info->rate_mm_h = 0;
-    info->impacts = hits.buffer;
-    info->impacts_offset = hits.offset;
-    return result;
-}
-
-/* Rain lands on a pane as it does on the ground under the same sky. */
-static virga_result step_pane(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *given)
-{
-    bool changed = false;
-    virga_scene_pane taken = *given;
-    const virga_scene_pane *pane = &taken;
-    const virga_log *log = &scene->context->log;
-    virga_clamp_vector(log, "scene_pane.velocity_m_s", taken.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
-    virga_clamp_vector(log, "scene_pane.acceleration_m_s2", taken.acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
-    virga_clamp_vector(log, "scene_pane.turn_rad_s", taken.turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
-    virga_rain_settings rain;
-    virga_rain_get(scene->rain, &rain);
-    virga_glass_step_info info = {
-        .rate_mm_h = rain.rate_mm_h * (1 - pane->shelter), .sizes = &rain.sizes, .air_density = rain.air_density};
-    memcpy(info.world_from_pane, pane->pose.world_from_pane, sizeof info.world_from_pane);
-    memcpy(info.velocity_m_s, pane->velocity_m_s, sizeof info.velocity_m_s);
-    memcpy(info.acceleration_m_s2, pane->acceleration_m_s2, sizeof info.acceleration_m_s2);
-    memcpy(info.turn_rad_s, pane->turn_rad_s, sizeof info.turn_rad_s);
-    virga_rain_ticks(scene->rain, &info.first_tick, &info.ticks);
-    virga_rain_wind(scene->rain, info.wind_m_s);
-    virga_result result = catch_drops(scene, cmd, index, pane, &info);
-    if (result >= 0)
-        result = virga_glass_step(scene->panes[index], cmd, &info);
-    return result ? result : changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
-
-static virga_result step_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
-{
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
-        result = worst(result, step_pane(scene, cmd, i, &frame->panes[i]));
-    return result;
-}
-
-/* At the panes' own time: what rain has left over of a tick they do not know of. */
-virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
-                                       const virga_scene_pane *panes)
-{
-    if (!scene)
-        return VIRGA_ERROR_INVALID;
-    if (scene->pane_count && (!view || !panes))
-        return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
-                                    view ? "panes" : "view");
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
-        result = worst(
-            result, virga_glass_prepare(scene->panes[i], cmd, view, &panes[i].pose, virga_glass_time(scene->panes[i])));
-    return result;
-}
-
-/* What a view sees, at the time of the rain. */
-static virga_result prepare(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
-{
-    virga_result result = VIRGA_OK;
-    const double time_s = virga_rain_time(scene->rain);
-    if (scene->splash)
-        result = virga_splash_prepare(scene->splash, cmd, view, time_s);
-    return result < 0 ? result : worst(result, virga_rain_prepare(scene->rain, cmd, view, time_s));
+                      sqrt(distance2), (double)fall.reach_m);
+    scene->far_logged = is_far;
 }
 
 virga_result virga_scene_ready(const virga_scene *scene)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    virga_result result = virga_rain_ready(scene->rain);
-    if (scene->ground)
-        result = worst(result, virga_ground_ready(scene->ground));
-    if (scene->splash)
-        result = worst(result, virga_splash_ready(scene->splash));
-    for (uint32_t i = 0; i < scene->pane_count; i++)
-        result = worst(result, virga_glass_ready(scene->panes[i]));
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count; i++)
+        result = scene_merge_results(result, virga_effect_ready(scene->effects[i].effect));
+    return result;
+}
+
+static virga_result step_all(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
+        const scene_effect *effect = &scene->effects[i];
+        result = scene_merge_results(result, effect->kind->step(scene, effect->index, cmd, frame));
+    }
+    return result;
+}
+
+static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
+        const scene_effect *effect = &scene->effects[scene->draw_order[i]];
+        if (effect->kind->prepare)
+            result = scene_merge_results(result, effect->kind->prepare(scene, effect->index, cmd, view));
+    }
     return result;
 }
 
@@ -471,27 +301,13 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     if (ready)
         return ready;
     const bool seen = frame->view && !checked;
-    virga_result result = checked;
     if (seen)
-        tell_far(scene, frame);
-    if (frame->occluders)
-        result = worst(
-            result, virga_rain_occlusion(scene->rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count));
-    virga_rain_step_info step = {.dt_s = frame->dt_s};
-    for (int axis = 0; axis < 3; axis++)
-        step.camera_m[axis] = frame->camera_m[axis];
-    if (result >= 0)
-        result = worst(result, virga_rain_step(scene->rain, cmd, &step));
-    if (result >= 0 && scene->ground)
-        result = worst(result, step_ground(scene, cmd, frame));
-    if (result >= 0 && scene->splash)
-        result = worst(result, step_splash(scene, cmd, frame));
-    if (result >= 0)
-        result = worst(result, step_panes(scene, cmd, frame));
+        log_if_far(scene, frame);
+    virga_result result = scene_merge_results(checked, step_all(scene, cmd, frame));
     if (result >= 0 && seen)
-        result = worst(result, prepare(scene, cmd, frame->view));
+        result = scene_merge_results(result, prepare_all(scene, cmd, frame->view));
     if (result >= 0 && seen && !frame->panes_later)
-        result = worst(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
+        result = scene_merge_results(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
 }
 
@@ -499,11 +315,11 @@ virga_result virga_scene_attach(virga_scene *scene, const virga_target *target)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    virga_result result = scene->splash ? virga_splash_attach(scene->splash, target) : VIRGA_OK;
-    if (result >= 0)
-        result = worst(result, virga_rain_attach(scene->rain, target));
-    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
-        result = worst(result, virga_glass_attach(scene->panes[i], target));
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
+        virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
+        result = scene_merge_results(result, virga_effect_attach(effect, "virga_scene_attach", target));
+    }
     return result;
 }
 
@@ -511,10 +327,11 @@ virga_result virga_scene_draw(virga_scene *scene, VkCommandBuffer cmd, const vir
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    virga_result result = scene->splash ? virga_splash_draw(scene->splash, cmd, target) : VIRGA_OK;
-    if (result >= 0)
-        result = worst(result, virga_rain_draw(scene->rain, cmd, target));
-    for (uint32_t i = 0; i < scene->pane_count && result >= 0; i++)
-        result = worst(result, virga_glass_draw(scene->panes[i], cmd, target));
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
+        virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
+        if (effect->type->draw)
+            result = scene_merge_results(result, effect->type->draw(effect, cmd, target));
+    }
     return result;
 }

@@ -3,8 +3,7 @@
 
 #include "core/light.h"
 #include "core/settings.h"
-#include "gpu/budget.h"
-#include "gpu/builds.h"
+#include "gpu/device_check.h"
 #include "gpu/errors.h"
 
 #include "shaders/splash_draw_droplet_mark_comp.spv.h"
@@ -21,6 +20,8 @@
 #include "shaders/splash_step_spawn_comp.spv.h"
 #include "shaders/splash_step_spawn_scan_comp.spv.h"
 
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #define DEF_COOKIE      VIRGA_COOKIE(9)
@@ -71,47 +72,41 @@ static uint32_t power_of_two(uint32_t least)
     return power;
 }
 
-static virga_result check_def(const virga_log *log, const virga_splash_def *given, virga_splash_def *def)
+static const virga_setting_row def_rows[] = {
+    {"splash_def.max_splashes", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_splashes), 256, 1048576},
+    {"splash_def.max_droplets", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_droplets), 256, 4194304},
+    {"splash_def.max_spawns", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_spawns), 256, 1048576},
+    {"splash_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_ticks_per_step), 1, 64},
+    {"splash_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_splash_def, tick_s), 1e-3, 0.05},
+};
+
+static virga_result check_def(const virga_log *log, void *given)
 {
-    const virga_result result =
-        virga_settings_check(log, "splash_def", given->size, sizeof *given, given->cookie, DEF_COOKIE);
-    if (result)
-        return result;
-    if (virga_settings_finite_double(log, "splash_def.tick_s", &given->tick_s, 1))
+    virga_splash_def *def = given;
+    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
         return VIRGA_ERROR_INVALID;
-    *def = *given;
-    def->max_splashes =
-        power_of_two(virga_clamp_setting_u32(log, "splash_def.max_splashes", def->max_splashes, 256, 1048576, NULL));
-    def->max_droplets = virga_clamp_setting_u32(log, "splash_def.max_droplets", def->max_droplets, 256, 4194304, NULL);
+    def->max_splashes = power_of_two(def->max_splashes);
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
-    def->max_spawns = virga_clamp_setting_u32(log, "splash_def.max_spawns", def->max_spawns, 256, 1048576, NULL);
     def->max_returns =
         virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194240, NULL);
-    def->max_ticks_per_step =
-        virga_clamp_setting_u32(log, "splash_def.max_ticks_per_step", def->max_ticks_per_step, 1, 64, NULL);
-    def->tick_s = virga_clamp_setting(log, "splash_def.tick_s", def->tick_s, 1e-3, 0.05, NULL);
     return VIRGA_OK;
 }
 
+/* ---- what it is made of */
+
 /* Quads of sprites, pyramids, the mesh of a sheet, and lines of sprites. */
-static VkDeviceSize splash_index_bytes(const virga_splash_def *def)
+static VkDeviceSize index_count(const virga_splash_def *def)
 {
-    return (20ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES) * sizeof(uint32_t);
+    return 20ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES;
 }
 
-/* Of droplets as lines, as quads and for their piles, and of splashes for sprites and for sheets. */
-static VkDeviceSize pick_bytes(const virga_splash_def *def)
+/* What storage buffers of this device can hold, its indices count and its dispatches reach. */
+static virga_result fit_device(const virga_context *context, void *given)
 {
-    return VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
-}
-
-/* What storage buffers of this device can hold, its indices count and its dispatches reach. True: less than asked
- * for. */
-static bool fit_device(const virga_context *context, virga_splash_def *def)
-{
+    virga_splash_def *def = given;
     const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
     /* Both are wider than a droplet; what they have beside that for each is a block's, which is left out below. */
-    const VkDeviceSize indices = splash_index_bytes(def) / def->max_droplets;
+    const VkDeviceSize indices = index_count(def) * sizeof(uint32_t) / def->max_droplets;
     const VkDeviceSize widest = indices > SPLASH_SPRITE_BYTES ? indices : SPLASH_SPRITE_BYTES;
     const VkDeviceSize indexed = context->properties.limits.maxDrawIndexedIndexValue / 8;
     const VkDeviceSize grouped =
@@ -127,169 +122,206 @@ static bool fit_device(const virga_context *context, virga_splash_def *def)
                       def->max_droplets, (unsigned long long)most);
     while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
         def->max_returns /= 2;
-    return asked != def->max_droplets;
+    return asked != def->max_droplets ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-VkDeviceSize virga_splash_estimate(const virga_splash_def *given)
-{
-    virga_splash_def def;
-    if (!given || check_def(NULL, given, &def))
-        return 0;
-    return sizeof(virga_splash_state_gpu) + (VkDeviceSize)def.max_splashes * sizeof(virga_splash_gpu) +
-           (VkDeviceSize)def.max_droplets * (2 * sizeof(virga_droplet_gpu) + 1) + (VkDeviceSize)def.max_spawns * 8 +
-           (VkDeviceSize)def.max_returns * sizeof(virga_impact_gpu) +
-           (VkDeviceSize)VIRGA_MAX_FRAMES_IN_FLIGHT * (def.max_ticks_per_step * splash_tick_bytes() +
-                                                       splash_rules_bytes() + SPLASH_MAX_VIEWS * splash_view_bytes()) +
-           pick_bytes(&def) + (VkDeviceSize)splash_max_sprites(&def) * (SPLASH_SPRITE_BYTES + 4) +
-           splash_index_bytes(&def);
-}
-
-/* ---- creating */
-
-enum { BUFFERS = 16, PASSES = 13 };
-
-static void list_buffers(virga_splash *splash, virga_buffer_row rows[BUFFERS])
-{
-    const virga_splash_def *def = &splash->def;
-    const uint32_t frames = splash->context->frames_in_flight, sprites = splash_max_sprites(def);
-    const VkBufferUsageFlags storage =
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    const VkBufferUsageFlags indirect = storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                             texels = storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-    const virga_buffer_row wanted[BUFFERS] = {
-        {&splash->state, sizeof(virga_splash_state_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.state"},
-        {&splash->splashes, def->max_splashes * sizeof(virga_splash_gpu), texels, VIRGA_HEAP_DEVICE, "splash.splashes"},
-        {&splash->droplet_buffers[0], def->max_droplets * sizeof(virga_droplet_gpu), texels, VIRGA_HEAP_DEVICE,
-         "splash.droplets0"},
-        {&splash->droplet_buffers[1], def->max_droplets * sizeof(virga_droplet_gpu), texels, VIRGA_HEAP_DEVICE,
-         "splash.droplets1"},
-        {&splash->marks, def->max_droplets / 32 * 16, storage, VIRGA_HEAP_DEVICE, "splash.marks"},
-        {&splash->places, (VkDeviceSize)def->max_spawns * 8, storage, VIRGA_HEAP_DEVICE, "splash.places"},
-        {&splash->returns, sizeof(virga_impacts_gpu) + (VkDeviceSize)def->max_returns * sizeof(virga_impact_gpu),
-         indirect, VIRGA_HEAP_DEVICE, "splash.returns"},
-        {&splash->picks, pick_bytes(def), storage, VIRGA_HEAP_DEVICE, "splash.picks"},
-        {&splash->lists, 2 * sizeof(virga_list_gpu) + ((VkDeviceSize)sprites + splash_max_crowns(def)) * 4, indirect,
-         VIRGA_HEAP_DEVICE, "splash.lists"},
-        {&splash->sprites, sprites * SPLASH_SPRITE_BYTES, texels, VIRGA_HEAP_DEVICE, "splash.sprites"},
-        {&splash->prepared_buffer, sizeof(virga_splash_prepared_gpu), indirect, VIRGA_HEAP_DEVICE, "splash.prepared"},
-        {&splash->index_buffer, splash_index_bytes(def), storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, VIRGA_HEAP_DEVICE,
-         "splash.indices"},
-        {&splash->tick_ring, (VkDeviceSize)frames * (def->max_ticks_per_step + 1) * splash_tick_bytes(),
-         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "splash.ticks"},
-        {&splash->rules_ring, (VkDeviceSize)frames * splash_rules_bytes(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-         VIRGA_HEAP_UPLOAD, "splash.rules"},
-        {&splash->view_ring, (VkDeviceSize)frames * SPLASH_MAX_VIEWS * splash_view_bytes(),
-         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, VIRGA_HEAP_UPLOAD, "splash.views"},
-        {&splash->readback_ring, frames * sizeof(splash_readback), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-         VIRGA_HEAP_READBACK, "splash.readback"},
-    };
-    memcpy(rows, wanted, sizeof wanted);
-}
-
-/* A pass with as many pipelines as it has forms, which are their specialisation constants. */
-typedef struct pass_row {
-    virga_pipeline **forms;
-    uint32_t count;
-    virga_spirv shader;
-    const char *name;
-} pass_row;
-
-static void list_passes(virga_splash *splash, pass_row rows[PASSES])
-{
-    const pass_row wanted[PASSES] = {
-        {&splash->spawn_scan, 1, VIRGA_SPIRV(splash_step_spawn_scan_comp), "splash.spawn_scan"},
-        {&splash->spawn, 1, VIRGA_SPIRV(splash_step_spawn_comp), "splash.spawn"},
-        {&splash->step, 1, VIRGA_SPIRV(splash_step_fly_comp), "splash.fly"},
-        {&splash->fall_scan, 1, VIRGA_SPIRV(splash_step_fall_scan_comp), "splash.fall_scan"},
-        {&splash->fall, 1, VIRGA_SPIRV(splash_step_fall_compact_comp), "splash.fall_compact"},
-        {&splash->rebase, 1, VIRGA_SPIRV(splash_step_rebase_comp), "splash.rebase"},
-        {&splash->indices, 1, VIRGA_SPIRV(splash_draw_indices_comp), "splash.indices"},
-        {splash->few_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_few_mark_comp), "splash.few_mark"},
-        {splash->droplet_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_droplet_mark_comp), "splash.droplet_mark"},
-        {splash->splash_find, SPLASH_STYLES, VIRGA_SPIRV(splash_draw_splash_mark_comp), "splash.splash_mark"},
-        {&splash->view_scan, 1, VIRGA_SPIRV(splash_draw_view_scan_comp), "splash.view_scan"},
-        {&splash->view_list, 1, VIRGA_SPIRV(splash_draw_view_compact_comp), "splash.view_compact"},
-        {splash->sprite_write, VIRGA_SPLASH_FORMS, VIRGA_SPIRV(splash_draw_sprite_write_comp), "splash.sprite_write"},
-    };
-    memcpy(rows, wanted, sizeof wanted);
-}
-
-static virga_result create_passes(virga_splash *splash)
-{
-    virga_result result = VIRGA_OK;
-    pass_row rows[PASSES];
-    list_passes(splash, rows);
-    for (uint32_t i = 0; i < PASSES; i++)
-        for (uint32_t form = 0; form < rows[i].count; form++) {
-            const virga_compute_def def = {.shader = rows[i].shader,
-                                           .layout = splash->bindings->layout,
-                                           .constant = form,
-                                           .group = &splash->needed,
-                                           .name = rows[i].name};
-            TRY(virga_compute_pipeline_create(splash->context, &def, &rows[i].forms[form]));
-        }
-error:
-    return result;
-}
-
-static void retire_passes(virga_splash *splash)
-{
-    pass_row rows[PASSES];
-    list_passes(splash, rows);
-    for (uint32_t i = 0; i < PASSES; i++)
-        for (uint32_t form = 0; form < rows[i].count; form++)
-            VIRGA_RETIRE(splash->context, rows[i].forms[form]);
-}
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-
-/* As in shaders/splash: what each file declares. */
-static const virga_binding_kind kinds[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 0 tick */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 1 view */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES},             /* 2 rules */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 3 spawns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 4 state */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 5 splashes */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 6 droplets */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 7 marks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 8 places */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 9 returns */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 10 picks */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VIRGA_ALL_STAGES},                     /* 11 lists */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 12 droplets that stay */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE | VK_SHADER_STAGE_VERTEX_BIT}, /* 13 sprites */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 14 prepared */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, COMPUTE},                              /* 15 indices */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 16 scene depth */
-    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}, /* 17 scene colour */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 18 droplets as texels */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 19 splashes as texels */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VIRGA_ALL_STAGES},               /* 20 sprites as texels */
+enum {
+    COUNT_DROPLETS = 1,
+    COUNT_MARK_WORDS,
+    COUNT_SPLASHES,
+    COUNT_SPAWNS,
+    COUNT_RETURNS,
+    COUNT_PICK_BYTES,
+    COUNT_LISTED,
+    COUNT_INDICES,
+    COUNT_TICKS,
+    COUNT_VIEWS,
 };
 
-enum { BINDINGS = sizeof kinds / sizeof kinds[0] };
-
-static virga_bound whole(const virga_buffer *buffer)
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
 {
-    return (virga_bound){.buffer = buffer->buffer};
+    const virga_splash_def *def = given;
+    counts[COUNT_DROPLETS] = def->max_droplets;
+    counts[COUNT_MARK_WORDS] = def->max_droplets / 32;
+    counts[COUNT_SPLASHES] = def->max_splashes;
+    counts[COUNT_SPAWNS] = def->max_spawns;
+    counts[COUNT_RETURNS] = def->max_returns;
+    /* Of droplets as lines, as quads and for their piles, and of splashes for sprites and for sheets. */
+    counts[COUNT_PICK_BYTES] =
+        VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
+    counts[COUNT_LISTED] = (VkDeviceSize)splash_max_sprites(def) + splash_max_crowns(def);
+    counts[COUNT_INDICES] = index_count(def);
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one for a new anchor */
+    counts[COUNT_VIEWS] = SPLASH_MAX_VIEWS;
 }
 
-/* A host's image, or a blank in its place. */
-static virga_bound image_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler)
+#define AT(member) offsetof(virga_splash, member)
+#define DEVICE     VIRGA_HEAP_DEVICE
+#define FILL       VIRGA_FIRST_FILL
+
+static const virga_effect_buffer buffers[] = {
+    {"splash.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_splash_state_gpu), .first = FILL},
+    {"splash.splashes", AT(splashes), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_splash_gpu),
+     .count = COUNT_SPLASHES, .first = FILL},
+    {"splash.droplets0", AT(droplet_buffers[0]), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_droplet_gpu),
+     .count = COUNT_DROPLETS, .first = FILL},
+    {"splash.droplets1", AT(droplet_buffers[1]), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_droplet_gpu),
+     .count = COUNT_DROPLETS, .first = FILL},
+    {"splash.marks", AT(marks), VIRGA_USE_STORAGE, DEVICE, .entry = 16, .count = COUNT_MARK_WORDS, .first = FILL},
+    {"splash.places", AT(places), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
+    {"splash.returns", AT(returns), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
+     .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
+    {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
+    {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
+     .count = COUNT_LISTED},
+    {"splash.sprites", AT(sprites), VIRGA_USE_TEXELS, DEVICE, .entry = SPLASH_SPRITE_BYTES, .count = COUNT_DROPLETS},
+    {"splash.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_splash_prepared_gpu)},
+    {"splash.indices", AT(index_buffer), VIRGA_USE_INDEX, DEVICE, .entry = sizeof(uint32_t), .count = COUNT_INDICES},
+};
+
+static const virga_effect_ring rings[] = {
+    {"splash.ticks", AT(tick_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_splash_tick_gpu), COUNT_TICKS},
+    {"splash.rules", AT(rules_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_splash_rules_gpu), VIRGA_COUNT_ONE},
+    {"splash.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(splash_view_block), COUNT_VIEWS},
+};
+
+/* For what a view has not. */
+static const virga_effect_image images[] = {
+    {"splash.blank_depth", AT(blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
+     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    {"splash.blank_color", AT(blank_color), VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT,
+     VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+};
+
+#define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
+#define VERTEX   VK_SHADER_STAGE_VERTEX_BIT
+#define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
+#define STORAGE  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define DYNAMIC  VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+#define SAMPLED  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+#define TEXELS   VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+
+enum { BIND_SPAWNS = 3, BIND_DROPLETS = 6, BIND_KEPT = 12, BIND_DEPTH = 16, BIND_COLOR, BIND_DROPLET_TEXELS };
+
+/* As in shaders/splash: what each file declares. */
+static const virga_binding_kind bindings[] = {
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_splash_tick_gpu)},   /* 0 */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(splash_view_block)},       /* 1 */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(rules_ring), sizeof(virga_splash_rules_gpu)}, /* 2 */
+    [BIND_SPAWNS] = {STORAGE, COMPUTE},                                                             /* 3 */
+    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(state)},                                    /* 4 */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(splashes)},                                 /* 5 */
+    [BIND_DROPLETS] = {STORAGE, COMPUTE | VERTEX},                                                  /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(marks)},                                             /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(places)},                                            /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returns)},                                           /* 9 */
+    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picks)},                                    /* 10 */
+    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 11 */
+    [BIND_KEPT] = {STORAGE, COMPUTE},                              /* 12 droplets that stay after the tick */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(sprites)}, /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(prepared_buffer)},  /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(index_buffer)},     /* 15 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                            /* 16 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT},                            /* 17 */
+    [BIND_DROPLET_TEXELS] = {TEXELS, VIRGA_ALL_STAGES},            /* 18 */
+    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(splashes)}, /* 19 */
+    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(sprites)},  /* 20 */
+};
+
+static const virga_effect_layout layouts[] = {
+    {AT(bindings), bindings, VIRGA_ROWS(bindings), SPLASH_SETS, sizeof(uint32_t)},
+};
+
+static const virga_effect_pass passes[] = {
+    {"splash.spawn_scan", AT(spawn_scan), VIRGA_SPIRV_ROW(splash_step_spawn_scan_comp)},
+    {"splash.spawn", AT(spawn), VIRGA_SPIRV_ROW(splash_step_spawn_comp)},
+    {"splash.fly", AT(fly), VIRGA_SPIRV_ROW(splash_step_fly_comp)},
+    {"splash.fall_scan", AT(fall_scan), VIRGA_SPIRV_ROW(splash_step_fall_scan_comp)},
+    {"splash.fall_compact", AT(fall_compact), VIRGA_SPIRV_ROW(splash_step_fall_compact_comp)},
+    {"splash.rebase", AT(rebase), VIRGA_SPIRV_ROW(splash_step_rebase_comp)},
+    {"splash.indices", AT(indices), VIRGA_SPIRV_ROW(splash_draw_indices_comp)},
+    {"splash.few_mark", AT(few_mark), VIRGA_SPIRV_ROW(splash_draw_few_mark_comp), .forms = SPLASH_STYLES},
+    {"splash.droplet_mark", AT(droplet_mark), VIRGA_SPIRV_ROW(splash_draw_droplet_mark_comp), .forms = SPLASH_STYLES},
+    {"splash.splash_mark", AT(splash_mark), VIRGA_SPIRV_ROW(splash_draw_splash_mark_comp), .forms = SPLASH_STYLES},
+    {"splash.view_scan", AT(view_scan), VIRGA_SPIRV_ROW(splash_draw_view_scan_comp)},
+    {"splash.view_compact", AT(view_compact), VIRGA_SPIRV_ROW(splash_draw_view_compact_comp)},
+    {"splash.sprite_write", AT(sprite_write), VIRGA_SPIRV_ROW(splash_draw_sprite_write_comp),
+     .forms = VIRGA_SPLASH_FORMS},
+};
+
+/* What lives at a time. What it shares with the ground stays. */
+static const virga_effect_pool pools[] = {
+    {"max_splashes", offsetof(virga_splash_def, max_splashes), 256, 0},
+    {"max_droplets", offsetof(virga_splash_def, max_droplets), VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
+};
+
+static virga_result init(void *object)
 {
-    const bool given = image && image->view;
-    return (virga_bound){.sampler = sampler,
-                         .view = given ? image->view : blank->layer_views[0],
-                         .image_layout = given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    virga_splash *splash = object;
+    splash->settings = virga_default_splash_settings();
+    return VIRGA_OK;
 }
 
-/* Not every device filters four whole floats. */
-static VkSampler color_sampler(const virga_splash *splash, const virga_view *view)
+static virga_result create(void *object)
 {
-    const bool whole_floats = view && view->color.format == VK_FORMAT_R32G32B32A32_SFLOAT;
-    return whole_floats ? splash->context->nearest : splash->context->linear;
+    virga_splash *splash = object;
+    splash->droplets = splash->droplet_buffers[0];
+    return VIRGA_OK;
 }
+
+static void describe(const void *object, char *line, size_t size)
+{
+    const virga_splash *splash = object;
+    snprintf(line, size, "splash: up to %u splashes and %u droplets", splash->def.max_splashes,
+             splash->def.max_droplets);
+}
+
+static virga_result set(void *object, const void *settings)
+{
+    return virga_splash_set(object, settings);
+}
+
+static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
+{
+    return virga_splash_draw(object, cmd, target);
+}
+
+_Static_assert(sizeof(virga_splash_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
+
+const virga_effect_type splash_type = {
+    .name = "splash",
+    .size = sizeof(virga_splash),
+    .def = {"splash_def", sizeof(virga_splash_def), DEF_COOKIE, AT(def)},
+    .settings = {"splash_settings", sizeof(virga_splash_settings), SETTINGS_COOKIE, AT(settings)},
+    .lighting = offsetof(virga_splash_settings, lighting),
+    .buffers = buffers,
+    .buffer_count = VIRGA_ROWS(buffers),
+    .rings = rings,
+    .ring_count = VIRGA_ROWS(rings),
+    .images = images,
+    .image_count = VIRGA_ROWS(images),
+    .layouts = layouts,
+    .layout_count = VIRGA_ROWS(layouts),
+    .passes = passes,
+    .pass_count = VIRGA_ROWS(passes),
+    .draws = splash_draws,
+    .draw_count = SPLASH_DRAW_ROWS,
+    .pools = pools,
+    .pool_count = VIRGA_ROWS(pools),
+    .readback_name = "splash.readback",
+    .readback_bytes = sizeof(splash_readback),
+    .check_def = check_def,
+    .fit_device = fit_device,
+    .count = count,
+    .init = init,
+    .create = create,
+    .describe = describe,
+    .read_statistics = splash_read_statistics,
+    .set = set,
+    .draw = draw,
+};
+
+/* ---- descriptors */
 
 uint32_t splash_current(const virga_splash *splash)
 {
@@ -298,107 +330,41 @@ uint32_t splash_current(const virga_splash *splash)
 
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view)
 {
-    const virga_bound bound[BINDINGS] = {
-        {.buffer = splash->tick_ring->buffer, .range = sizeof(virga_splash_tick_gpu)},
-        {.buffer = splash->view_ring->buffer, .range = splash_view_bytes()},
-        {.buffer = splash->rules_ring->buffer, .range = sizeof(virga_splash_rules_gpu)},
-        {.buffer = splash->spawns, .offset = splash->spawns_offset, .range = splash->spawns_range},
-        whole(splash->state),
-        whole(splash->splashes),
-        whole(splash->droplet_buffers[current]),
-        whole(splash->marks),
-        whole(splash->places),
-        whole(splash->returns),
-        whole(splash->picks),
-        whole(splash->lists),
-        whole(splash->droplet_buffers[current ^ 1]),
-        whole(splash->sprites),
-        whole(splash->prepared_buffer),
-        whole(splash->index_buffer),
-        image_or_blank(view ? &view->depth : NULL, splash->blank_depth, splash->context->nearest),
-        image_or_blank(view ? &view->color : NULL, splash->blank_color, color_sampler(splash, view)),
-        {.texels = splash->droplet_buffers[current]->texels},
-        {.texels = splash->splashes->texels},
-        {.texels = splash->sprites->texels}};
-    return virga_bindings_write(splash->context, splash->bindings, index, bound);
+    virga_context *context = splash->base.context;
+    const virga_image *depth = view ? &view->depth : NULL, *color = view ? &view->color : NULL;
+    const virga_buffer *droplets = splash->droplet_buffers[current];
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&splash->base, splash->bindings, bound);
+    bound[BIND_SPAWNS] =
+        (virga_bound){.buffer = splash->spawns, .offset = splash->spawns_offset, .range = splash->spawns_range};
+    bound[BIND_DROPLETS] = (virga_bound){.buffer = droplets->buffer};
+    bound[BIND_DROPLET_TEXELS] = (virga_bound){.texels = droplets->texels};
+    bound[BIND_KEPT] = (virga_bound){.buffer = splash->droplet_buffers[current ^ 1]->buffer};
+    bound[BIND_DEPTH] = virga_bound_or_blank(depth, splash->blank_depth, context->nearest);
+    bound[BIND_COLOR] = virga_bound_or_blank(color, splash->blank_color, virga_color_sampler(context, color));
+    return virga_bindings_write(context, splash->bindings, index, bound);
 }
 
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
     const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
-    splash->context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
+    splash->base.context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
 }
 
-static virga_result init(virga_splash *splash)
+/* ---- create and destroy */
+
+VkDeviceSize virga_splash_estimate(const virga_splash_def *def)
 {
-    virga_result result = VIRGA_OK;
-    virga_buffer_row buffers[BUFFERS];
-    const bool smaller = fit_device(splash->context, &splash->def);
-    list_buffers(splash, buffers);
-    TRY(virga_buffers_create(splash->context, buffers, BUFFERS));
-    splash->droplets = splash->droplet_buffers[0];
-    const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
-    const VkExtent2D one = {1, 1};
-    TRY(virga_image_create(splash->context, VK_FORMAT_D32_SFLOAT, one, 1, sampled, VK_IMAGE_ASPECT_DEPTH_BIT,
-                           "splash.blank_depth", &splash->blank_depth));
-    TRY(virga_image_create(splash->context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, sampled, VK_IMAGE_ASPECT_COLOR_BIT,
-                           "splash.blank_color", &splash->blank_color));
-    TRY(virga_bindings_create(splash->context, kinds, BINDINGS, SPLASH_SETS, sizeof(uint32_t), &splash->bindings));
-    TRY(create_passes(splash));
-    result = !result && smaller ? VIRGA_DEGRADED : result;
-error:
-    return result;
+    return virga_effect_estimate(&splash_type, def);
 }
 
-static virga_result make(virga_context *context, const void *def, void **splash)
+virga_result virga_splash_create(virga_context *context, const virga_splash_def *def, virga_splash **splash)
 {
-    virga_splash *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "splashes");
-    made->context = context;
-    made->def = *(const virga_splash_def *)def;
-    made->settings = virga_default_splash_settings();
-    context->effects++;
-    const virga_result result = init(made);
-    if (result < 0)
-        virga_splash_destroy(&made);
-    *splash = made;
-    return result;
-}
-
-/* What lives at a time. What it shares with the ground stays. */
-static virga_result make_in_budget(virga_context *context, virga_splash_def *def, virga_splash **splash)
-{
-    const virga_pool pools[] = {
-        {"max_splashes", &def->max_splashes, 256, 0},
-        {"max_droplets", &def->max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
-    };
     void *made = NULL;
-    const virga_result result = virga_make_in_budget(context, "splash", pools, 2, make, def, &made);
-    *splash = made;
-    return result;
-}
-
-virga_result virga_splash_create(virga_context *context, const virga_splash_def *given, virga_splash **splash)
-{
+    const virga_result result =
+        virga_effect_create(context, &splash_type, "virga_splash_create", def, splash ? &made : NULL);
     if (splash)
-        *splash = NULL;
-    if (!context || !given || !splash)
-        return virga_wrong_argument(context ? &context->log : NULL, "virga_splash_create: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_splash_def def;
-    virga_result result = check_def(&context->log, given, &def);
-    if (result)
-        return result;
-    virga_splash *made = NULL;
-    result = make_in_budget(context, &def, &made);
-    if (result < 0)
-        return result;
-    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED,
-                  "splash: up to %u splashes and %u droplets, %.1f MB of device memory in use", made->def.max_splashes,
-                  made->def.max_droplets, (double)context->device_used * 1e-6);
-    *splash = made;
+        *splash = made;
     return result;
 }
 
@@ -406,81 +372,51 @@ void virga_splash_destroy(virga_splash **splash)
 {
     if (!splash || !*splash)
         return;
-    virga_splash *dying = *splash;
-    virga_context *context = dying->context;
-    virga_buffer_row buffers[BUFFERS];
-    list_buffers(dying, buffers);
-    retire_passes(dying);
-    virga_buffers_retire(context, buffers, BUFFERS);
-    splash_targets_destroy(dying);
-    VIRGA_RETIRE(context, dying->blank_depth);
-    VIRGA_RETIRE(context, dying->blank_color);
-    VIRGA_RETIRE(context, dying->bindings);
-    context->effects--;
-    virga_free(&context->heap, dying);
+    virga_effect_destroy(&(*splash)->base);
     *splash = NULL;
 }
 
 virga_result virga_splash_ready(const virga_splash *splash)
 {
-    return !splash                 ? VIRGA_ERROR_INVALID
-           : splash->context->lost ? VIRGA_ERROR_DEVICE_LOST
-                                   : virga_group_ready(&splash->needed);
+    return splash ? virga_effect_ready(&splash->base) : VIRGA_ERROR_INVALID;
+}
+
+virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)
+{
+    return splash ? virga_effect_attach(&splash->base, "virga_splash_attach", target) : VIRGA_ERROR_INVALID;
 }
 
 /* ---- settings */
 
-static virga_result check_numbers(const virga_log *log, virga_splash_settings *s, bool *changed)
-{
-    const struct {
-        float *value;
-        float low, high;
-        const char *name;
-    } rows[] = {
-        {&s->pile_s, 0.001f, 0.2f, "splash_settings.pile_s"},
-        {&s->pile_m, 0.001f, 0.2f, "splash_settings.pile_m"},
-        {&s->bounce, 0, 1, "splash_settings.bounce"},
-        {&s->wind_share, 0, 2, "splash_settings.wind_share"},
-        {&s->droplets_m, 0, 1000, "splash_settings.droplets_m"},
-        {&s->dot_mm, 0.05f, 5, "splash_settings.dot_mm"},
-        {&s->air_density, 0.3f, 2, "splash_settings.air_density"},
-        {&s->gain, 0, 100, "splash_settings.gain"},
-        {&s->light_gain, 0, 100, "splash_settings.light_gain"},
-        {&s->min_width_px, 0.5f, 4, "splash_settings.min_width_px"},
-        {&s->soft_m, 0, 1, "splash_settings.soft_m"},
-        {&s->near_m, 0, 5, "splash_settings.near_m"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (virga_settings_finite(log, rows[i].name, rows[i].value, 1))
-            return VIRGA_ERROR_INVALID;
-        *rows[i].value =
-            virga_clamp_setting_float(log, rows[i].name, *rows[i].value, rows[i].low, rows[i].high, changed);
+#define NUMBER(member, min, max)                                                                          \
+    {                                                                                                     \
+        "splash_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_splash_settings, member), min, max \
     }
-    return VIRGA_OK;
-}
+
+static const virga_setting_row settings_rows[] = {
+    NUMBER(pile_s, 0.001, 0.2),  NUMBER(pile_m, 0.001, 0.2),   NUMBER(bounce, 0, 1),        NUMBER(wind_share, 0, 2),
+    NUMBER(droplets_m, 0, 1000), NUMBER(dot_mm, 0.05, 5),      NUMBER(air_density, 0.3, 2), NUMBER(gain, 0, 100),
+    NUMBER(light_gain, 0, 100),  NUMBER(min_width_px, 0.5, 4), NUMBER(soft_m, 0, 1),        NUMBER(near_m, 0, 5),
+};
 
 virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings)
 {
     if (!splash)
         return VIRGA_ERROR_INVALID;
-    const virga_log *log = &splash->context->log;
-    if (!settings)
-        return virga_wrong_argument(log, "virga_splash_set: NULL argument");
-    if (splash->context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    const virga_result result = virga_settings_check(log, "splash_settings", settings->size, sizeof *settings,
-                                                     settings->cookie, SETTINGS_COOKIE);
+    const virga_log *log = &splash->base.context->log;
+    const virga_result result = virga_effect_check_set(&splash->base, "virga_splash_set", settings);
     if (result)
         return result;
-    virga_splash_settings taken = *settings;
+    virga_splash_settings next = *settings;
     bool changed = false;
-    if ((uint32_t)taken.mode > VIRGA_SPLASH_PHYSICAL || (uint32_t)taken.style > VIRGA_SPLASH_STYLE_FILM)
-        return virga_wrong_argument(log, "splash_settings: there is no mode %d or style %d", (int)taken.mode,
-                                    (int)taken.style);
-    if (check_numbers(log, &taken, &changed) || splash_check_rows(log, taken.rows, &changed) ||
-        virga_lighting_check(log, "splash_settings", &taken.lighting, &changed) < 0)
+    if ((uint32_t)next.mode > VIRGA_SPLASH_PHYSICAL || (uint32_t)next.style > VIRGA_SPLASH_STYLE_FILM)
+        return virga_wrong_argument(log, "splash_settings: there is no mode %d or style %d", (int)next.mode,
+                                    (int)next.style);
+    if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), &next, &changed) ||
+        splash_check_rows(log, next.rows, &changed) ||
+        virga_lighting_check(log, "splash_settings", &next.lighting, &changed) < 0)
         return VIRGA_ERROR_INVALID;
-    splash->settings = taken;
+    splash->settings = next;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
@@ -494,14 +430,12 @@ void virga_splash_get(const virga_splash *splash, virga_splash_settings *setting
 
 void splash_push_rules(virga_splash *splash)
 {
-    virga_context *context = splash->context;
-    if (splash->rules_frame == context->frame_index)
+    virga_context *context = splash->base.context;
+    virga_splash_rules_gpu rules;
+    if (virga_ring_used(context, &splash->rules_ring))
         return;
-    splash->rules_frame = context->frame_index;
-    splash->rules_offset = context->ring_slot * splash_rules_bytes();
-    char *mapped = splash->rules_ring->memory.block.mapped;
-    splash_fill_rules(splash, (virga_splash_rules_gpu *)(mapped + splash->rules_offset));
-    virga_buffer_flush(context, splash->rules_ring, splash->rules_offset, splash_rules_bytes());
+    splash_fill_rules(splash, &rules);
+    splash->rules_offset = virga_ring_push(context, &splash->rules_ring, &rules, sizeof rules);
 }
 
 void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
@@ -509,12 +443,13 @@ void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
     if (!rules)
         return;
     *rules = (virga_splash_buffer){0};
-    if (!splash || splash->context->lost)
+    if (!splash || splash->base.context->lost)
         return;
-    if (!splash->context->frame_index)
+    if (!splash->base.context->frame_index)
         return;
     splash_push_rules(splash);
-    *rules = (virga_splash_buffer){splash->rules_ring->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
+    *rules =
+        (virga_splash_buffer){splash->rules_ring.buffer->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
 }
 
 void virga_splash_returns(const virga_splash *splash, virga_splash_buffer *returns)
@@ -548,6 +483,6 @@ void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats)
     memset(stats, 0, sizeof *stats);
     if (!splash)
         return;
-    splash_take_statistics(splash);
+    virga_effect_read_statistics(&splash->base);
     *stats = splash->stats;
 }

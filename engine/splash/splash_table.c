@@ -10,8 +10,9 @@
 
 #include "core/settings.h"
 
-#include <math.h>
 #include <virga/material.h>
+
+#include <math.h>
 
 /* ---- rows by state */
 

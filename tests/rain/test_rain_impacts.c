@@ -210,7 +210,7 @@ static void impacts_are_ready_as_indirect_arguments(void **state)
     const uint32_t tables = rain->tick_offset + (uint32_t)offsetof(rain_tick_block, tables);
     const uint32_t offsets[5] = {tables, 0, rain->tick_offset,
                                  rain->tick_offset + (uint32_t)offsetof(rain_tick_block, weights), 0};
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->impact_find->pipeline);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->impact_mark->pipeline);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->bindings->layout, 0, 1, &rain->step_set, 5,
                             offsets);
     virga_rain_buffer impacts;

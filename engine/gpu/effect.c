@@ -1,0 +1,320 @@
+/* gpu/effect.c - the life of an effect: estimated, created in the memory budget, filled, destroyed. */
+#include "gpu/effect.h"
+
+#include "core/memory.h"
+#include "core/settings.h"
+#include "gpu/budget.h"
+#include "gpu/builds.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
+
+#include <string.h>
+
+typedef VkDeviceSize effect_counts[VIRGA_EFFECT_MAX_COUNTS];
+
+static void fill_counts(const virga_effect_type *type, const void *def, effect_counts counts)
+{
+    memset(counts, 0, sizeof(effect_counts));
+    counts[VIRGA_COUNT_ONE] = 1;
+    if (type->count)
+        type->count(def, counts);
+}
+
+static const void *def_of(const virga_effect *effect)
+{
+    return virga_effect_member(effect, effect->type->def.member);
+}
+
+static VkDeviceSize buffer_bytes(const virga_effect_buffer *row, const effect_counts counts)
+{
+    return row->head + row->entry * counts[row->count];
+}
+
+static VkDeviceSize ring_bytes(const virga_effect_ring *row, const effect_counts counts, uint32_t frames)
+{
+    return row->block * counts[row->count] * frames;
+}
+
+/* ---- estimate */
+
+/* Those that effects make images of. */
+static VkDeviceSize texel_bytes(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R8_UINT:
+    case VK_FORMAT_R8_UNORM: return 1;
+    case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
+    default: return 4;
+    }
+}
+
+static VkDeviceSize image_bytes(const virga_effect_image *row, const effect_counts counts)
+{
+    return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * texel_bytes(row->format);
+}
+
+/* A definition that was checked, in a copy. */
+static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *checked)
+{
+    const uint32_t *head = given; /* size, cookie */
+    const virga_result result =
+        virga_settings_check(log, type->def.name, head[0], type->def.size, head[1], type->def.cookie);
+    if (result)
+        return result;
+    memcpy(checked, given, type->def.size);
+    return type->check_def ? type->check_def(log, checked) : VIRGA_OK;
+}
+
+VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *given)
+{
+    _Alignas(16) char def[VIRGA_EFFECT_MAX_DEF];
+    effect_counts counts;
+    if (!given || check_def(NULL, type, given, def))
+        return 0;
+    fill_counts(type, def, counts);
+    VkDeviceSize sum = (VkDeviceSize)type->readback_bytes * VIRGA_MAX_FRAMES_IN_FLIGHT;
+    for (uint32_t i = 0; i < type->buffer_count; i++)
+        sum += buffer_bytes(&type->buffers[i], counts);
+    for (uint32_t i = 0; i < type->ring_count; i++)
+        sum += ring_bytes(&type->rings[i], counts, VIRGA_MAX_FRAMES_IN_FLIGHT);
+    for (uint32_t i = 0; i < type->image_count; i++)
+        sum += image_bytes(&type->images[i], counts);
+    return sum + (type->extra_bytes ? type->extra_bytes(def) : 0);
+}
+
+/* ---- create */
+
+static virga_result create_buffers(virga_effect *effect, const effect_counts counts)
+{
+    const virga_effect_type *type = effect->type;
+    virga_context *context = effect->context;
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < type->buffer_count; i++) {
+        const virga_effect_buffer *row = &type->buffers[i];
+        const VkDeviceSize size = buffer_bytes(row, counts);
+        if (size)
+            TRY(virga_buffer_create(context, size, row->usage, row->heap, row->name,
+                                    virga_effect_member(effect, row->member)));
+    }
+    for (uint32_t i = 0; i < type->ring_count; i++) {
+        const virga_effect_ring *row = &type->rings[i];
+        virga_ring *ring = virga_effect_member(effect, row->member);
+        ring->block_bytes = (uint32_t)row->block;
+        ring->blocks_per_frame = (uint32_t)counts[row->count];
+        TRY(virga_buffer_create(context, ring_bytes(row, counts, context->frames_in_flight), row->usage,
+                                VIRGA_HEAP_UPLOAD, row->name, &ring->buffer));
+    }
+    if (type->readback_bytes)
+        TRY(virga_buffer_create(context, (VkDeviceSize)type->readback_bytes * context->frames_in_flight,
+                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK, type->readback_name,
+                                &effect->readback));
+error:
+    return result;
+}
+
+static virga_result create_images(virga_effect *effect, const effect_counts counts)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < effect->type->image_count; i++) {
+        const virga_effect_image *row = &effect->type->images[i];
+        const VkExtent2D extent = {(uint32_t)counts[row->width], (uint32_t)counts[row->height]};
+        TRY(virga_image_create(effect->context, row->format, extent, row->layers, row->usage, row->aspect, row->name,
+                               virga_effect_member(effect, row->member)));
+    }
+error:
+    return result;
+}
+
+static virga_bindings *layout_of(const virga_effect *effect, uint32_t index)
+{
+    return *(virga_bindings **)virga_effect_member(effect, effect->type->layouts[index].member);
+}
+
+static virga_result create_layouts(virga_effect *effect)
+{
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < effect->type->layout_count; i++) {
+        const virga_effect_layout *row = &effect->type->layouts[i];
+        TRY(virga_bindings_create(effect->context, row->rows, row->row_count, row->sets_per_frame, row->push_bytes,
+                                  virga_effect_member(effect, row->member)));
+    }
+error:
+    return result;
+}
+
+static uint32_t form_count(const virga_effect_pass *row)
+{
+    return row->forms ? row->forms : 1;
+}
+
+static virga_result create_passes(virga_effect *effect)
+{
+    const virga_effect_type *type = effect->type;
+    const uint32_t common = type->pass_constant ? type->pass_constant(effect) : 0;
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < type->pass_count; i++) {
+        const virga_effect_pass *row = &type->passes[i];
+        virga_pipeline **pipelines = virga_effect_member(effect, row->member);
+        virga_compute_def def = {.shader = row->shader,
+                                 .layout = layout_of(effect, row->layout)->layout,
+                                 .group = &effect->passes,
+                                 .name = row->name};
+        for (uint32_t form = 0; form < form_count(row); form++) {
+            def.constant = common | (row->constant + form);
+            TRY(virga_compute_pipeline_create(effect->context, &def, &pipelines[form]));
+        }
+    }
+error:
+    return result;
+}
+
+static virga_result init(virga_effect *effect)
+{
+    const virga_effect_type *type = effect->type;
+    effect_counts counts;
+    virga_result result = VIRGA_OK, fitted = VIRGA_OK;
+    if (type->fit_device)
+        fitted = type->fit_device(effect->context, virga_effect_member(effect, type->def.member));
+    fill_counts(type, def_of(effect), counts);
+    if (type->init)
+        TRY(type->init(effect));
+    TRY(create_buffers(effect, counts));
+    TRY(create_images(effect, counts));
+    TRY(create_layouts(effect));
+    if (type->create)
+        TRY(type->create(effect));
+    TRY(create_passes(effect));
+    TRY(virga_uploaded(effect->context));
+error:
+    return result < 0 ? result : fitted;
+}
+
+virga_result virga_effect_make(virga_context *context, const virga_effect_type *type, const void *def,
+                               virga_effect **made)
+{
+    virga_effect *effect = virga_alloc(&context->heap, type->size);
+    if (!effect)
+        return virga_out_of_host_memory(context, type->name);
+    effect->type = type;
+    effect->context = context;
+    memcpy(virga_effect_member(effect, type->def.member), def, type->def.size);
+    context->effects++;
+    const virga_result result = init(effect);
+    if (result < 0) {
+        virga_effect_destroy(effect);
+        effect = NULL;
+    }
+    *made = effect;
+    return result;
+}
+
+static void log_created(const virga_effect *effect)
+{
+    char line[VIRGA_LOG_LINE];
+    const virga_context *context = effect->context;
+    effect->type->describe(effect, line, sizeof line);
+    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%s, %.1f MB of device memory in use", line,
+                  (double)context->device_used * 1e-6);
+}
+
+virga_result virga_effect_create(virga_context *context, const virga_effect_type *type, const char *call,
+                                 const void *given, void **object)
+{
+    _Alignas(16) char def[VIRGA_EFFECT_MAX_DEF];
+    if (object)
+        *object = NULL;
+    if (!context || !given || !object)
+        return virga_wrong_argument(context ? &context->log : NULL, "%s: NULL argument", call);
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    virga_result result = check_def(&context->log, type, given, def);
+    if (result)
+        return result;
+    virga_effect *made = NULL;
+    result = virga_make_in_budget(context, type, def, &made);
+    if (result < 0)
+        return result;
+    log_created(made);
+    *object = made;
+    return result;
+}
+
+/* ---- destroy */
+
+static void retire_passes(virga_effect *effect)
+{
+    for (uint32_t i = 0; i < effect->type->pass_count; i++) {
+        const virga_effect_pass *row = &effect->type->passes[i];
+        virga_pipeline **pipelines = virga_effect_member(effect, row->member);
+        for (uint32_t form = 0; form < form_count(row); form++)
+            VIRGA_RETIRE(effect->context, pipelines[form]);
+    }
+}
+
+static void retire_rows(virga_effect *effect)
+{
+    const virga_effect_type *type = effect->type;
+    virga_context *context = effect->context;
+    for (uint32_t i = 0; i < type->buffer_count; i++) {
+        virga_buffer **buffer = virga_effect_member(effect, type->buffers[i].member);
+        VIRGA_RETIRE(context, *buffer);
+    }
+    for (uint32_t i = 0; i < type->ring_count; i++) {
+        virga_ring *ring = virga_effect_member(effect, type->rings[i].member);
+        VIRGA_RETIRE(context, ring->buffer);
+    }
+    VIRGA_RETIRE(context, effect->readback);
+    for (uint32_t i = 0; i < type->image_count; i++) {
+        virga_image_2d **image = virga_effect_member(effect, type->images[i].member);
+        VIRGA_RETIRE(context, *image);
+    }
+    for (uint32_t i = 0; i < type->layout_count; i++) {
+        virga_bindings **layout = virga_effect_member(effect, type->layouts[i].member);
+        VIRGA_RETIRE(context, *layout);
+    }
+}
+
+void virga_effect_destroy(virga_effect *effect)
+{
+    if (!effect)
+        return;
+    virga_context *context = effect->context;
+    if (effect->type->destroy)
+        effect->type->destroy(effect);
+    virga_effect_retire_targets(effect);
+    retire_passes(effect);
+    retire_rows(effect);
+    context->effects--;
+    virga_free(&context->heap, effect);
+}
+
+virga_result virga_effect_ready(const virga_effect *effect)
+{
+    return effect->context->lost ? VIRGA_ERROR_DEVICE_LOST : virga_group_ready(&effect->passes);
+}
+
+/* ---- settings */
+
+virga_result virga_effect_check_set(const virga_effect *effect, const char *call, const void *settings)
+{
+    const virga_log *log = &effect->context->log;
+    const virga_struct_id *id = &effect->type->settings;
+    const uint32_t *head = settings; /* size, cookie */
+    if (!settings)
+        return virga_wrong_argument(log, "%s: NULL argument", call);
+    if (effect->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    return virga_settings_check(log, id->name, head[0], id->size, head[1], id->cookie);
+}
+
+virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting)
+{
+    const virga_effect_type *type = effect->type;
+    if (!type->lighting)
+        return VIRGA_OK;
+    _Alignas(16) char settings[VIRGA_EFFECT_MAX_SETTINGS];
+    memcpy(settings, virga_effect_member(effect, type->settings.member), type->settings.size);
+    memcpy(settings + type->lighting, lighting, sizeof *lighting);
+    return type->set(effect, settings);
+}

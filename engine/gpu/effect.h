@@ -1,0 +1,329 @@
+/* gpu/effect.h - an effect is data: one table says what it is made of, and one life cycle runs any such table. Internal.
+ *
+ * An effect's object begins with a virga_effect. Its virga_effect_type lists buffers, rings, images, bindings, passes
+ * and draws, each with the member of the object that holds it. From these rows effect.c estimates, creates, shrinks to
+ * the memory budget, gives first contents, attaches to targets, reads statistics back and destroys. What the rows can
+ * not say an effect does in the callbacks of its type. */
+#ifndef VIRGA_GPU_EFFECT_H
+#define VIRGA_GPU_EFFECT_H
+
+#include "core/log.h"
+#include "gpu/bindings.h"
+#include "gpu/device_check.h"
+#include "gpu/pipelines.h"
+#include "gpu/resources.h"
+
+#include <virga/light.h>
+
+#define VIRGA_EFFECT_MAX_COUNTS  24
+#define VIRGA_EFFECT_MAX_DEF     512  /* bytes */
+#define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes, of an effect with a lighting */
+#define VIRGA_EFFECT_MAX_TARGETS 8
+#define VIRGA_EFFECT_MAX_DRAWS   32 /* pipelines of a target */
+#define VIRGA_EFFECT_PARTS       2  /* of the statistics of a frame: those of its step, and those of its prepare */
+
+#define VIRGA_ROWS(table) (uint32_t)(sizeof(table) / sizeof(table)[0])
+
+/* Sizes follow from the definition. An effect fills an array of counts, and its rows name one of them: e.g. a buffer
+ * of `entry` bytes for each of counts[SPLASH_COUNT_DROPLETS]. Count 0 is always 1. */
+#define VIRGA_COUNT_ONE 0
+
+/* Usages of buffers that occur in every effect. A storage buffer can be copied from and to. */
+#define VIRGA_USE_STORAGE \
+    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)
+#define VIRGA_USE_INDIRECT (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
+#define VIRGA_USE_TEXELS   (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)
+#define VIRGA_USE_INDEX    (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_INDEX_BUFFER_BIT)
+#define VIRGA_USE_UNIFORM  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
+
+/* What a buffer or image holds before the first pass. */
+typedef enum virga_first {
+    VIRGA_FIRST_ANYTHING, /* (buffers) passes write before they read */
+    VIRGA_FIRST_FILL,     /* (buffers) `fill` in every word; (images) zero, in the layout GENERAL */
+    VIRGA_FIRST_STORAGE,  /* (images) anything, in the layout GENERAL */
+    VIRGA_FIRST_SAMPLED,  /* (images) anything, in the layout SHADER_READ_ONLY_OPTIMAL */
+} virga_first;
+
+/* A buffer of head + entry x counts[count] bytes; none is made where that is 0. */
+typedef struct virga_effect_buffer {
+    const char *name;
+    size_t member; /* offset of the virga_buffer * */
+    VkBufferUsageFlags usage;
+    virga_heap_kind heap;
+    VkDeviceSize head, entry;
+    uint32_t count;
+    virga_first first;
+    uint32_t fill;
+} virga_effect_buffer;
+
+/* Blocks that the host writes while it records and passes read at a dynamic offset: counts[count] for each frame in
+ * flight. */
+typedef struct virga_effect_ring {
+    const char *name;
+    size_t member; /* offset of the virga_ring */
+    VkBufferUsageFlags usage;
+    VkDeviceSize block; /* bytes; VIRGA_RING_BYTES */
+    uint32_t count;
+} virga_effect_ring;
+
+/* An image of counts[width] x counts[height] texels. */
+typedef struct virga_effect_image {
+    const char *name;
+    size_t member; /* offset of the virga_image_2d * */
+    VkFormat format;
+    VkImageAspectFlags aspect;
+    VkImageUsageFlags usage;
+    uint32_t width, height; /* counts */
+    uint32_t layers;        /* 0: a 3D image of depth 1 */
+    virga_first first;
+} virga_effect_image;
+
+/* One set layout and the pipeline layout of it. Rows with a source are bound by virga_effect_bound; the effect binds
+ * the others itself. */
+typedef struct virga_effect_layout {
+    size_t member; /* offset of the virga_bindings * */
+    const virga_binding_kind *rows;
+    uint32_t row_count, sets_per_frame, push_bytes;
+} virga_effect_layout;
+
+/* A compute pass. With `forms` above 1 the member is an array of as many pipelines, which differ in the
+ * specialisation constant 0: `constant` + the index. */
+typedef struct virga_effect_pass {
+    const char *name;
+    size_t member; /* offset of the virga_pipeline *, or of an array of them */
+    virga_spirv shader;
+    uint32_t forms; /* 0: one */
+    uint32_t constant;
+    uint32_t layout; /* index of the virga_effect_layout */
+} virga_effect_pass;
+
+/* The shaders of a draw by virga_target_outputs. A row that leaves out a form writes color alone on any target. */
+#define VIRGA_FRAGMENT_FORMS(name) \
+    {VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), VIRGA_SPIRV_ROW(name##_both)}
+#define VIRGA_VERTEX_FORMS(name) {VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion)}
+#define VIRGA_FORM(name)         {VIRGA_SPIRV_ROW(name)}
+
+/* Pipelines of a target that differ in the specialisation constant 0: one for each of `constants`. */
+typedef struct virga_effect_draw {
+    const char *name;
+    virga_spirv vertex[2], fragment[VIRGA_OUTPUTS_FORMS];
+    const uint32_t *constants;
+    uint32_t constant_count;
+    bool lines;     /* made only where the context draws lines */
+    bool cull_back; /* counter-clockwise is the front */
+    bool no_depth;  /* is not tested against depth */
+    bool replace;   /* writes over what is there; else it is blended by premultiplied alpha */
+} virga_effect_draw;
+
+/* A size in the definition that is made smaller where the memory budget asks for it. */
+typedef struct virga_effect_pool {
+    const char *name;
+    size_t member; /* offset of a uint32_t in the definition */
+    uint32_t min;
+    uint32_t unit; /* it stays a multiple of that; 0: a power of two */
+} virga_effect_pool;
+
+/* A public struct that begins with size and cookie. */
+typedef struct virga_struct_id {
+    const char *name; /* as in virga_settings_check */
+    uint32_t size, cookie;
+    size_t member; /* offset in the object */
+} virga_struct_id;
+
+typedef struct virga_effect_type {
+    const char *name; /* in log lines: "the ground", "a pane" */
+    size_t size;      /* of the object */
+    virga_struct_id def, settings;
+    size_t lighting; /* offset of the virga_lighting in the settings; 0: none */
+
+    const virga_effect_buffer *buffers;
+    uint32_t buffer_count;
+    const virga_effect_ring *rings;
+    uint32_t ring_count;
+    const virga_effect_image *images;
+    uint32_t image_count;
+    const virga_effect_layout *layouts;
+    uint32_t layout_count;
+    const virga_effect_pass *passes;
+    uint32_t pass_count;
+    const virga_effect_draw *draws;
+    uint32_t draw_count;
+    uint32_t draw_layout; /* index of the virga_effect_layout of draws */
+    const virga_effect_pool *pools;
+    uint32_t pool_count;
+    const char *readback_name; /* of the buffer that statistics come back in */
+    uint32_t readback_bytes;   /* of a frame; 0: there are none */
+
+    /* Checks a definition and moves it into its ranges. The size and the cookie were checked. */
+    virga_result (*check_def)(const virga_log *log, void *def);
+    /* (optional) Makes a definition fit the device: VIRGA_DEGRADED where it had to be smaller. */
+    virga_result (*fit_device)(const virga_context *context, void *def);
+    /* Fills the counts of a definition. */
+    void (*count)(const void *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS]);
+    /* (optional) Bytes of device memory of what create makes beside the rows. */
+    VkDeviceSize (*extra_bytes)(const void *def);
+    /* Fills the object, whose definition is there, before anything is made. */
+    virga_result (*init)(void *object);
+    /* (optional) Makes what no row says. Buffers, images and layouts are there, passes are not. */
+    virga_result (*create)(void *object);
+    /* (optional) Releases what init and create made; NULL pointers are accepted. */
+    void (*destroy)(void *object);
+    /* Describes a new object in a log line, e.g. "splash: up to 65536 splashes". */
+    void (*describe)(const void *object, char *line, size_t size);
+    /* (optional) Bits that are set in the specialisation constant 0 of every pass, and of every draw. */
+    uint32_t (*pass_constant)(const void *object);
+    uint32_t (*draw_constant)(const void *object);
+    /* Reads the statistics of a completed frame. `parts` says which of them were recorded in it, by bits. */
+    void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
+
+    /* The public functions of the effect, as a scene calls them. */
+    virga_result (*set)(void *object, const void *settings);
+    virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target); /* (optional) */
+} virga_effect_type;
+
+/* A ring's buffer, and how far the frame at hand has filled its part. */
+typedef struct virga_ring {
+    virga_buffer *buffer;
+    uint32_t block_bytes, blocks_per_frame;
+    uint64_t frame; /* that `used` belongs to */
+    uint32_t used;
+} virga_ring;
+
+/* Bytes of a block of this type in a ring: each starts where Vulkan lets a dynamic offset be. */
+#define VIRGA_RING_BYTES(type) \
+    ((sizeof(type) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
+
+/* Pipelines for one target. */
+typedef struct virga_effect_target {
+    uint64_t serial; /* of the virga_target; 0: free */
+    bool motion;     /* it has motion vectors */
+    virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* row by row, constant by constant */
+} virga_effect_target;
+
+/* The view that the newest prepare was for. */
+typedef struct virga_effect_view {
+    bool ready;
+    uint64_t frame;
+    VkDescriptorSet set;
+    float viewport[4];
+} virga_effect_view;
+
+/* What every effect's object begins with. */
+typedef struct virga_effect {
+    const virga_effect_type *type;
+    virga_context *context;
+    virga_pipeline_group passes; /* all that a step and a prepare need */
+    virga_effect_target targets[VIRGA_EFFECT_MAX_TARGETS];
+    virga_effect_view view;
+    bool has_contents;       /* first contents were recorded */
+    bool not_drawn_logged;   /* since the last draw that had all it needs */
+    uint64_t step_frame;     /* of the newest step */
+    virga_buffer *readback;  /* statistics of the frames in flight */
+    uint64_t readback_frames[VIRGA_EFFECT_PARTS][VIRGA_MAX_FRAMES_IN_FLIGHT]; /* 0: nothing to be read */
+} virga_effect;
+
+/* The member of an object at an offset of a row. */
+static inline void *virga_effect_member(const virga_effect *effect, size_t offset)
+{
+    return (char *)effect + offset;
+}
+
+/* ---- life cycle */
+
+/* Creates an object: *object is NULL where that fails. `call` names the public function in log lines. */
+virga_result virga_effect_create(virga_context *context, const virga_effect_type *type, const char *call,
+                                 const void *def, void **object);
+void virga_effect_destroy(virga_effect *effect); /* accepts NULL */
+
+/* The same from a definition that was checked, with no budget and no line in the log: for budget.c. */
+virga_result virga_effect_make(virga_context *context, const virga_effect_type *type, const void *def,
+                               virga_effect **made);
+
+/* Device memory in bytes, at most and with the most frames in flight; 0 for a definition that is refused. */
+VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *def);
+
+/* Whether the pipelines of all passes are there. */
+virga_result virga_effect_ready(const virga_effect *effect);
+
+/* What a function that sets settings checks first. */
+virga_result virga_effect_check_set(const virga_effect *effect, const char *call, const void *settings);
+
+/* Sets another lighting in the settings that are in force. */
+virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting);
+
+/* ---- recording */
+
+/* What a step checks first: cmd and info are there, and so is a frame. */
+virga_result virga_effect_check_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                     const void *info);
+
+/* Ticks that a host asks a step to run: `count` of them from `first` on, `max` at most. */
+typedef struct virga_tick_range {
+    uint32_t first, count, max;
+} virga_tick_range;
+
+/* For effects with one step a frame: it is the first in this frame, and its ticks follow the last one. `last_tick` is
+ * NULL before the first step. */
+virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
+                                      const uint32_t *last_tick);
+
+/* Records what rows say of first contents, in the first call; false in all others. Ends with a barrier before transfers
+ * and passes. */
+bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd);
+
+/* Copies a block into the frame's part of a ring and returns its offset in bytes. push takes the next block. */
+uint32_t virga_ring_push(virga_context *context, virga_ring *ring, const void *block, size_t size);
+uint32_t virga_ring_write(virga_context *context, virga_ring *ring, uint32_t index, const void *block, size_t size);
+
+/* Where the next push will write. */
+uint32_t virga_ring_next_offset(const virga_context *context, const virga_ring *ring);
+
+/* Blocks that the frame at hand has pushed. */
+uint32_t virga_ring_used(const virga_context *context, const virga_ring *ring);
+
+/* Fills what the layout's rows have a source for; all else is left as nothing. */
+void virga_effect_bound(const virga_effect *effect, const virga_bindings *bindings,
+                        virga_bound bound[VIRGA_MAX_BINDINGS]);
+
+/* A host's image, or a blank in its place. */
+virga_bound virga_bound_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler);
+
+/* The sampler for a host's color image: linear, where devices filter its format. */
+VkSampler virga_color_sampler(const virga_context *context, const virga_image *image);
+
+/* ---- statistics */
+
+/* Copies `size` bytes of a buffer to where the host reads them once this frame has completed. */
+void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uint32_t part, const virga_buffer *from,
+                                  VkDeviceSize from_offset, VkDeviceSize to_offset, VkDeviceSize size);
+
+/* Says that this frame has statistics of a part also where nothing was copied. */
+void virga_effect_mark_statistics(virga_effect *effect, uint32_t part);
+
+/* Reads those of all completed frames, oldest first. */
+void virga_effect_read_statistics(virga_effect *effect);
+
+/* ---- targets and draws */
+
+virga_result virga_effect_attach(virga_effect *effect, const char *call, const virga_target *target);
+
+/* Whether any target has motion vectors. */
+bool virga_effect_wants_motion(const virga_effect *effect);
+
+/* What a draw checks first. Gives the target's pipelines; VIRGA_NOT_READY where the target is not attached or nothing
+ * was prepared in this frame, which is logged once where `ready` is VIRGA_OK. */
+virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                     const virga_target *target, virga_result ready,
+                                     const virga_effect_target **found);
+
+/* The same where nothing needs to be prepared: *found is NULL for a target that is not attached. */
+virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                      const virga_target *target, const virga_effect_target **found);
+
+/* Releases the pipelines of all targets. */
+void virga_effect_retire_targets(virga_effect *effect);
+
+/* Remembers what the draws of a view need. */
+void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4]);
+
+#endif

@@ -1,0 +1,209 @@
+/* gpu/effect_record.c - what effects record alike: first contents, blocks of rings, descriptors, statistics. */
+#include "gpu/effect.h"
+
+#include "gpu/checks.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+
+#include <string.h>
+
+virga_result virga_effect_check_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                     const void *info)
+{
+    const virga_log *log = &effect->context->log;
+    if (!cmd || !info)
+        return virga_wrong_argument(log, "%s: NULL argument", call);
+    if (effect->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (!effect->context->frame_index)
+        return virga_wrong_argument(log, "%s: expected virga_frame_begin before it", call);
+    return VIRGA_OK;
+}
+
+virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
+                                      const uint32_t *last_tick)
+{
+    const virga_log *log = &effect->context->log;
+    if (effect->step_frame == effect->context->frame_index)
+        return virga_wrong_argument(log, "%s: expected one step a frame", call);
+    if (range->count > range->max)
+        return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u", range->max,
+                                    range->count);
+    return virga_ticks_check(log, range->first, range->count, last_tick);
+}
+
+/* ---- first contents */
+
+static void record_first_image(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_image *row)
+{
+    const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaders, VK_ACCESS_SHADER_READ_BIT};
+    const virga_image_state general = {VK_IMAGE_LAYOUT_GENERAL, shaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                       READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkClearColorValue zero = {.float32 = {0}};
+    const VkImageSubresourceRange all = {row->aspect, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+    virga_image_barrier(effect->context, cmd, image->image, row->aspect, before,
+                        row->first == VIRGA_FIRST_SAMPLED ? sampled : general);
+    if (row->first == VIRGA_FIRST_FILL)
+        effect->context->vk.CmdClearColorImage(cmd, image->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+}
+
+bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
+{
+    const virga_effect_type *type = effect->type;
+    virga_context *context = effect->context;
+    if (effect->has_contents)
+        return false;
+    for (uint32_t i = 0; i < type->image_count; i++)
+        if (type->images[i].first != VIRGA_FIRST_ANYTHING)
+            record_first_image(effect, cmd, &type->images[i]);
+    for (uint32_t i = 0; i < type->buffer_count; i++) {
+        const virga_effect_buffer *row = &type->buffers[i];
+        const virga_buffer *buffer = *(virga_buffer **)virga_effect_member(effect, row->member);
+        if (buffer && row->first == VIRGA_FIRST_FILL)
+            context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
+    }
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                      VK_ACCESS_TRANSFER_WRITE_BIT);
+    effect->has_contents = true;
+    return true;
+}
+
+/* ---- rings */
+
+uint32_t virga_ring_used(const virga_context *context, const virga_ring *ring)
+{
+    return ring->frame == context->frame_index ? ring->used : 0;
+}
+
+static uint32_t block_offset(const virga_context *context, const virga_ring *ring, uint32_t index)
+{
+    return (context->ring_slot * ring->blocks_per_frame + index) * ring->block_bytes;
+}
+
+uint32_t virga_ring_next_offset(const virga_context *context, const virga_ring *ring)
+{
+    return block_offset(context, ring, virga_ring_used(context, ring));
+}
+
+/* Blocks are made elsewhere and copied at once: mapped memory may be slow to read. */
+uint32_t virga_ring_write(virga_context *context, virga_ring *ring, uint32_t index, const void *block, size_t size)
+{
+    const uint32_t offset = block_offset(context, ring, index);
+    memcpy((char *)ring->buffer->memory.block.mapped + offset, block, size);
+    virga_buffer_flush(context, ring->buffer, offset, ring->block_bytes);
+    return offset;
+}
+
+uint32_t virga_ring_push(virga_context *context, virga_ring *ring, const void *block, size_t size)
+{
+    const uint32_t index = virga_ring_used(context, ring);
+    ring->frame = context->frame_index;
+    ring->used = index + 1;
+    return virga_ring_write(context, ring, index, block, size);
+}
+
+/* ---- descriptors */
+
+static VkSampler sampler_of(const virga_context *context, const virga_binding_kind *row)
+{
+    return row->sampler == VIRGA_SAMPLER_LINEAR ? context->linear : context->nearest;
+}
+
+static virga_bound bound_of(const virga_effect *effect, const virga_binding_kind *row)
+{
+    const void *member = virga_effect_member(effect, row->member);
+    switch (row->source) {
+    case VIRGA_SOURCE_BUFFER: {
+        const virga_buffer *buffer = *(virga_buffer *const *)member;
+        return (virga_bound){.buffer = buffer ? buffer->buffer : VK_NULL_HANDLE, .range = row->range};
+    }
+    case VIRGA_SOURCE_RING:
+        return (virga_bound){.buffer = ((const virga_ring *)member)->buffer->buffer, .range = row->range};
+    case VIRGA_SOURCE_TEXELS: return (virga_bound){.texels = (*(virga_buffer *const *)member)->texels};
+    case VIRGA_SOURCE_IMAGE:
+        return (virga_bound){.view = (*(virga_image_2d *const *)member)->layer_views[0],
+                             .image_layout = VK_IMAGE_LAYOUT_GENERAL,
+                             .sampler = sampler_of(effect->context, row)};
+    default: return (virga_bound){0};
+    }
+}
+
+void virga_effect_bound(const virga_effect *effect, const virga_bindings *bindings,
+                        virga_bound bound[VIRGA_MAX_BINDINGS])
+{
+    for (uint32_t i = 0; i < bindings->count; i++)
+        bound[i] = bound_of(effect, &bindings->kinds[i]);
+}
+
+virga_bound virga_bound_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler)
+{
+    const bool given = image && image->view;
+    return (virga_bound){.sampler = sampler,
+                         .view = given ? image->view : blank->layer_views[0],
+                         .image_layout = given ? image->before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+VkSampler virga_color_sampler(const virga_context *context, const virga_image *image)
+{
+    /* Not every device filters four whole floats. */
+    return image && image->format == VK_FORMAT_R32G32B32A32_SFLOAT ? context->nearest : context->linear;
+}
+
+/* ---- statistics */
+
+void virga_effect_mark_statistics(virga_effect *effect, uint32_t part)
+{
+    effect->readback_frames[part][effect->context->ring_slot] = effect->context->frame_index;
+}
+
+void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uint32_t part, const virga_buffer *from,
+                                  VkDeviceSize from_offset, VkDeviceSize to_offset, VkDeviceSize size)
+{
+    virga_context *context = effect->context;
+    const VkDeviceSize frame_offset = (VkDeviceSize)context->ring_slot * effect->type->readback_bytes;
+    const VkBufferCopy copy = {from_offset, frame_offset + to_offset, size};
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    context->vk.CmdCopyBuffer(cmd, from->buffer, effect->readback->buffer, 1, &copy);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_effect_mark_statistics(effect, part);
+}
+
+/* The oldest completed frame that was not read yet; 0: there is none. */
+static uint64_t oldest_unread(const virga_effect *effect)
+{
+    uint64_t oldest = 0;
+    for (uint32_t part = 0; part < VIRGA_EFFECT_PARTS; part++)
+        for (uint32_t i = 0; i < effect->context->frames_in_flight; i++) {
+            const uint64_t frame = effect->readback_frames[part][i];
+            if (frame && frame <= effect->context->completed_index && (!oldest || frame < oldest))
+                oldest = frame;
+        }
+    return oldest;
+}
+
+void virga_effect_read_statistics(virga_effect *effect)
+{
+    const char *mapped = effect->readback->memory.block.mapped;
+    virga_buffer_invalidate(effect->context, effect->readback);
+    for (uint64_t frame = oldest_unread(effect); frame; frame = oldest_unread(effect)) {
+        const uint32_t slot = (uint32_t)(frame % effect->context->frames_in_flight);
+        uint32_t parts = 0;
+        for (uint32_t part = 0; part < VIRGA_EFFECT_PARTS; part++)
+            if (effect->readback_frames[part][slot] == frame) {
+                parts |= 1u << part;
+                effect->readback_frames[part][slot] = 0;
+            }
+        effect->type->read_statistics(effect, frame, slot, parts, mapped + (size_t)slot * effect->type->readback_bytes);
+    }
+}

@@ -1,0 +1,11 @@
+/* ground/ground.h - what a scene uses of this effect beside its public functions. Internal. */
+#ifndef VIRGA_GROUND_GROUND_H
+#define VIRGA_GROUND_GROUND_H
+
+#include "gpu/effect.h"
+
+#include <virga/ground.h>
+
+extern const virga_effect_type ground_type;
+
+#endif

@@ -1,0 +1,282 @@
+/* scene/scene_effects.c - the effects of a scene and the events between them. The only file that knows them all.
+ *
+ *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, a step later
+ *       \-> hits -> panes
+ */
+#include "scene/scene_internal.h"
+
+#include "core/settings.h"
+#include "glass/glass.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
+#include "ground/ground.h"
+#include "rain/rain.h"
+#include "splash/splash.h"
+
+#include <string.h>
+
+/* ---- definitions: what must be the same as the rain's is copied from it */
+
+static void define_rain(const virga_scene_def *def, uint32_t index, void *effect_def)
+{
+    (void)index;
+    memcpy(effect_def, &def->rain, sizeof def->rain);
+}
+
+static uint32_t count_ground(const virga_scene_def *def)
+{
+    return def->with_ground;
+}
+
+static void define_ground(const virga_scene_def *def, uint32_t index, void *effect_def)
+{
+    virga_ground_def ground = def->ground;
+    (void)index;
+    ground.seed = def->rain.seed;
+    if (def->with_splash && ground.max_returns < ground.max_spawns)
+        ground.max_returns = ground.max_spawns; /* as splash needs */
+    ground.tick_s = def->rain.tick_s;
+    ground.max_impacts = def->rain.max_impacts;
+    ground.max_ticks_per_step = def->rain.max_ticks_per_step;
+    memcpy(ground.occluder_strides, def->rain.occluder_strides, sizeof ground.occluder_strides);
+    memcpy(effect_def, &ground, sizeof ground);
+}
+
+static uint32_t count_splash(const virga_scene_def *def)
+{
+    return def->with_splash;
+}
+
+static void define_splash(const virga_scene_def *def, uint32_t index, void *effect_def)
+{
+    virga_splash_def splash = def->splash;
+    (void)index;
+    splash.tick_s = def->rain.tick_s;
+    splash.max_ticks_per_step = def->rain.max_ticks_per_step;
+    splash.max_spawns = def->ground.max_spawns;
+    splash.max_returns = def->ground.max_returns > splash.max_spawns ? def->ground.max_returns : splash.max_spawns;
+    memcpy(effect_def, &splash, sizeof splash);
+}
+
+static uint32_t count_panes(const virga_scene_def *def)
+{
+    return def->pane_count;
+}
+
+static void define_pane(const virga_scene_def *def, uint32_t index, void *effect_def)
+{
+    virga_glass_def pane = def->panes[index];
+    pane.seed = def->rain.seed + index;
+    pane.tick_s = def->rain.tick_s;
+    pane.max_ticks_per_step = def->rain.max_ticks_per_step;
+    memcpy(effect_def, &pane, sizeof pane);
+}
+
+/* ---- rain */
+
+static virga_rain *rain_of(const virga_scene *scene)
+{
+    return scene_find(scene, &rain_type, 0);
+}
+
+static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_rain *rain = rain_of(scene);
+    virga_rain_step_info step = {.dt_s = frame->dt_s};
+    virga_result result = VIRGA_OK;
+    (void)index;
+    if (frame->occluders)
+        result = virga_rain_occlusion(rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
+    memcpy(step.camera_m, frame->camera_m, sizeof step.camera_m);
+    return result < 0 ? result : scene_merge_results(result, virga_rain_step(rain, cmd, &step));
+}
+
+static virga_result prepare_rain(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_view *view)
+{
+    (void)index;
+    return virga_rain_prepare(rain_of(scene), cmd, view, virga_rain_time(rain_of(scene)));
+}
+
+/* ---- ground: impacts come from the rain, rules and returned water from the splashes */
+
+static void fill_rainfall(const virga_rain *rain, virga_ground_step_info *info)
+{
+    virga_rain_buffer impacts;
+    virga_rain_fall fall;
+    virga_rain_impacts(rain, &impacts);
+    info->impacts = impacts.buffer;
+    info->impacts_offset = impacts.offset;
+    info->impacts_size = impacts.size;
+    virga_rain_ticks(rain, &info->first_tick, &info->ticks);
+    virga_rain_fall_get(rain, &fall);
+    info->open_rain_mm_h = fall.rate_mm_h;
+    info->open_drop_m = fall.drop_m;
+    info->impacts_reach_m = fall.reach_m;
+}
+
+static void fill_splashes(virga_splash *splash, virga_ground_step_info *info)
+{
+    virga_splash_buffer rules, returns;
+    virga_splash_rules(splash, &rules);
+    virga_splash_returns(splash, &returns);
+    info->splash_rules = rules.buffer;
+    info->splash_rules_offset = rules.offset;
+    info->returns = returns.buffer;
+    info->returns_offset = returns.offset;
+    info->returns_size = returns.size;
+}
+
+static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_splash *splash = scene_find(scene, &splash_type, 0);
+    virga_ground_step_info info = {
+        .meshes = frame->occluders, .mesh_count = frame->occluder_count, .materials = frame->materials};
+    memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
+    memcpy(info.focus_m, frame->focus_m, sizeof info.focus_m);
+    fill_rainfall(rain_of(scene), &info);
+    if (splash)
+        fill_splashes(splash, &info);
+    return virga_ground_step(scene_find(scene, &ground_type, index), cmd, &info);
+}
+
+/* ---- splashes: the ground says where they are */
+
+static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    virga_splash_step_info info = {.spawns_offset = 0};
+    memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
+    virga_ground_spawns(scene_find(scene, &ground_type, 0), &info.spawns, &info.spawns_size);
+    virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
+    virga_rain_wind(rain_of(scene), info.wind_m_s);
+    return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
+}
+
+static virga_result prepare_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_view *view)
+{
+    return virga_splash_prepare(scene_find(scene, &splash_type, index), cmd, view, virga_rain_time(rain_of(scene)));
+}
+
+/* ---- panes: the rain says which of its drops hit them, or how much falls */
+
+/* From the pane's own frame to the world; a pose without axes has the world's. */
+static void turn_to_world(const virga_glass_pose *pose, const float local[3], float world[3])
+{
+    bool none = true;
+    for (int i = 0; i < 9; i++)
+        none = none && pose->world_from_pane[i] == 0;
+    for (int i = 0; i < 3; i++)
+        world[i] = none ? local[i]
+                        : pose->world_from_pane[i] * local[0] + pose->world_from_pane[3 + i] * local[1] +
+                              pose->world_from_pane[6 + i] * local[2];
+}
+
+static uint32_t count_all_panes(const virga_scene *scene)
+{
+    uint32_t count = 0;
+    while (scene_find(scene, &glass_type, count))
+        count++;
+    return count;
+}
+
+static virga_result check_pane(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame)
+{
+    const virga_log *log = &scene->context->log;
+    if (!frame->panes)
+        return virga_wrong_argument(log, "scene_frame.panes: expected %u, got NULL", count_all_panes(scene));
+    const virga_scene_pane *pane = &frame->panes[index];
+    if (!(pane->shelter >= 0 && pane->shelter <= 1))
+        return virga_wrong_argument(log, "scene_pane.shelter: expected 0 to 1, got %g", (double)pane->shelter);
+    if (glass_pose_check(log, &pane->pose) ||
+        virga_settings_finite(log, "scene_pane.velocity_m_s", pane->velocity_m_s, 3) ||
+        virga_settings_finite(log, "scene_pane.acceleration_m_s2", pane->acceleration_m_s2, 3) ||
+        virga_settings_finite(log, "scene_pane.turn_rad_s", pane->turn_rad_s, 3))
+        return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+/* The rain's own drops, as long as there is room for them to be caught and nothing keeps a share of them off. */
+static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
+                                virga_glass_step_info *info)
+{
+    virga_rain_pane caught;
+    virga_rain_buffer hits;
+    float corner[3], along_u[3], along_v[3], offset[3];
+    if (index >= scene->catching_panes || pane->shelter > 0)
+        return VIRGA_OK;
+    virga_glass_rectangle(scene_find(scene, &glass_type, index), corner, along_u, along_v, &caught.width_m,
+                          &caught.height_m);
+    turn_to_world(&pane->pose, corner, offset);
+    turn_to_world(&pane->pose, along_u, caught.along_u);
+    turn_to_world(&pane->pose, along_v, caught.along_v);
+    for (int axis = 0; axis < 3; axis++)
+        caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
+    memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
+    const virga_result result = virga_rain_hits(rain_of(scene), cmd, &caught, &hits);
+    if (result < 0 || result == VIRGA_NOT_READY)
+        return result;
+    info->rate_mm_h = 0;
+    info->impacts = hits.buffer;
+    info->impacts_offset = hits.offset;
+    return result;
+}
+
+/* Rain lands on a pane as it does on the ground under the same sky. */
+static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    bool changed = false;
+    virga_scene_pane moved = frame->panes[index];
+    const virga_scene_pane *pane = &moved;
+    const virga_log *log = &scene->context->log;
+    virga_clamp_vector(log, "scene_pane.velocity_m_s", moved.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(log, "scene_pane.acceleration_m_s2", moved.acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
+    virga_clamp_vector(log, "scene_pane.turn_rad_s", moved.turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
+    virga_rain_settings rain;
+    virga_rain_get(rain_of(scene), &rain);
+    virga_glass_step_info info = {
+        .rate_mm_h = rain.rate_mm_h * (1 - pane->shelter), .sizes = &rain.sizes, .air_density = rain.air_density};
+    memcpy(info.world_from_pane, pane->pose.world_from_pane, sizeof info.world_from_pane);
+    memcpy(info.velocity_m_s, pane->velocity_m_s, sizeof info.velocity_m_s);
+    memcpy(info.acceleration_m_s2, pane->acceleration_m_s2, sizeof info.acceleration_m_s2);
+    memcpy(info.turn_rad_s, pane->turn_rad_s, sizeof info.turn_rad_s);
+    virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
+    virga_rain_wind(rain_of(scene), info.wind_m_s);
+    virga_result result = catch_drops(scene, cmd, index, pane, &info);
+    if (result >= 0)
+        result = virga_glass_step(scene_find(scene, &glass_type, index), cmd, &info);
+    return result ? result : changed ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+/* At the panes' own time: what rain has left over of a tick they do not know of. */
+virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
+                                       const virga_scene_pane *panes)
+{
+    if (!scene)
+        return VIRGA_ERROR_INVALID;
+    const uint32_t count = count_all_panes(scene);
+    if (count && (!view || !panes))
+        return virga_wrong_argument(&scene->context->log, "virga_scene_prepare_panes: %s is NULL",
+                                    view ? "panes" : "view");
+    virga_result result = VIRGA_OK;
+    for (uint32_t i = 0; i < count && result >= 0; i++) {
+        virga_glass *glass = scene_find(scene, &glass_type, i);
+        const virga_result prepared = virga_glass_prepare(glass, cmd, view, &panes[i].pose, virga_glass_time(glass));
+        result = scene_merge_results(result, prepared);
+    }
+    return result;
+}
+
+/* ---- the table */
+
+enum { DRAW_SPLASH, DRAW_GROUND, DRAW_RAIN, DRAW_PANES };
+
+const scene_kind scene_kinds[] = {
+    {&rain_type, DRAW_RAIN, .define = define_rain, .step = step_rain, .prepare = prepare_rain},
+    {&ground_type, DRAW_GROUND, count_ground, define_ground, .step = step_ground},
+    {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash, .prepare = prepare_splash},
+    {&glass_type, DRAW_PANES, count_panes, define_pane, .check_frame = check_pane, .step = step_pane},
+#ifdef SCENE_EXTRA_KINDS /* an effect that exists in the tests only */
+    SCENE_EXTRA_KINDS,
+#endif
+};
+
+const uint32_t scene_kind_count = sizeof scene_kinds / sizeof scene_kinds[0];
