@@ -48,7 +48,7 @@ static inline void glass_fixture_buffers(glass_fixture *f)
     REQUIRE(host_buffer_create(&f->gpu.device, g->drops->size + g->passed->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                HOST_BUFFER_UPLOAD, "pane up", &f->upload, error, sizeof f->gpu.error));
     REQUIRE(host_buffer_create(
-        &f->gpu.device, sizeof(virga_impacts_gpu) + GLASS_MOST_IMPACTS * sizeof(virga_impact_gpu),
+        &f->gpu.device, sizeof(virga_impacts_gpu) + GLASS_MAX_IMPACTS * sizeof(virga_impact_gpu),
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "impacts", &f->impacts, error, sizeof f->gpu.error));
 }
 
@@ -96,7 +96,7 @@ static inline void glass_fixture_read(glass_fixture *f, VkCommandBuffer cmd)
 /* Another drop of the next step, that lands in its first tick. */
 static inline virga_impact_gpu *glass_fixture_land(glass_fixture *f, double u, double v, uint32_t water_nl)
 {
-    REQUIRE(f->impact_count < GLASS_MOST_IMPACTS);
+    REQUIRE(f->impact_count < GLASS_MAX_IMPACTS);
     virga_impact_gpu *impact = (virga_impact_gpu *)((virga_impacts_gpu *)f->impacts.mapped + 1) + f->impact_count;
     *impact = (virga_impact_gpu){.position = {(float)u, (float)v, 0},
                                  .weight = 1,

@@ -8,7 +8,7 @@
 #include "target.h"
 #include <math.h>
 
-#include "glass/glass_picture.h"
+#include "glass/glass_internal.h"
 
 #include <virga/shared/random.h>
 #include <virga/virga.h>
@@ -72,7 +72,7 @@ static inline void shot_step(shot *s, uint32_t ticks)
 
 static inline VkDeviceSize shot_map_bytes(const shot *s)
 {
-    return 32ull * s->glass->picture->max_columns * s->glass->picture->max_rows;
+    return 32ull * s->glass->picture.max_columns * s->glass->picture.max_rows;
 }
 
 static inline void shot_buffers(shot *s)
@@ -83,7 +83,7 @@ static inline void shot_buffers(shot *s)
     REQUIRE(host_buffer_create(&s->gpu.device, g->drops->size + g->film->size + g->passed->size,
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "pane up", &s->upload, error,
                                size));
-    REQUIRE(host_buffer_create(&s->gpu.device, shot_map_bytes(s) + g->picture->balls->size + 2 * sizeof(uint32_t),
+    REQUIRE(host_buffer_create(&s->gpu.device, shot_map_bytes(s) + g->picture.balls->size + 2 * sizeof(uint32_t),
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "map down", &s->download, error,
                                size));
     memset(s->upload.mapped, 0, s->upload.size);
@@ -241,9 +241,9 @@ static inline void shot_copy_map(shot *s, VkCommandBuffer cmd)
     vkCmdCopyImageToBuffer(cmd, map.image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1, &copy);
     VkBufferImageCopy relief = copy;
     relief.bufferOffset = 16ull * map.columns * map.rows;
-    vkCmdCopyImageToBuffer(cmd, s->glass->picture->relief->image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1,
+    vkCmdCopyImageToBuffer(cmd, s->glass->picture.relief->image, VK_IMAGE_LAYOUT_GENERAL, s->download.buffer, 1,
                            &relief);
-    const struct glass_picture *picture = s->glass->picture;
+    const struct glass_picture *picture = &s->glass->picture;
     const VkBufferCopy balls = {0, shot_map_bytes(s), picture->balls->size};
     const VkBufferCopy counts = {offsetof(virga_glass_work_gpu, shaped), shot_map_bytes(s) + picture->balls->size,
                                  2 * sizeof(uint32_t)};
@@ -273,7 +273,7 @@ static inline const float *shot_draw(shot *s, bool refraction)
     s->map = s->download.mapped;
     s->relief = s->map + 4ull * s->columns * s->rows;
     s->balls = (const void *)((const char *)s->download.mapped + shot_map_bytes(s));
-    const uint32_t *counts = (const void *)((const char *)s->balls + s->glass->picture->balls->size);
+    const uint32_t *counts = (const void *)((const char *)s->balls + s->glass->picture.balls->size);
     s->ball_count = counts[0];
     s->cut_count = counts[1];
     return host_target_floats(&s->gpu.device, &s->picture, HOST_LAYER);

@@ -6,7 +6,7 @@
 /* Copies of what the newest frame left of tiles' lists; they stay until the fixture's next. */
 static const virga_glass_tile_gpu *read_lists(shot *s, host_buffer *down, const uint32_t **entries)
 {
-    const struct glass_picture *picture = s->glass->picture;
+    const struct glass_picture *picture = &s->glass->picture;
     VkCommandBuffer cmd;
     VkDeviceSize offset = 0;
     REQUIRE(host_buffer_create(&s->gpu.device, picture->tiles->size + picture->entries->size,

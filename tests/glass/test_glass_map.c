@@ -258,7 +258,7 @@ static void what_no_view_has_written_is_zero(void **state)
     shot_aim(&s, (const double[3]){0.048, 0.032, 1}, (const double[3]){0.048, 0.032, 0}, 30);
     put_balls(&s, balls, PLACES);
     shot_draw(&s, false);
-    const struct glass_picture *picture = s.glass->picture;
+    const struct glass_picture *picture = &s.glass->picture;
     const VkBufferImageCopy all = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {picture->max_columns, picture->max_rows, 1}};
     assert_true(s.columns < picture->max_columns && s.rows < picture->max_rows);

@@ -202,9 +202,9 @@ static void budget_and_cells_hold_over_10000_ticks(void **unused)
         glass_fixture_step(&f, 25, true);
         assert_cells();
         assert_budget();
-        assert_blades(f.glass->blades);
+        assert_blades(&f.glass->blades);
         assert_on_pane(NULL, 0);
-        assert_let_go(f.glass->blades, looks, ids);
+        assert_let_go(&f.glass->blades, looks, ids);
         most_held = f.state->held > most_held ? f.state->held : most_held;
     }
     REQUIRE(most_held > 0);
@@ -275,7 +275,7 @@ static void nothing_leaves_an_odd_pane_under_opposed_blades(void **unused)
         glass_fixture_step(&f, 8, true);
         assert_cells();
         assert_budget();
-        assert_blades(f.glass->blades);
+        assert_blades(&f.glass->blades);
         assert_on_pane(mask, 16);
     }
     glass_fixture_close(&f);
@@ -309,7 +309,7 @@ static void same_bits_whatever_the_frames_and_threads(void **unused)
 static uint32_t marked_blocks(void)
 {
     uint32_t marked = 0;
-    for (uint32_t i = 0; i < glass_film_blocks(f.glass); i++)
+    for (uint32_t i = 0; i < glass_film_blocks(&f.glass->def); i++)
         marked += f.film_blocks[i];
     return marked;
 }

@@ -144,7 +144,7 @@ static void frames_without_a_step_show_the_newest_one(void **state)
     shot s;
     open_level(&s);
     float *stepped = draw_copy(&s, 0.2);
-    const VkDeviceSize per_frame = s.f.rain->tick_ring->size / s.f.context->frames_in_flight;
+    const VkDeviceSize per_frame = s.f.rain->tick_ring.buffer->size / s.f.context->frames_in_flight;
     for (uint32_t i = 0; i < 2 * s.f.context->frames_in_flight + 1; i++) {
         assert_same_pixels(&s, stepped, draw_without_step(&s, rain_fixture_begin_frame(&s.f)));
         assert_int_equal(s.f.rain->tick_offset / per_frame, s.f.context->ring_slot);

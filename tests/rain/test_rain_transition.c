@@ -202,7 +202,7 @@ static double haze_of_a_prepare(rain_fixture *f)
     rain_fixture_record_step(f, cmd, tick_s);
     REQUIRE(virga_rain_prepare(f->rain, cmd, &view, virga_rain_time(f->rain)) == VIRGA_OK);
     const rain_view_block *written =
-        (const void *)((const char *)f->rain->view_ring->memory.block.mapped + f->rain->view_offset);
+        (const void *)((const char *)f->rain->view_ring.buffer->memory.block.mapped + f->rain->view_offset);
     const double extinction = (double)written->look.haze_per_m[f->rain->levels];
     rain_fixture_end_frame(f);
     return extinction;
