@@ -315,48 +315,44 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                           /* 17 */
 };
 
-enum { LAYOUT_MOTION, LAYOUT_PICTURE };
+enum { LAYOUT_STEP, LAYOUT_PICTURE };
 
 static const virga_effect_layout layouts[] = {
-    [LAYOUT_MOTION] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 5 * sizeof(uint32_t)},
+    [LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 5 * sizeof(uint32_t)},
     [LAYOUT_PICTURE] = {AT(picture.bindings), glass_picture_bindings, GLASS_PICTURE_BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0},
 };
 
-#define MOTION(pass)                                                   \
-    {                                                                  \
-        "glass." #pass, AT(pass), VIRGA_SPIRV_ROW(glass_##pass##_comp) \
-    }
-#define DRAW(pass, ...)                                                                                        \
-    {                                                                                                          \
-        "glass." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(glass_draw_##pass##_comp), .layout = LAYOUT_PICTURE, \
-                                                                                     __VA_ARGS__               \
-    }
+/* clang-format off */
+#define STEP(pass) {"glass." #pass, AT(pass), VIRGA_SPIRV_ROW(glass_step_##pass##_comp)}
+#define DRAW(pass) \
+    {"glass." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(glass_draw_##pass##_comp), .layout = LAYOUT_PICTURE}
+/* clang-format on */
 
 static const virga_effect_pass passes[] = {
-    MOTION(live_mark),
-    MOTION(live_scan),
-    MOTION(live_compact),
-    MOTION(begin_tick),
-    MOTION(active_scan),
-    MOTION(active_compact),
-    MOTION(choose_cell),
-    MOTION(enter_cell),
-    MOTION(capture_mark),
-    MOTION(capture),
-    MOTION(wipe_film),
-    MOTION(split_drops),
-    MOTION(empty_bins),
-    MOTION(particle_grid),
-    MOTION(push_particles),
-    MOTION(to_drops_claim),
-    MOTION(to_drops),
-    MOTION(spawn_claim),
-    MOTION(spawn_scan),
-    MOTION(spawn),
-    MOTION(end_tick),
-    MOTION(dry_film),
-    MOTION(film_compact),
-    MOTION(measure),
+    STEP(live_mark),
+    STEP(live_scan),
+    STEP(live_compact),
+    STEP(begin_tick),
+    STEP(active_scan),
+    STEP(active_compact),
+    STEP(choose_cell),
+    STEP(enter_cell),
+    STEP(capture_mark),
+    STEP(capture),
+    STEP(wipe_film),
+    STEP(split_drops),
+    STEP(empty_bins),
+    STEP(particle_grid),
+    STEP(push_particles),
+    STEP(to_drops_claim),
+    STEP(to_drops),
+    STEP(spawn_claim),
+    STEP(spawn_scan),
+    STEP(spawn),
+    STEP(end_tick),
+    STEP(dry_film),
+    STEP(film_compact),
+    STEP(measure),
     {"glass.balls", AT(picture.ball_pass), VIRGA_SPIRV_ROW(glass_draw_balls_comp), .layout = LAYOUT_PICTURE},
     DRAW(mist_blocks),
     DRAW(film_tiles),

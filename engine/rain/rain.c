@@ -202,14 +202,10 @@ static const virga_effect_image images[] = {
      VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 0, VIRGA_FIRST_SAMPLED},
 };
 
-#define STEP(pass)                                                        \
-    {                                                                     \
-        "rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_step_##pass##_comp) \
-    }
-#define DRAW(pass)                                                        \
-    {                                                                     \
-        "rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_draw_##pass##_comp) \
-    }
+/* clang-format off */
+#define STEP(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_step_##pass##_comp)}
+#define DRAW(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_draw_##pass##_comp)}
+/* clang-format on */
 
 static const virga_effect_pass passes[] = {
     STEP(move),
