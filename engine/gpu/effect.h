@@ -130,6 +130,13 @@ typedef struct virga_struct_id {
     size_t member; /* offset in the object */
 } virga_struct_id;
 
+/* A step of an effect that needs nothing but time and place. */
+typedef struct virga_effect_step {
+    uint32_t first_tick, ticks; /* as virga_rain_ticks */
+    double camera_m[3];
+    float wind_m_s[3];
+} virga_effect_step;
+
 typedef struct virga_effect_type {
     const char *name; /* in log lines: "the ground", "a pane" */
     size_t size;      /* of the object */
@@ -176,9 +183,13 @@ typedef struct virga_effect_type {
     /* Reads the statistics of a completed frame. `parts` says which of them were recorded in it, by bits. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
-    /* The public functions of the effect, as a scene calls them. */
+    /* The public functions of the effect, as a scene calls them. All but set are optional: a scene knows another way,
+     * or there is nothing to be done. */
+    void (*default_def)(void *def);
     virga_result (*set)(void *object, const void *settings);
-    virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target); /* (optional) */
+    virga_result (*step)(void *object, VkCommandBuffer cmd, const virga_effect_step *step);
+    virga_result (*prepare)(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s);
+    virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
 } virga_effect_type;
 
 /* A ring's buffer, and how far the frame at hand has filled its part. */

@@ -300,6 +300,11 @@ static virga_result set(void *object, const void *settings)
     return virga_rain_set(object, settings);
 }
 
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+{
+    return virga_rain_prepare(object, cmd, view, time_s);
+}
+
 static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
 {
     return virga_rain_draw(object, cmd, target);
@@ -339,6 +344,7 @@ const virga_effect_type rain_type = {
     .pass_constant = pass_constant,
     .read_statistics = rain_read_statistics,
     .set = set,
+    .prepare = prepare,
     .draw = draw,
 };
 

@@ -51,10 +51,18 @@ static uint32_t count_of_kind(const virga_scene_def *def, const scene_kind *kind
     return kind->count ? kind->count(def) : 1;
 }
 
+static void define_effect(const virga_scene_def *def, const scene_kind *kind, uint32_t index, void *effect_def)
+{
+    if (kind->define)
+        kind->define(def, index, effect_def);
+    else
+        kind->type->default_def(effect_def);
+}
+
 static VkDeviceSize effect_estimate(const virga_scene_def *def, const scene_kind *kind, uint32_t index)
 {
     _Alignas(16) char effect_def[VIRGA_EFFECT_MAX_DEF];
-    kind->define(def, index, effect_def);
+    define_effect(def, kind, index, effect_def);
     return virga_effect_estimate(kind->type, effect_def);
 }
 
@@ -76,7 +84,7 @@ static virga_result create_effect(virga_scene *scene, const virga_scene_def *def
 {
     _Alignas(16) char effect_def[VIRGA_EFFECT_MAX_DEF];
     void *made = NULL;
-    kind->define(def, index, effect_def);
+    define_effect(def, kind, index, effect_def);
     const virga_result result =
         virga_effect_create(scene->context, kind->type, "virga_scene_create", effect_def, &made);
     if (result >= 0)
@@ -268,23 +276,41 @@ virga_result virga_scene_ready(const virga_scene *scene)
     return result;
 }
 
+/* A step of an effect that meets no other. */
+static virga_result step_alone(virga_scene *scene, virga_effect *effect, VkCommandBuffer cmd,
+                               const virga_scene_frame *frame)
+{
+    const virga_rain *rain = scene_find(scene, &rain_type, 0);
+    virga_effect_step step;
+    if (!effect->type->step)
+        return VIRGA_OK;
+    virga_rain_ticks(rain, &step.first_tick, &step.ticks);
+    virga_rain_wind(rain, step.wind_m_s);
+    memcpy(step.camera_m, frame->camera_m, sizeof step.camera_m);
+    return effect->type->step(effect, cmd, &step);
+}
+
 static virga_result step_all(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
         const scene_effect *effect = &scene->effects[i];
-        result = scene_merge_results(result, effect->kind->step(scene, effect->index, cmd, frame));
+        const virga_result stepped = effect->kind->step ? effect->kind->step(scene, effect->index, cmd, frame)
+                                                        : step_alone(scene, effect->effect, cmd, frame);
+        result = scene_merge_results(result, stepped);
     }
     return result;
 }
 
+/* At the time of the rain. Panes are prepared apart, see virga_scene_prepare_panes. */
 static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
 {
+    const double time_s = virga_rain_time(scene_find(scene, &rain_type, 0));
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++) {
-        const scene_effect *effect = &scene->effects[scene->draw_order[i]];
-        if (effect->kind->prepare)
-            result = scene_merge_results(result, effect->kind->prepare(scene, effect->index, cmd, view));
+        virga_effect *effect = scene->effects[scene->draw_order[i]].effect;
+        if (effect->type->prepare)
+            result = scene_merge_results(result, effect->type->prepare(effect, cmd, view, time_s));
     }
     return result;
 }

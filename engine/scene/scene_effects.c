@@ -91,12 +91,6 @@ static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffe
     return result < 0 ? result : scene_merge_results(result, virga_rain_step(rain, cmd, &step));
 }
 
-static virga_result prepare_rain(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_view *view)
-{
-    (void)index;
-    return virga_rain_prepare(rain_of(scene), cmd, view, virga_rain_time(rain_of(scene)));
-}
-
 /* ---- ground: impacts come from the rain, rules and returned water from the splashes */
 
 static void fill_rainfall(const virga_rain *rain, virga_ground_step_info *info)
@@ -149,11 +143,6 @@ static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuf
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
     return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
-}
-
-static virga_result prepare_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_view *view)
-{
-    return virga_splash_prepare(scene_find(scene, &splash_type, index), cmd, view, virga_rain_time(rain_of(scene)));
 }
 
 /* ---- panes: the rain says which of its drops hit them, or how much falls */
@@ -270,9 +259,9 @@ virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, 
 enum { DRAW_SPLASH, DRAW_GROUND, DRAW_RAIN, DRAW_PANES };
 
 const scene_kind scene_kinds[] = {
-    {&rain_type, DRAW_RAIN, .define = define_rain, .step = step_rain, .prepare = prepare_rain},
+    {&rain_type, DRAW_RAIN, .define = define_rain, .step = step_rain},
     {&ground_type, DRAW_GROUND, count_ground, define_ground, .step = step_ground},
-    {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash, .prepare = prepare_splash},
+    {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash},
     {&glass_type, DRAW_PANES, count_panes, define_pane, .check_frame = check_pane, .step = step_pane},
 #ifdef SCENE_EXTRA_KINDS /* an effect that exists in the tests only */
     SCENE_EXTRA_KINDS,

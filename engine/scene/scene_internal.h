@@ -13,21 +13,21 @@
 #define SCENE_MAX_KINDS   16
 #define SCENE_MAX_EFFECTS (SCENE_MAX_KINDS + VIRGA_SCENE_MAX_PANES)
 
-/* A kind of effect, as scenes know it. Rows stand in the order in which a frame steps them. */
+/* A kind of effect, as scenes know it. Rows stand in the order in which a frame steps them. What a row leaves out is
+ * as the effect's own type has it. */
 typedef struct scene_kind {
     const virga_effect_type *type;
     uint32_t draw_order; /* lower ones are attached, prepared and drawn first */
 
     /* How many of these a definition asks for. NULL: one. */
     uint32_t (*count)(const virga_scene_def *def);
-    /* Fills the definition of one of them: its own, with what it shares with others taken from theirs. */
+    /* Fills the definition of one of them: its own, with what it shares with others copied from theirs. NULL: the
+     * default. */
     void (*define)(const virga_scene_def *def, uint32_t index, void *effect_def);
-    /* (optional) Checks what a frame says for it, before anything is recorded. */
+    /* Checks what a frame says for it, before anything is recorded. NULL: nothing. */
     virga_result (*check_frame)(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame);
-    /* Records its step, with the events of those before it. */
+    /* Records its step, with the events of those before it. NULL: it needs none. */
     virga_result (*step)(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame);
-    /* (optional) Prepares it for a view, at the time of the rain. */
-    virga_result (*prepare)(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_view *view);
 } scene_kind;
 
 /* In scene_effects.c. */

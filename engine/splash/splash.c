@@ -281,6 +281,11 @@ static virga_result set(void *object, const void *settings)
     return virga_splash_set(object, settings);
 }
 
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+{
+    return virga_splash_prepare(object, cmd, view, time_s);
+}
+
 static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
 {
     return virga_splash_draw(object, cmd, target);
@@ -318,6 +323,7 @@ const virga_effect_type splash_type = {
     .describe = describe,
     .read_statistics = splash_read_statistics,
     .set = set,
+    .prepare = prepare,
     .draw = draw,
 };
 
