@@ -409,52 +409,21 @@ static void describe(const void *object, char *line, size_t size)
     snprintf(line, size, "glass: %u x %u cells, up to %u drops", glass->columns, glass->rows, glass->def.max_drops);
 }
 
-static virga_result set(void *object, const void *settings)
-{
-    return virga_glass_set(object, settings);
-}
-
-static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
-{
-    return virga_glass_draw(object, cmd, target);
-}
-
 _Static_assert(sizeof(virga_glass_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
 
+VIRGA_EFFECT_FUNCTIONS(glass)
+VIRGA_EFFECT_DRAW_FUNCTIONS(glass)
+
 const virga_effect_type glass_type = {
-    .name = "a pane",
-    .size = sizeof(virga_glass),
-    .def = {"glass_def", sizeof(virga_glass_def), DEF_COOKIE, AT(def)},
-    .settings = {"glass_settings", sizeof(virga_glass_settings), SETTINGS_COOKIE, AT(settings)},
+    VIRGA_EFFECT_TYPE(glass, "a pane"),
     .lighting = offsetof(virga_glass_settings, lighting),
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .rings = rings,
-    .ring_count = VIRGA_ROWS(rings),
-    .images = images,
-    .image_count = VIRGA_ROWS(images),
-    .layouts = layouts,
-    .layout_count = VIRGA_ROWS(layouts),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
     .draws = glass_draws,
     .draw_count = GLASS_DRAW_ROWS,
     .draw_layout = LAYOUT_PICTURE,
-    .pools = pools,
-    .pool_count = VIRGA_ROWS(pools),
-    .readback_name = "glass.readback",
-    .readback_bytes = sizeof(glass_readback),
-    .check_def = check_def,
-    .count = count,
     .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
     .destroy = destroy,
-    .describe = describe,
     .draw_constant = glass_draw_constant,
-    .read_statistics = glass_read_statistics,
-    .set = set,
-    .draw = draw,
+    .draw = glass_type_draw,
 };
 
 VkDescriptorSet glass_write_set(virga_glass *glass)
@@ -466,39 +435,15 @@ VkDescriptorSet glass_write_set(virga_glass *glass)
     return virga_bindings_write(glass->base.context, glass->bindings, 0, bound);
 }
 
-/* ---- create and destroy */
-
-VkDeviceSize virga_glass_estimate(const virga_glass_def *def)
+virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass)
 {
-    return virga_effect_estimate(&glass_type, def);
-}
-
-virga_result virga_glass_create(virga_context *context, const virga_glass_def *def, virga_glass **glass)
-{
-    void *made = NULL;
-    const virga_result result =
-        virga_effect_create(context, &glass_type, "virga_glass_create", def, glass ? &made : NULL);
-    if (glass)
-        *glass = made;
-    return result;
-}
-
-void virga_glass_destroy(virga_glass **glass)
-{
-    if (!glass || !*glass)
-        return;
-    virga_effect_destroy(&(*glass)->base);
-    *glass = NULL;
-}
-
-virga_result virga_glass_ready(const virga_glass *glass)
-{
-    return glass ? virga_effect_ready(&glass->base) : VIRGA_ERROR_INVALID;
-}
-
-virga_result virga_glass_attach(virga_glass *glass, const virga_target *target)
-{
-    return glass ? virga_effect_attach(&glass->base, "virga_glass_attach", target) : VIRGA_ERROR_INVALID;
+    return (virga_glass_pane_gpu){.columns = glass->columns,
+                                  .rows = glass->rows,
+                                  .cell_m = glass->def.cell_m,
+                                  .width_m = glass->def.width_m,
+                                  .height_m = glass->def.height_m,
+                                  .max_drops = glass->def.max_drops,
+                                  .seed = glass->def.seed};
 }
 
 /* ---- settings */
@@ -606,12 +551,6 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
         return needed;
     glass->settings = next;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
-
-void virga_glass_get(const virga_glass *glass, virga_glass_settings *settings)
-{
-    if (glass && settings)
-        *settings = glass->settings;
 }
 
 /* ---- what others read */

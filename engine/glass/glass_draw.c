@@ -166,13 +166,7 @@ static void fit_mist(virga_glass *glass, virga_glass_picture_gpu *look)
 static void fill_pane(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose,
                       virga_glass_picture_gpu *look)
 {
-    look->pane = (virga_glass_pane_gpu){.columns = glass->columns,
-                                        .rows = glass->rows,
-                                        .cell_m = glass->def.cell_m,
-                                        .width_m = glass->def.width_m,
-                                        .height_m = glass->def.height_m,
-                                        .max_drops = glass->def.max_drops,
-                                        .seed = glass->def.seed};
+    look->pane = glass_describe_pane(glass);
     copy_rotation(pose, look->world_from_pane);
     for (int i = 0; i < 3; i++) {
         look->origin[i] = (float)(pose->position_m[i] - view->position_m[i]);

@@ -98,6 +98,9 @@ uint32_t glass_cells_along(float length_m, float cell_m);
 uint32_t glass_film_blocks(const virga_glass_def *def);
 VkDescriptorSet glass_write_set(virga_glass *glass);
 
+/* The pane as its passes know it. */
+virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);
+
 /* ---- glass_step.c */
 virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9]); /* all zero: none */
 void glass_read_statistics(void *glass, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);

@@ -265,13 +265,7 @@ static void fill_place(const virga_glass *glass, const virga_glass_step_info *in
     const double spin = length_of(turn);
     out->most_pull = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
     out->most_air = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
-    out->pane = (virga_glass_pane_gpu){.columns = glass->columns,
-                                       .rows = glass->rows,
-                                       .cell_m = glass->def.cell_m,
-                                       .width_m = glass->def.width_m,
-                                       .height_m = glass->def.height_m,
-                                       .max_drops = glass->def.max_drops,
-                                       .seed = glass->def.seed};
+    out->pane = glass_describe_pane(glass);
 }
 
 static void push_tick(virga_glass *glass, const virga_glass_step_info *info, const virga_glass_tick_gpu *common,

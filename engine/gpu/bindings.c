@@ -9,18 +9,9 @@
 static void bindings_destroy(virga_context *context, virga_resource *resource)
 {
     virga_bindings *bindings = (virga_bindings *)resource;
-    if (bindings->pool) {
-        context->vk.DestroyDescriptorPool(context->device, bindings->pool, NULL);
-        context->objects--;
-    }
-    if (bindings->layout) {
-        context->vk.DestroyPipelineLayout(context->device, bindings->layout, NULL);
-        context->objects--;
-    }
-    if (bindings->set_layout) {
-        context->vk.DestroyDescriptorSetLayout(context->device, bindings->set_layout, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, DescriptorPool, bindings->pool);
+    VIRGA_DESTROY(context, PipelineLayout, bindings->layout);
+    VIRGA_DESTROY(context, DescriptorSetLayout, bindings->set_layout);
     virga_free(&context->heap, bindings->sets);
     virga_free(&context->heap, bindings);
 }

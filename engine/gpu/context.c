@@ -91,15 +91,9 @@ static void destroy_objects(virga_context *context)
     virga_builds_free(context);
     const VkSampler samplers[2] = {context->nearest, context->linear};
     for (int i = 0; i < 2; i++)
-        if (samplers[i]) {
-            context->vk.DestroySampler(context->device, samplers[i], NULL);
-            context->objects--;
-        }
+        VIRGA_DESTROY(context, Sampler, samplers[i]);
     virga_timers_destroy(context);
-    if (context->pipeline_cache) {
-        context->vk.DestroyPipelineCache(context->device, context->pipeline_cache, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, PipelineCache, context->pipeline_cache);
 }
 
 /* The context lives in its own heap, whose struct is inside it: take a copy of the heap to free it with. */

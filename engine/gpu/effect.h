@@ -192,6 +192,68 @@ typedef struct virga_effect_type {
     virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
 } virga_effect_type;
 
+/* The fields that all types have alike, of an effect that names its parts as the others do: virga_<name>, its _def and
+ * _settings, <name>_readback; tables buffers, rings, images, layouts, passes and pools; callbacks check_def, count,
+ * init, create, describe and <name>_read_statistics. */
+#define VIRGA_EFFECT_TYPE(effect, title)                                                                             \
+    .name = title, .size = sizeof(virga_##effect),                                                                   \
+    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},                \
+    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                            \
+                 offsetof(virga_##effect, settings)},                                                                \
+    .buffers = buffers, .buffer_count = VIRGA_ROWS(buffers), .rings = rings, .ring_count = VIRGA_ROWS(rings),        \
+    .images = images, .image_count = VIRGA_ROWS(images), .layouts = layouts, .layout_count = VIRGA_ROWS(layouts),    \
+    .passes = passes, .pass_count = VIRGA_ROWS(passes), .pools = pools, .pool_count = VIRGA_ROWS(pools),             \
+    .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback), .check_def = check_def,       \
+    .count = count, .init = init, .create = create, .describe = describe,                                            \
+    .read_statistics = effect##_read_statistics, .set = effect##_type_set
+
+/* The public functions that all effects have alike, from <name>_type, and `set` of the type. */
+#define VIRGA_EFFECT_FUNCTIONS(name)                                                                                 \
+    static virga_result name##_type_set(void *object, const void *settings)                                          \
+    {                                                                                                                \
+        return virga_##name##_set(object, settings);                                                                 \
+    }                                                                                                                \
+    VkDeviceSize virga_##name##_estimate(const virga_##name##_def *def)                                              \
+    {                                                                                                                \
+        return virga_effect_estimate(&name##_type, def);                                                             \
+    }                                                                                                                \
+    virga_result virga_##name##_create(virga_context *context, const virga_##name##_def *def, virga_##name **made)   \
+    {                                                                                                                \
+        void *object = NULL;                                                                                         \
+        const virga_result result =                                                                                  \
+            virga_effect_create(context, &name##_type, "virga_" #name "_create", def, made ? &object : NULL);        \
+        if (made)                                                                                                    \
+            *made = object;                                                                                          \
+        return result;                                                                                               \
+    }                                                                                                                \
+    void virga_##name##_destroy(virga_##name **object)                                                               \
+    {                                                                                                                \
+        if (object && *object)                                                                                       \
+            virga_effect_destroy(&(*object)->base);                                                                  \
+        if (object)                                                                                                  \
+            *object = NULL;                                                                                          \
+    }                                                                                                                \
+    void virga_##name##_get(const virga_##name *object, virga_##name##_settings *settings)                           \
+    {                                                                                                                \
+        if (object && settings)                                                                                      \
+            *settings = object->settings;                                                                            \
+    }                                                                                                                \
+    virga_result virga_##name##_ready(const virga_##name *object)                                                    \
+    {                                                                                                                \
+        return object ? virga_effect_ready(&object->base) : VIRGA_ERROR_INVALID;                                     \
+    }
+
+/* And those of effects that draw, with `draw` of the type. */
+#define VIRGA_EFFECT_DRAW_FUNCTIONS(name)                                                                            \
+    static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)              \
+    {                                                                                                                \
+        return virga_##name##_draw(object, cmd, target);                                                             \
+    }                                                                                                                \
+    virga_result virga_##name##_attach(virga_##name *object, const virga_target *target)                             \
+    {                                                                                                                \
+        return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID;  \
+    }
+
 /* A ring's buffer, and how far the frame at hand has filled its part. */
 typedef struct virga_ring {
     virga_buffer *buffer;

@@ -21,18 +21,9 @@ static void mesh_map_destroy(virga_context *context, virga_resource *resource)
 {
     virga_mesh_map *map = (virga_mesh_map *)resource;
     for (uint32_t i = 0; i < VIRGA_MAP_MAX_LAYERS; i++)
-        if (map->framebuffers[i]) {
-            context->vk.DestroyFramebuffer(context->device, map->framebuffers[i], NULL);
-            context->objects--;
-        }
-    if (map->layout) {
-        context->vk.DestroyPipelineLayout(context->device, map->layout, NULL);
-        context->objects--;
-    }
-    if (map->pass) {
-        context->vk.DestroyRenderPass(context->device, map->pass, NULL);
-        context->objects--;
-    }
+        VIRGA_DESTROY(context, Framebuffer, map->framebuffers[i]);
+    VIRGA_DESTROY(context, PipelineLayout, map->layout);
+    VIRGA_DESTROY(context, RenderPass, map->pass);
     virga_free(&context->heap, map);
 }
 

@@ -13,10 +13,7 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
     virga_pipeline *pipeline = (virga_pipeline *)resource;
     virga_build_disown(context, pipeline);
     virga_free(&context->heap, pipeline->code);
-    if (pipeline->pipeline) {
-        context->vk.DestroyPipeline(context->device, pipeline->pipeline, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, Pipeline, pipeline->pipeline);
     virga_free(&context->heap, pipeline);
 }
 

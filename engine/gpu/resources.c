@@ -24,14 +24,8 @@ void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, 
 static void buffer_destroy(virga_context *context, virga_resource *resource)
 {
     virga_buffer *buffer = (virga_buffer *)resource;
-    if (buffer->texels) {
-        context->vk.DestroyBufferView(context->device, buffer->texels, NULL);
-        context->objects--;
-    }
-    if (buffer->buffer) {
-        context->vk.DestroyBuffer(context->device, buffer->buffer, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, BufferView, buffer->texels);
+    VIRGA_DESTROY(context, Buffer, buffer->buffer);
     virga_memory_release(context, &buffer->memory);
     virga_free(&context->heap, buffer);
 }
@@ -162,19 +156,10 @@ static void image_destroy(virga_context *context, virga_resource *resource)
 {
     virga_image_2d *image = (virga_image_2d *)resource;
     for (uint32_t i = 0; image->layer_views && i < image->layers; i++)
-        if (image->layer_views[i]) {
-            context->vk.DestroyImageView(context->device, image->layer_views[i], NULL);
-            context->objects--;
-        }
+        VIRGA_DESTROY(context, ImageView, image->layer_views[i]);
     virga_free(&context->heap, image->layer_views);
-    if (image->view) {
-        context->vk.DestroyImageView(context->device, image->view, NULL);
-        context->objects--;
-    }
-    if (image->image) {
-        context->vk.DestroyImage(context->device, image->image, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, ImageView, image->view);
+    VIRGA_DESTROY(context, Image, image->image);
     virga_memory_release(context, &image->memory);
     virga_free(&context->heap, image);
 }

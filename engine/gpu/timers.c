@@ -1,5 +1,6 @@
 /* gpu/timers.c - labels and timestamps around passes. */
 #include "gpu/timers.h"
+#include "gpu/retire.h"
 
 #include "gpu/context.h"
 #include "gpu/errors.h"
@@ -32,10 +33,7 @@ error:
 void virga_timers_destroy(virga_context *context)
 {
     for (uint32_t i = 0; i < VIRGA_MAX_FRAMES_IN_FLIGHT; i++)
-        if (context->timers.slots[i].pool) {
-            context->vk.DestroyQueryPool(context->device, context->timers.slots[i].pool, NULL);
-            context->objects--;
-        }
+        VIRGA_DESTROY(context, QueryPool, context->timers.slots[i].pool);
 }
 
 static virga_timer_slot *slot_of_frame(virga_context *context)

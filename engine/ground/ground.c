@@ -315,40 +315,13 @@ static void describe(const void *object, char *line, size_t size)
              def->kept_tiles);
 }
 
-static virga_result set(void *object, const void *settings)
-{
-    return virga_ground_set(object, settings);
-}
+VIRGA_EFFECT_FUNCTIONS(ground)
 
 const virga_effect_type ground_type = {
-    .name = "the ground",
-    .size = sizeof(virga_ground),
-    .def = {"ground_def", sizeof(virga_ground_def), DEF_COOKIE, AT(def)},
-    .settings = {"ground_settings", sizeof(virga_ground_settings), SETTINGS_COOKIE, AT(settings)},
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .rings = rings,
-    .ring_count = VIRGA_ROWS(rings),
-    .images = images,
-    .image_count = VIRGA_ROWS(images),
-    .layouts = layouts,
-    .layout_count = VIRGA_ROWS(layouts),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
-    .pools = pools,
-    .pool_count = VIRGA_ROWS(pools),
-    .readback_name = "ground.readback",
-    .readback_bytes = sizeof(ground_readback),
-    .check_def = check_def,
+    VIRGA_EFFECT_TYPE(ground, "the ground"),
     .fit_device = fit_device,
-    .count = count,
     .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
     .destroy = destroy,
-    .describe = describe,
-    .read_statistics = ground_read_statistics,
-    .set = set,
 };
 
 /* ---- descriptors */
@@ -408,36 +381,6 @@ void ground_write_sets(virga_ground *ground)
         write_set(ground, GROUND_RETURNS);
 }
 
-/* ---- create and destroy */
-
-VkDeviceSize virga_ground_estimate(const virga_ground_def *def)
-{
-    return virga_effect_estimate(&ground_type, def);
-}
-
-virga_result virga_ground_create(virga_context *context, const virga_ground_def *def, virga_ground **ground)
-{
-    void *made = NULL;
-    const virga_result result =
-        virga_effect_create(context, &ground_type, "virga_ground_create", def, ground ? &made : NULL);
-    if (ground)
-        *ground = made;
-    return result;
-}
-
-void virga_ground_destroy(virga_ground **ground)
-{
-    if (!ground || !*ground)
-        return;
-    virga_effect_destroy(&(*ground)->base);
-    *ground = NULL;
-}
-
-virga_result virga_ground_ready(const virga_ground *ground)
-{
-    return ground ? virga_effect_ready(&ground->base) : VIRGA_ERROR_INVALID;
-}
-
 /* ---- settings */
 
 virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings)
@@ -461,12 +404,6 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
         ground_standing_start(ground->standing, &next, soils);
     }
     return result;
-}
-
-void virga_ground_get(const virga_ground *ground, virga_ground_settings *settings)
-{
-    if (ground && settings)
-        *settings = ground->settings;
 }
 
 void virga_ground_survey(virga_ground *ground)

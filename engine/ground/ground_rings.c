@@ -3,6 +3,7 @@
 
 #include "gpu/errors.h"
 #include "gpu/record.h"
+#include "gpu/retire.h"
 #include "ground/ring_table.h"
 
 #include "shaders/ground_ring_frag.spv.h"
@@ -16,14 +17,8 @@
 static void ripples_destroy(virga_context *context, virga_resource *resource)
 {
     ground_ripples *ripples = (ground_ripples *)resource;
-    if (ripples->framebuffer) {
-        context->vk.DestroyFramebuffer(context->device, ripples->framebuffer, NULL);
-        context->objects--;
-    }
-    if (ripples->pass) {
-        context->vk.DestroyRenderPass(context->device, ripples->pass, NULL);
-        context->objects--;
-    }
+    VIRGA_DESTROY(context, Framebuffer, ripples->framebuffer);
+    VIRGA_DESTROY(context, RenderPass, ripples->pass);
     virga_free(&context->heap, ripples);
 }
 

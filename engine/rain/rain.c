@@ -202,6 +202,10 @@ static const virga_effect_image images[] = {
      VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 0, VIRGA_FIRST_SAMPLED},
 };
 
+static const virga_effect_layout layouts[] = {
+    {AT(bindings), rain_bindings, RAIN_BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu)},
+};
+
 /* clang-format off */
 #define STEP(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_step_##pass##_comp)}
 #define DRAW(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_draw_##pass##_comp)}
@@ -295,92 +299,27 @@ static uint32_t pass_constant(const void *object)
     return VIRGA_RAIN_FORM(def->occlusion_cascades, def->occlusion_slants, def->wind_texture);
 }
 
-static virga_result set(void *object, const void *settings)
-{
-    return virga_rain_set(object, settings);
-}
-
 static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
     return virga_rain_prepare(object, cmd, view, time_s);
 }
 
-static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
-{
-    return virga_rain_draw(object, cmd, target);
-}
-
 _Static_assert(sizeof(virga_rain_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
 
+VIRGA_EFFECT_FUNCTIONS(rain)
+VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
+
 const virga_effect_type rain_type = {
-    .name = "rain",
-    .size = sizeof(virga_rain),
-    .def = {"rain_def", sizeof(virga_rain_def), DEF_COOKIE, AT(def)},
-    .settings = {"rain_settings", sizeof(virga_rain_settings), SETTINGS_COOKIE, AT(settings)},
+    VIRGA_EFFECT_TYPE(rain, "rain"),
     .lighting = offsetof(virga_rain_settings, lighting),
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .rings = rings,
-    .ring_count = VIRGA_ROWS(rings),
-    .images = images,
-    .image_count = VIRGA_ROWS(images),
-    .layouts = rain_layouts,
-    .layout_count = RAIN_LAYOUTS,
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
     .draws = rain_draws,
     .draw_count = RAIN_DRAW_ROWS,
-    .pools = pools,
-    .pool_count = VIRGA_ROWS(pools),
-    .readback_name = "rain.readback",
-    .readback_bytes = sizeof(rain_readback),
-    .check_def = check_def,
-    .count = count,
     .extra_bytes = extra_bytes,
-    .init = init,
-    .create = create,
     .destroy = destroy,
-    .describe = describe,
     .pass_constant = pass_constant,
-    .read_statistics = rain_read_statistics,
-    .set = set,
     .prepare = prepare,
-    .draw = draw,
+    .draw = rain_type_draw,
 };
-
-/* ---- create and destroy */
-
-VkDeviceSize virga_rain_estimate(const virga_rain_def *def)
-{
-    return virga_effect_estimate(&rain_type, def);
-}
-
-virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain)
-{
-    void *made = NULL;
-    const virga_result result = virga_effect_create(context, &rain_type, "virga_rain_create", def, rain ? &made : NULL);
-    if (rain)
-        *rain = made;
-    return result;
-}
-
-void virga_rain_destroy(virga_rain **rain)
-{
-    if (!rain || !*rain)
-        return;
-    virga_effect_destroy(&(*rain)->base);
-    *rain = NULL;
-}
-
-virga_result virga_rain_ready(const virga_rain *rain)
-{
-    return rain ? virga_effect_ready(&rain->base) : VIRGA_ERROR_INVALID;
-}
-
-virga_result virga_rain_attach(virga_rain *rain, const virga_target *target)
-{
-    return rain ? virga_effect_attach(&rain->base, "virga_rain_attach", target) : VIRGA_ERROR_INVALID;
-}
 
 /* ---- settings */
 
@@ -509,12 +448,6 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
         return result;
     apply(rain, &next, diameters, numbers);
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
-
-void virga_rain_get(const virga_rain *rain, virga_rain_settings *settings)
-{
-    if (rain && settings)
-        *settings = rain->settings;
 }
 
 /* ---- what others read */

@@ -25,7 +25,7 @@ enum {
     BIND_HIT_PLACES,
 };
 
-static const virga_binding_kind bindings[] = {
+const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(rain_tick_tables)}, /* 0 tick, maps, classes */
     {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(rain_view_block)},  /* 1 view */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(slot_buffer)},                                 /* 2 slots as texels */
@@ -49,10 +49,6 @@ static const virga_binding_kind bindings[] = {
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                     /* 20 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                   /* 21 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                    /* 22 */
-};
-
-const virga_effect_layout rain_layouts[RAIN_LAYOUTS] = {
-    {AT(bindings), bindings, VIRGA_ROWS(bindings), RAIN_SETS, sizeof(virga_rain_pane_gpu)},
 };
 
 static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayout layout)

@@ -100,7 +100,7 @@ enum {
 
 enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
-enum { RAIN_LAYOUTS = 1 };
+enum { RAIN_BINDINGS = 23 };
 
 /* What is read back of one frame. */
 typedef struct rain_readback {
@@ -199,7 +199,7 @@ typedef struct rain_view_block {
 /* ---- rain.c */
 
 /* ---- rain_descriptors.c */
-extern const virga_effect_layout rain_layouts[RAIN_LAYOUTS];
+extern const virga_binding_kind rain_bindings[RAIN_BINDINGS];
 
 /* Writes a set of this frame; `scene_depth` NULL for a blank. */
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);

@@ -276,55 +276,24 @@ static void describe(const void *object, char *line, size_t size)
              splash->def.max_droplets);
 }
 
-static virga_result set(void *object, const void *settings)
-{
-    return virga_splash_set(object, settings);
-}
-
 static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
 {
     return virga_splash_prepare(object, cmd, view, time_s);
 }
 
-static virga_result draw(void *object, VkCommandBuffer cmd, const virga_target *target)
-{
-    return virga_splash_draw(object, cmd, target);
-}
-
 _Static_assert(sizeof(virga_splash_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
 
+VIRGA_EFFECT_FUNCTIONS(splash)
+VIRGA_EFFECT_DRAW_FUNCTIONS(splash)
+
 const virga_effect_type splash_type = {
-    .name = "splash",
-    .size = sizeof(virga_splash),
-    .def = {"splash_def", sizeof(virga_splash_def), DEF_COOKIE, AT(def)},
-    .settings = {"splash_settings", sizeof(virga_splash_settings), SETTINGS_COOKIE, AT(settings)},
+    VIRGA_EFFECT_TYPE(splash, "splash"),
     .lighting = offsetof(virga_splash_settings, lighting),
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .rings = rings,
-    .ring_count = VIRGA_ROWS(rings),
-    .images = images,
-    .image_count = VIRGA_ROWS(images),
-    .layouts = layouts,
-    .layout_count = VIRGA_ROWS(layouts),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
     .draws = splash_draws,
     .draw_count = SPLASH_DRAW_ROWS,
-    .pools = pools,
-    .pool_count = VIRGA_ROWS(pools),
-    .readback_name = "splash.readback",
-    .readback_bytes = sizeof(splash_readback),
-    .check_def = check_def,
     .fit_device = fit_device,
-    .count = count,
-    .init = init,
-    .create = create,
-    .describe = describe,
-    .read_statistics = splash_read_statistics,
-    .set = set,
     .prepare = prepare,
-    .draw = draw,
+    .draw = splash_type_draw,
 };
 
 /* ---- descriptors */
@@ -355,41 +324,6 @@ void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint 
 {
     const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
     splash->base.context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
-}
-
-/* ---- create and destroy */
-
-VkDeviceSize virga_splash_estimate(const virga_splash_def *def)
-{
-    return virga_effect_estimate(&splash_type, def);
-}
-
-virga_result virga_splash_create(virga_context *context, const virga_splash_def *def, virga_splash **splash)
-{
-    void *made = NULL;
-    const virga_result result =
-        virga_effect_create(context, &splash_type, "virga_splash_create", def, splash ? &made : NULL);
-    if (splash)
-        *splash = made;
-    return result;
-}
-
-void virga_splash_destroy(virga_splash **splash)
-{
-    if (!splash || !*splash)
-        return;
-    virga_effect_destroy(&(*splash)->base);
-    *splash = NULL;
-}
-
-virga_result virga_splash_ready(const virga_splash *splash)
-{
-    return splash ? virga_effect_ready(&splash->base) : VIRGA_ERROR_INVALID;
-}
-
-virga_result virga_splash_attach(virga_splash *splash, const virga_target *target)
-{
-    return splash ? virga_effect_attach(&splash->base, "virga_splash_attach", target) : VIRGA_ERROR_INVALID;
 }
 
 /* ---- settings */
@@ -424,12 +358,6 @@ virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings 
         return VIRGA_ERROR_INVALID;
     splash->settings = next;
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
-
-void virga_splash_get(const virga_splash *splash, virga_splash_settings *settings)
-{
-    if (splash && settings)
-        *settings = splash->settings;
 }
 
 /* ---- what others read */
