@@ -146,6 +146,14 @@ static virga_result check_row(const virga_log *log, const virga_setting_row *row
     }
 }
 
+/* As a float, or a value at that end may lie outside by rounding. */
+static float max_of(const virga_setting_row *row, const char *settings)
+{
+    const float max = (float)row->max;
+    const float bound = row->max_member ? *(const float *)(const void *)(settings + row->max_member) : max;
+    return bound < max ? bound : max;
+}
+
 static void clamp_row(const virga_log *log, const virga_setting_row *row, char *settings, bool *changed)
 {
     void *value = settings + row->member;
@@ -154,9 +162,9 @@ static void clamp_row(const virga_log *log, const virga_setting_row *row, char *
                                                      (uint32_t)row->max, changed);
     else if (row->number == VIRGA_NUMBER_DOUBLE)
         *(double *)value = virga_clamp_setting(log, row->name, *(double *)value, row->min, row->max, changed);
-    else /* the ends as floats, or a value at an end may lie outside by rounding */
+    else
         *(float *)value =
-            virga_clamp_setting_float(log, row->name, *(float *)value, (float)row->min, (float)row->max, changed);
+            virga_clamp_setting_float(log, row->name, *(float *)value, (float)row->min, max_of(row, settings), changed);
 }
 
 virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting_row *rows, size_t count,

@@ -59,6 +59,7 @@ typedef struct virga_setting_row {
     virga_number number;
     size_t member; /* offset in the struct */
     double min, max;
+    size_t max_member; /* (floats) offset of a number of a row before it, which bounds this one too; 0: none */
 } virga_setting_row;
 
 /* VIRGA_ERROR_INVALID where one is not finite; else all are moved into their ranges, see virga_clamp_setting. */

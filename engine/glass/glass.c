@@ -454,10 +454,22 @@ virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass)
     }
 
 static const virga_setting_row wiper_rows[] = {
-    WIPER(pivot_m[0], -20, 20),   WIPER(pivot_m[1], -20, 20), WIPER(reach_m, 0.01, 10),   WIPER(blade_m, 0.01, 10),
-    WIPER(width_m, 0.001, 0.1),   WIPER(low_deg, -720, 720),  WIPER(high_deg, -720, 720), WIPER(blade_deg, -180, 180),
-    WIPER(blade_turn, 0, 1),      WIPER(sweep_s, 0.1, 60),    WIPER(pause_s, 0, 3600),    WIPER(phase_s, 0, 3600),
-    WIPER(host_deg, -7200, 7200), WIPER(film_mm, 0, 0.5),     WIPER(wear, 0, 1),
+    WIPER(pivot_m[0], -20, 20),
+    WIPER(pivot_m[1], -20, 20),
+    WIPER(reach_m, 0.01, 10),
+    {"glass_wiper.blade_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_wiper, blade_m), 0.01, 10,
+     offsetof(virga_glass_wiper, reach_m)},
+    WIPER(width_m, 0.001, 0.1),
+    WIPER(low_deg, -720, 720),
+    WIPER(high_deg, -720, 720),
+    WIPER(blade_deg, -180, 180),
+    WIPER(blade_turn, 0, 1),
+    WIPER(sweep_s, 0.1, 60),
+    WIPER(pause_s, 0, 3600),
+    WIPER(phase_s, 0, 3600),
+    WIPER(host_deg, -7200, 7200),
+    WIPER(film_mm, 0, 0.5),
+    WIPER(wear, 0, 1),
 };
 
 static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool *changed)
@@ -466,7 +478,6 @@ static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool
         return virga_wrong_argument(log, "glass_wiper.drive: there is no drive %d", (int)w->drive);
     if (virga_settings_apply_rows(log, wiper_rows, VIRGA_ROWS(wiper_rows), w, changed))
         return VIRGA_ERROR_INVALID;
-    w->blade_m = virga_clamp_setting_float(log, "glass_wiper.blade_m", w->blade_m, 0.01f, w->reach_m, changed);
     return VIRGA_OK;
 }
 
@@ -481,7 +492,8 @@ static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool
 
 static const virga_setting_row settings_rows[] = {
     NUMBER(advancing_deg, 5, 175),
-    NUMBER(receding_deg, 1, 175),
+    {"glass_settings.receding_deg", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_settings, receding_deg), 1, 175,
+     offsetof(virga_glass_settings, advancing_deg)},
     NUMBER(drag, 0.01, 100),
     NUMBER(run_hold, 0, 1),
     NUMBER(affinity, 0, 2),
@@ -521,8 +533,6 @@ static virga_result check_numbers(const virga_log *log, virga_glass_settings *s,
 {
     if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), s, changed))
         return VIRGA_ERROR_INVALID;
-    s->receding_deg =
-        virga_clamp_setting_float(log, "glass_settings.receding_deg", s->receding_deg, 1, s->advancing_deg, changed);
     for (uint32_t i = 0; i < s->wiper_count; i++)
         if (check_wiper(log, &s->wipers[i], changed))
             return VIRGA_ERROR_INVALID;
