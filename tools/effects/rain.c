@@ -9,10 +9,8 @@
 
 #include "effect.h"
 #include "point_columns.h"
-#include "rain/view_gpu.h"
+#include "rain/rain_state.h"
 #include "scene_rows.h"
-
-#include "rain_view_frag.spv.h"
 
 #define MAX_SIZES 256 /* entries of a table of sizes */
 
@@ -144,14 +142,6 @@ void scene_rain_weather(const scene_rain *rain, double time_s, double *rate_mm_h
 }
 
 /* ---- life ----------------------------------------------------------------------------------------------------- */
-
-typedef struct rain_state {
-    virga_rain *rain;
-    virga_rain_settings settings;
-    virga_target *mirror; /* of the pass that draws haze over what puddles mirror; NULL where there is no mirror */
-    virga_result mirror_result; /* of that, in the newest plate */
-    shot_read drops;
-} rain_state;
 
 static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
 {
@@ -414,82 +404,12 @@ static void print_state(const scene_file *scene, char *text, size_t size)
     snprintf(text, size, "%.3g mm/h", scene_rain_of(scene)->rate_mm_h);
 }
 
-static uint32_t count_maps(const void *state)
-{
-    virga_rain_occlusion_map map;
-    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
-    return map.cascades * map.slants;
-}
-
-static void print_map(const void *state, uint32_t item, char *text, size_t size)
-{
-    virga_rain_occlusion_map map;
-    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
-    const uint32_t cascade = item / map.slants;
-    snprintf(text, size, "map %%d: %.0f m wide, slant %u of %u", 2 * (double)map.half_m[cascade < 3 ? cascade : 3],
-             item % map.slants + 1, map.slants);
-}
-
-static void fill_view(shot *s, void *state, tool_view_data *data)
-{
-    struct rain_view_gpu *out = data->own;
-    virga_rain_occlusion_map map;
-    (void)s;
-    virga_rain_occlusion_map_get(((const rain_state *)state)->rain, &map);
-    out->heights[0] = (float)map.top_m;
-    out->heights[1] = map.height_m;
-    out->heights[2] = (float)data->camera->position_m[1] - 4;
-    out->heights[3] = map.depth ? 1 : 0;
-    data->array = map.depth;
-    data->array_layout = map.layout;
-}
-
-static const tool_view views[] = {
-    {.name = "occlusion",
-     .title = "Occlusion maps",
-     .help = "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)",
-     .kind = TOOL_VIEW_FLAT,
-     .fragment = {rain_view_frag_spv, sizeof rain_view_frag_spv},
-     .fill = fill_view,
-     .item_count = count_maps,
-     .print_item = print_map},
-};
-
-static virga_rain_stats stats_of(const void *state)
-{
-    virga_rain_stats stats;
-    virga_rain_stats_get(((const rain_state *)state)->rain, &stats);
-    return stats;
-}
-
-static double count_streaks(const void *state)
-{
-    return stats_of(state).streaks;
-}
-
-static double count_impacts(const void *state)
-{
-    return stats_of(state).impacts;
-}
-
-static const tool_count counts[] = {
-    {"streaks in the picture", count_streaks},
-    {"impacts a frame", count_impacts},
-};
-
-static uint64_t water_nl(const void *state)
-{
-    return stats_of(state).total_water_nl;
-}
-
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
 scene_rain *scene_rain_of(const scene_file *scene)
 {
     return scene_file_section(scene, &rain_effect.scene);
 }
-
-extern const tool_bench rain_bench; /* rain/bench.c */
 
 const tool_effect rain_effect = {
     .name = "rain",
@@ -515,10 +435,10 @@ const tool_effect rain_effect = {
     .stop_animation = stop_animation,
     .animation_hint = "The scene's keys say rate and wind at every time.",
     .print_state = print_state,
-    .views = views,
-    .view_count = sizeof views / sizeof views[0],
-    .counts = counts,
-    .count_count = sizeof counts / sizeof counts[0],
+    .views = rain_views,
+    .view_count = RAIN_VIEWS,
+    .counts = rain_counts,
+    .count_count = RAIN_COUNTS,
     .water_text = "rained, where drops landed",
-    .water_nl = water_nl,
+    .water_nl = rain_water_nl,
 };
