@@ -59,7 +59,7 @@ static void open_device(void)
 
 void fuzz_close(void)
 {
-    watch_forget_pipelines();
+    kept_forget();
     host_buffer_destroy(&device, &vertices);
     host_buffer_destroy(&device, &indices);
     if (host_device_destroy(&device) || watch_sum(watch.live))

@@ -163,5 +163,5 @@ int main(void)
         cmocka_unit_test(sub_balls_flow_into_their_drop_and_keep_its_water),
         cmocka_unit_test(tiles_without_room_are_counted_and_empty),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -151,5 +151,5 @@ int main(void)
         cmocka_unit_test(a_parallel_linkage_sweeps_what_its_upright_blade_passes_over),
         cmocka_unit_test(wipers_turn_back_smoothly),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -412,5 +412,5 @@ int main(void)
         cmocka_unit_test(drops_do_not_show_what_is_on_the_eyes_side),
         cmocka_unit_test(nothing_is_drawn_where_there_is_no_glass),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -344,5 +344,5 @@ int main(void)
         cmocka_unit_test(a_slope_of_the_bump_map_turns_the_force),
         cmocka_unit_test(drops_gather_in_grooves),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -345,5 +345,5 @@ int main(void)
         cmocka_unit_test(slopes_are_differences_of_heights),
         cmocka_unit_test(what_no_view_has_written_is_zero),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

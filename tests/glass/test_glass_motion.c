@@ -462,5 +462,5 @@ int main(void)
         cmocka_unit_test(drops_at_rest_do_not_touch),
         cmocka_unit_test(the_surface_is_told_cell_by_cell),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

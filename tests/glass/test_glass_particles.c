@@ -129,5 +129,5 @@ int main(void)
         cmocka_unit_test(particles_settle_apart_in_front_of_the_blade),
         cmocka_unit_test(held_particles_become_drops_when_the_way_is_free),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

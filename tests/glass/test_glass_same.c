@@ -148,5 +148,5 @@ int main(void)
         cmocka_unit_test(the_same_bits_come_out_however_balls_are_handed_around),
         cmocka_unit_test(only_processors_shuffle),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

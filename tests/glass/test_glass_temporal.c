@@ -291,5 +291,5 @@ int main(void)
         cmocka_unit_test(what_a_drop_shows_moves_as_much_as_the_drop_shrinks_it),
         cmocka_unit_test(a_resolve_smears_drops_on_a_windshield_less_with_the_outputs),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

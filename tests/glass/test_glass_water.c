@@ -346,5 +346,5 @@ int main(void)
         cmocka_unit_test(same_bits_whatever_the_frames_and_threads),
         cmocka_unit_test(blocks_are_marked_while_they_have_film),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 #include "camera.h"
 #include "target.h"
 
@@ -26,12 +26,6 @@ typedef struct gpu_fixture {
     uint32_t errors;         /* of which errors */
     char last[1024];
 } gpu_fixture;
-
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
 
 static inline void gpu_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
@@ -185,12 +179,18 @@ static inline void gpu_record(VkCommandBuffer cmd, virga_rain *rain, const gpu_p
 static inline int gpu_set_up(void **state)
 {
     gpu_fixture *f = calloc(1, sizeof *f);
-    if (!f || !fixture_begin(&f->gpu)) {
-        printf("skipped: %s\n", f ? f->gpu.error : "no memory");
-        exit(77);
-    }
+    REQUIRE(f);
+    effect_device_lend(&f->gpu);
     memset(&watch, 0, sizeof watch);
     *state = f;
+    return 0;
+}
+
+/* For cases that do not look at how pipelines are made, only at what is done with them. */
+static inline int gpu_set_up_kept(void **state)
+{
+    gpu_set_up(state);
+    watch.keep_pipelines = true;
     return 0;
 }
 
@@ -201,12 +201,12 @@ static inline int gpu_tear_down(void **state)
     const uint32_t alive = watch_sum(watch.live);
     if (alive)
         fprintf(stderr, "alive at the end: %s\n", watch_alive());
-    watch_forget_pipelines();
-    const uint32_t wrong = alive + fixture_end(&f->gpu);
+    const uint32_t wrong = alive + effect_device_give_back(&f->gpu);
     free(f);
     return wrong ? -1 : 0;
 }
 
-#define gpu_test(name) cmocka_unit_test_setup_teardown(name, gpu_set_up, gpu_tear_down)
+#define gpu_test(name)      cmocka_unit_test_setup_teardown(name, gpu_set_up, gpu_tear_down)
+#define gpu_kept_test(name) cmocka_unit_test_setup_teardown(name, gpu_set_up_kept, gpu_tear_down)
 
 #endif

@@ -153,11 +153,11 @@ static void scene_fits_into_any_budget(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(budget_is_never_passed),
-        gpu_test(budget_is_for_what_is_used),
-        gpu_test(rain_over_the_budget_is_smaller_and_falls),
-        gpu_test(estimate_of_a_scene_is_enough),
-        gpu_test(scene_fits_into_any_budget),
+        gpu_kept_test(budget_is_never_passed),
+        gpu_kept_test(budget_is_for_what_is_used),
+        gpu_kept_test(rain_over_the_budget_is_smaller_and_falls),
+        gpu_kept_test(estimate_of_a_scene_is_enough),
+        gpu_kept_test(scene_fits_into_any_budget),
     };
-    return cmocka_run_group_tests_name("budget", tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests_name("budget", tests, NULL, NULL));
 }

@@ -236,5 +236,5 @@ int main(void)
         gpu_test(failure_stays_with_its_effect),
         gpu_test(definitions_are_checked),
     };
-    return cmocka_run_group_tests_name("builds", tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests_name("builds", tests, NULL, NULL));
 }

@@ -143,5 +143,5 @@ int main(void)
         gpu_test(destroy_sets_handles_to_null),        gpu_test(two_contexts_live_side_by_side),
         gpu_test(wrong_context_arguments_are_refused), gpu_test(lost_device_is_sticky_and_said_once),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

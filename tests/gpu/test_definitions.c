@@ -229,5 +229,5 @@ int main(void)
         gpu_test(rain_def_fields),    gpu_test(ground_def_fields),   gpu_test(splash_def_fields),
         gpu_test(glass_def_fields),   gpu_test(strides_are_checked),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

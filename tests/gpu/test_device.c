@@ -72,7 +72,7 @@ static void required_features_are_enough_for_every_pipeline(void **state)
     virga_context_destroy(&context);
     vkDestroyRenderPass(device, pass, NULL);
     vkDestroyDevice(device, NULL);
-    assert_int_equal(f->gpu.instance.messages, 0);
+    assert_int_equal(f->gpu.device.instance->messages, 0);
 }
 
 /* Features that are data lie within their structs, and are booleans that a device knows. */
@@ -299,5 +299,5 @@ int main(void)
         gpu_test(device_without_a_format_is_refused),
         gpu_test(instance_without_a_function_is_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -471,5 +471,5 @@ int main(void)
         gpu_test(every_block_of_device_memory_may_be_refused),
         gpu_test(settings_stay_where_a_table_finds_no_memory),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

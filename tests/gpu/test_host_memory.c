@@ -280,5 +280,5 @@ int main(void)
         gpu_test(host_memory_of_a_host_is_used_and_given_back),
         gpu_test(recording_allocates_and_creates_nothing),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -272,5 +272,5 @@ static void device_may_be_lost_at_every_call(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {gpu_test(device_may_be_lost_at_every_call)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -199,7 +199,7 @@ static void rain_destroyed_under_a_frame_lives_until_it_has_completed(void **sta
         if (watch.live[i] != before[i])
             snprintf(text + strlen(text), sizeof text - strlen(text), " %u %s", before[i] - watch.live[i],
                      watch_names[i]);
-    const uint32_t messages = f->gpu.instance.messages;
+    const uint32_t messages = f->gpu.device.instance->messages;
 
     REQUIRE(virga_frame_begin(s.context, 2, 0) == VIRGA_OK);
     const uint32_t under_the_next = watch_sum(watch.live);
@@ -266,5 +266,5 @@ int main(void)
         gpu_test(rain_waits_for_the_frames_before_it_alone),
         gpu_test(context_takes_the_waiting_with_it),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -195,5 +195,5 @@ int main(void)
         gpu_test(blob_of_another_device_is_ignored),  gpu_test(no_blob_is_no_remark),
         gpu_test(too_little_room_is_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

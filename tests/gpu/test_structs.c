@@ -239,14 +239,14 @@ static void view_is_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(context_def_is_checked),
-        gpu_test(target_def_is_checked),
-        gpu_test(attachments_of_motion_and_mask_are_checked),
-        gpu_test(views_with_a_wrong_past_are_refused),
-        gpu_test(rain_def_is_checked),
-        gpu_test(scene_def_is_checked),
-        gpu_test(rain_settings_are_checked),
-        gpu_test(view_is_checked),
+        gpu_kept_test(context_def_is_checked),
+        gpu_kept_test(target_def_is_checked),
+        gpu_kept_test(attachments_of_motion_and_mask_are_checked),
+        gpu_kept_test(views_with_a_wrong_past_are_refused),
+        gpu_kept_test(rain_def_is_checked),
+        gpu_kept_test(scene_def_is_checked),
+        gpu_kept_test(rain_settings_are_checked),
+        gpu_kept_test(view_is_checked),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -11,6 +11,8 @@
 
 #include <vulkan/vulkan.h>
 
+#include "../host/kept_pipelines.h"
+
 /* Kinds of object that are made by vkCreate(device, info, allocator, object). */
 #define WATCH_CREATED(X)   \
     X(Buffer)              \
@@ -72,7 +74,7 @@ static struct watch {
     void (*lie_memory)(VkPhysicalDeviceMemoryProperties *properties);
     uint32_t lie_types; /* of memory that buffers may lie in, a bit each; 0: as it is */
 
-    bool keep_pipelines;   /* made once, and given again to who asks for the same: see below */
+    bool keep_pipelines;   /* each kind is made once: see kept_pipelines.h. For one thread */
     uint64_t device_calls; /* of all that can fail: what a lost device must not be asked any more */
 } watch;
 
@@ -156,142 +158,7 @@ static inline void watch_uncount(watch_kind kind, bool object)
 WATCH_CREATED(WATCH_WRAP)
 #undef WATCH_WRAP
 
-/* ---- pipelines
- *
- * Software Vulkan compiles a pipeline in 20 to 75 ms, and a test that fails each of a thousand calls makes each a
- * thousand times. With `keep_pipelines` the first one of its kind is kept until watch_forget_pipelines, whatever
- * becomes of the context that it was made for: Vulkan lets a pipeline outlive its layout and render pass, and be used
- * with any that are compatible. Shader modules are then numbers that stand for their code. */
-
-enum { WATCH_MOST_CODES = 256, WATCH_MOST_KEPT = 512, WATCH_KEY_WORDS = 10 };
-
-static struct watch_kept {
-    const uint32_t *codes[WATCH_MOST_CODES]; /* by module - 1; arrays of the library, which never move */
-    size_t code_sizes[WATCH_MOST_CODES];
-    uint32_t code_count;
-    struct {
-        uint64_t key[WATCH_KEY_WORDS];
-        VkPipeline pipeline;
-    } pipelines[WATCH_MOST_KEPT];
-    uint32_t count;
-    VkDevice device;
-} watch_kept;
-
-static inline VkShaderModule watch_number_module(const VkShaderModuleCreateInfo *info)
-{
-    uint32_t i = 0;
-    while (i < watch_kept.code_count && watch_kept.codes[i] != info->pCode)
-        i++;
-    if (i == WATCH_MOST_CODES)
-        abort();
-    watch_kept.codes[i] = info->pCode;
-    watch_kept.code_sizes[i] = info->codeSize;
-    watch_kept.code_count += i == watch_kept.code_count;
-    return (VkShaderModule)(uintptr_t)(i + 1);
-}
-
-static inline VkShaderModule watch_real_module(VkDevice device, VkShaderModule number)
-{
-    const uint32_t i = (uint32_t)(uintptr_t)number - 1;
-    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                           .codeSize = watch_kept.code_sizes[i],
-                                           .pCode = watch_kept.codes[i]};
-    VkShaderModule module = VK_NULL_HANDLE;
-    if (vkCreateShaderModule(device, &info, NULL, &module) != VK_SUCCESS)
-        abort();
-    return module;
-}
-
-static inline uint64_t watch_key_of_stage(const VkPipelineShaderStageCreateInfo *stage)
-{
-    /* The second is the same for all pipelines of a device. */
-    uint32_t constants[2] = {0};
-    if (stage->pSpecializationInfo && stage->pSpecializationInfo->dataSize == sizeof constants)
-        memcpy(constants, stage->pSpecializationInfo->pData, sizeof constants);
-    return (uint64_t)(uintptr_t)stage->module << 32 | constants[0];
-}
-
-/* What pipelines of the library differ in, besides their layouts, which follow from their shaders. */
-static inline void watch_key_of(const VkGraphicsPipelineCreateInfo *info, uint64_t key[WATCH_KEY_WORDS])
-{
-    const VkPipelineVertexInputStateCreateInfo *input = info->pVertexInputState;
-    const VkPipelineColorBlendStateCreateInfo *blend = info->pColorBlendState;
-    for (uint32_t i = 0; i < info->stageCount; i++)
-        key[i] = watch_key_of_stage(&info->pStages[i]);
-    key[2] = input->vertexBindingDescriptionCount ? input->pVertexBindingDescriptions[0].stride : 0;
-    key[3] = info->pRasterizationState->cullMode;
-    key[4] = info->pMultisampleState->rasterizationSamples;
-    key[5] = (uint64_t)info->pDepthStencilState->depthCompareOp << 2 | info->pDepthStencilState->depthTestEnable << 1 |
-             info->pDepthStencilState->depthWriteEnable;
-    key[6] = blend->attachmentCount;
-    key[7] = (uint64_t)blend->pAttachments[0].blendEnable << 32 | blend->pAttachments[0].dstColorBlendFactor;
-    key[8] = info->subpass;
-}
-
-static inline VkPipeline *watch_find_kept(VkDevice device, const uint64_t key[WATCH_KEY_WORDS])
-{
-    uint32_t i = 0;
-    while (i < watch_kept.count && memcmp(watch_kept.pipelines[i].key, key, sizeof watch_kept.pipelines[i].key))
-        i++;
-    if (i == WATCH_MOST_KEPT)
-        abort();
-    memcpy(watch_kept.pipelines[i].key, key, sizeof watch_kept.pipelines[i].key);
-    watch_kept.count += i == watch_kept.count;
-    watch_kept.device = device;
-    return &watch_kept.pipelines[i].pipeline;
-}
-
-/* Before the device goes. */
-static inline void watch_forget_pipelines(void)
-{
-    for (uint32_t i = 0; i < watch_kept.count; i++)
-        vkDestroyPipeline(watch_kept.device, watch_kept.pipelines[i].pipeline, NULL);
-    memset(&watch_kept, 0, sizeof watch_kept);
-}
-
-static inline VkResult watch_kept_compute(VkDevice device, VkPipelineCache cache,
-                                          const VkComputePipelineCreateInfo *given, VkPipeline *made)
-{
-    const uint64_t key[WATCH_KEY_WORDS] = {watch_key_of_stage(&given->stage)};
-    VkPipeline *kept = watch_find_kept(device, key);
-    if (!*kept) {
-        VkComputePipelineCreateInfo info = *given;
-        info.stage.module = watch_real_module(device, given->stage.module);
-        const VkResult result = vkCreateComputePipelines(device, cache, 1, &info, NULL, kept);
-        vkDestroyShaderModule(device, info.stage.module, NULL);
-        if (result != VK_SUCCESS)
-            return result;
-    }
-    *made = *kept;
-    return VK_SUCCESS;
-}
-
-static inline VkResult watch_kept_graphics(VkDevice device, VkPipelineCache cache,
-                                           const VkGraphicsPipelineCreateInfo *given, VkPipeline *made)
-{
-    uint64_t key[WATCH_KEY_WORDS] = {0};
-    if (!given
-             ->renderPass) { /* for dynamic rendering, which devices of tests lack: a number that is never drawn with */
-        *made = (VkPipeline)(uintptr_t)1;
-        return VK_SUCCESS;
-    }
-    watch_key_of(given, key);
-    VkPipeline *kept = watch_find_kept(device, key);
-    if (!*kept) {
-        VkPipelineShaderStageCreateInfo stages[2] = {given->pStages[0], given->pStages[1]};
-        VkGraphicsPipelineCreateInfo info = *given;
-        info.pStages = stages;
-        for (int i = 0; i < 2; i++)
-            stages[i].module = watch_real_module(device, stages[i].module);
-        const VkResult result = vkCreateGraphicsPipelines(device, cache, 1, &info, NULL, kept);
-        for (int i = 0; i < 2; i++)
-            vkDestroyShaderModule(device, stages[i].module, NULL);
-        if (result != VK_SUCCESS)
-            return result;
-    }
-    *made = *kept;
-    return VK_SUCCESS;
-}
+/* ---- pipelines */
 
 static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice device, VkPipelineCache cache,
                                                                    uint32_t count,
@@ -306,7 +173,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice devi
         watch.before_pipeline();
     VkResult result = VK_SUCCESS;
     for (uint32_t i = 0; i < count && result == VK_SUCCESS; i++) {
-        result = watch.keep_pipelines ? watch_kept_compute(device, cache, &infos[i], &pipelines[i])
+        result = watch.keep_pipelines ? kept_compute(device, cache, &infos[i], &pipelines[i])
                                       : vkCreateComputePipelines(device, cache, 1, &infos[i], allocator, &pipelines[i]);
         watch_count(WATCH_Pipeline, result);
     }
@@ -326,9 +193,12 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateGraphicsPipelines(VkDevice dev
         watch.before_pipeline();
     VkResult result = VK_SUCCESS;
     for (uint32_t i = 0; i < count && result == VK_SUCCESS; i++) {
-        result = watch.keep_pipelines
-                     ? watch_kept_graphics(device, cache, &infos[i], &pipelines[i])
-                     : vkCreateGraphicsPipelines(device, cache, 1, &infos[i], allocator, &pipelines[i]);
+        if (!watch.keep_pipelines)
+            result = vkCreateGraphicsPipelines(device, cache, 1, &infos[i], allocator, &pipelines[i]);
+        else if (infos[i].renderPass)
+            result = kept_graphics(device, cache, &infos[i], &pipelines[i]);
+        else /* for dynamic rendering, which this device lacks: a number that is never drawn with */
+            pipelines[i] = (VkPipeline)(uintptr_t)1;
         watch_count(WATCH_Pipeline, result);
     }
     return result;
@@ -350,7 +220,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateShaderModule(VkDevice device, 
         return watch.failure;
     VkResult result = VK_SUCCESS;
     if (watch.keep_pipelines)
-        *module = watch_number_module(info);
+        *module = kept_number_module(info);
     else
         result = vkCreateShaderModule(device, info, allocator, module);
     watch_count(WATCH_ShaderModule, result);

@@ -446,5 +446,5 @@ int main(void)
         cmocka_unit_test(test_steps_do_not_matter),
         cmocka_unit_test(test_without_a_far_map_there_are_materials),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -355,5 +355,5 @@ int main(void)
         cmocka_unit_test(test_the_budget_closes_while_the_window_moves),
         cmocka_unit_test(test_cells_come_back_as_they_left),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

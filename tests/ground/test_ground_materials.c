@@ -338,5 +338,5 @@ int main(void)
         cmocka_unit_test(test_corners_that_are_no_numbers_are_refused),
         cmocka_unit_test(test_a_host_finds_cells_where_the_header_says),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -265,5 +265,5 @@ int main(void)
         cmocka_unit_test(test_rings_that_are_drawn_bring_the_waves_of_all_drops),
         cmocka_unit_test(test_a_drop_that_stands_for_many_makes_the_waves_of_all),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -267,5 +267,5 @@ int main(void)
         cmocka_unit_test(test_an_impact_of_thousands_wets_all_around),
         cmocka_unit_test(test_the_order_of_drops_does_not_matter),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

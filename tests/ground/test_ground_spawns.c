@@ -566,5 +566,5 @@ int main(void)
         cmocka_unit_test(test_lists_that_no_device_can_bind_are_refused),
         cmocka_unit_test(test_in_a_hundred_ticks_of_ground_and_splashes_no_nanolitre_is_lost),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,14 +1,19 @@
 /* effect_fixture.h - what the fixtures of rain, ground, splash and glass have in common: a context on a device with
- * validation on, frames that are waited for, reading back, and a last word on what is left. */
+ * validation on, frames that are waited for, reading back, and a check that nothing is left.
+ *
+ * All cases of a program have one device, and pipelines are kept from case to case (kept_pipelines.h). Its main ends
+ * with effect_fixture_close. */
 #ifndef VIRGA_TESTS_EFFECT_FIXTURE_H
 #define VIRGA_TESTS_EFFECT_FIXTURE_H
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
+#include "kept_pipelines.h"
 #include "plate_fixture.h"
 
 #include <virga/virga.h>
@@ -27,20 +32,88 @@ static inline void effect_fixture_log(void *user, virga_log_level level, virga_l
         fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
 }
 
+/* The device of all cases. A case works with a copy of it, which it gives back; one that has two fixtures at a time gets
+ * a device of its own for the second. */
+static struct effect_device {
+    fixture fixture;
+    bool there, lent;
+    uint32_t messages; /* of validation, up to the case before */
+} effect_device;
+
+/* A program that makes a device and forgets to destroy it would not see what validation says then. */
+static inline void effect_device_expect_closed(void)
+{
+    if (!effect_device.there)
+        return;
+    fprintf(stderr, "the device was never destroyed: effect_fixture_close is missing\n");
+    _exit(1);
+}
+
+/* Exits with 77 where there is no device. */
+static inline void effect_device_lend(fixture *gpu)
+{
+    fixture *made = effect_device.lent ? gpu : &effect_device.fixture;
+    if ((made == gpu || !effect_device.there) && !fixture_begin(made)) {
+        printf("skipped: %s\n", made->error);
+        exit(77);
+    }
+    if (made == gpu)
+        return;
+    if (!effect_device.there)
+        atexit(effect_device_expect_closed);
+    effect_device.there = effect_device.lent = true;
+    *gpu = effect_device.fixture;
+    gpu->device.warn_user = gpu;
+    gpu->device.frame = gpu->device.completed = 0; /* frames count from 1 in each case; none is under way */
+    for (int i = 0; i < HOST_FRAMES; i++)
+        gpu->device.frames[i].index = 0;
+}
+
+static inline bool effect_device_is_shared(const fixture *gpu)
+{
+    return gpu->device.instance == &effect_device.fixture.instance;
+}
+
+/* Returns what validation has said in this case plus what is still alive of it. */
+static inline uint32_t effect_device_give_back(fixture *gpu)
+{
+    if (!effect_device_is_shared(gpu))
+        return fixture_end(gpu);
+    uint32_t live = gpu->device.live + (host_wait(&gpu->device, gpu->error, sizeof gpu->error) ? 0 : 1);
+    const host_instance *instance = &effect_device.fixture.instance;
+    const uint32_t messages = instance->messages - effect_device.messages;
+    if (messages)
+        fprintf(stderr, "validation: %s\n", instance->first_message);
+    gpu->device.live = 0;
+    effect_device.fixture.device = gpu->device;
+    effect_device.messages = instance->messages;
+    effect_device.lent = false;
+    return live + messages;
+}
+
+/* Destroys the device, of which validation then says what objects are left. What main returns, of the number of cases
+ * that failed. */
+static inline int effect_fixture_close(int failed)
+{
+    if (effect_device.there) {
+        kept_forget();
+        effect_device.there = false;
+        fixture_end(&effect_device.fixture);
+    }
+    return fixture_result(failed);
+}
+
 /* Device and context. Exits with 77 where there is no device. Without timings, unless a test is of those: their
  * barriers around each pass would hide those that are missing. */
 static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, virga_log_fn log, void *user)
 {
-    if (!fixture_begin(gpu)) {
-        printf("skipped: %s\n", gpu->error);
-        exit(77);
-    }
+    effect_device_lend(gpu);
     virga_context_def def = virga_default_context_def();
     def.instance = gpu->instance.instance;
     def.physical_device = gpu->device.physical;
     def.device = gpu->device.device;
     def.queue_family = gpu->device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.get_instance_proc_addr = effect_device_is_shared(gpu) ? kept_get_instance_proc_addr : vkGetInstanceProcAddr;
     def.wide_lines = gpu->device.wide_lines;
     def.log = log;
     def.log_user = user;
@@ -99,9 +172,7 @@ static inline uint32_t effect_fixture_end(fixture *gpu, host_buffer *const *buff
     for (size_t i = 0; i < count; i++)
         if (buffers[i]->buffer)
             host_buffer_destroy(&gpu->device, buffers[i]);
-    if (gpu->instance.messages)
-        fprintf(stderr, "validation: %s\n", gpu->instance.first_message);
-    return fixture_end(gpu);
+    return effect_device_give_back(gpu);
 }
 
 #endif

@@ -166,5 +166,5 @@ int main(void)
         cmocka_unit_test(bad_files),          cmocka_unit_test(plain_triangle), cmocka_unit_test(missing_picture),
         cmocka_unit_test(mips_keep_coverage), cmocka_unit_test(words),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

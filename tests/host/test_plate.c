@@ -551,5 +551,5 @@ int main(void)
         cmocka_unit_test(haze_veils_what_water_mirrors),
         cmocka_unit_test(waves_mirror_without_sparks),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

@@ -47,11 +47,12 @@ static int tear_down(void **state)
     uint32_t live = host_device_destroy(&f->device);
     host_instance_destroy(&f->instance);
     free(f);
+    fixture_wrong += live;
     return live ? -1 : 0;
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(hazard_is_reported)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

@@ -399,5 +399,5 @@ int main(void)
         cmocka_unit_test(streaks_end_at_the_scene_over_soft_m),
         cmocka_unit_test(without_softness_the_scene_cuts),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -197,5 +197,5 @@ int main(void)
         cmocka_unit_test(a_step_after_a_prepare_has_all_of_its_ticks),
         cmocka_unit_test(a_frame_without_a_prepare_draws_nothing),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -225,5 +225,5 @@ int main(void)
         cmocka_unit_test(a_new_rate_moves_no_drop),
         cmocka_unit_test(far_from_the_origin_the_field_is_as_fine),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -269,5 +269,5 @@ int main(void)
         cmocka_unit_test(a_lamp_may_be_anywhere),
         cmocka_unit_test(without_glow_or_depth_lamps_leave_haze_dark),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -44,10 +44,7 @@ static void close_rain(void)
     virga_rain_destroy(&f.rain);
     virga_context_destroy(&f.context);
     host_buffer *buffers[] = {&f.vertices, &f.indices, &f.impacts, &f.drops};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
-        if (buffers[i]->buffer)
-            host_buffer_destroy(&f.gpu.device, buffers[i]);
-    assert_int_equal(fixture_end(&f.gpu), 0);
+    assert_int_equal(effect_fixture_end(&f.gpu, buffers, sizeof buffers / sizeof buffers[0]), 0);
 }
 
 static void check_hit(const virga_impact_gpu *hit, const virga_rain_pane *pane, uint32_t first, uint32_t ticks)
@@ -232,5 +229,5 @@ int main(void)
         cmocka_unit_test(a_driving_pane_meets_more), cmocka_unit_test(nothing_meets_a_pane_under_a_roof),
         cmocka_unit_test(wrong_panes_are_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -232,5 +232,5 @@ int main(void)
         cmocka_unit_test(a_steep_slope_gets_its_rain),
         cmocka_unit_test(impacts_are_ready_as_indirect_arguments),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -155,5 +155,5 @@ int main(void)
         cmocka_unit_test(imported_depth_holds_in_slanted_rain),
         cmocka_unit_test(imported_slopes_have_their_normals),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

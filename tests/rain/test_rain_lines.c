@@ -76,5 +76,5 @@ int main(void)
         cmocka_unit_test(wider_lines_too),
         cmocka_unit_test(and_where_the_scene_hides_them),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -253,5 +253,5 @@ int main(void)
         cmocka_unit_test(changes_allocate_nothing_on_the_device),
         cmocka_unit_test(settings_can_be_read_changed_and_set),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

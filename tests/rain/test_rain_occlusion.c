@@ -221,5 +221,5 @@ int main(void)
         cmocka_unit_test(maps_by_turns_are_all_drawn_once_a_round),
         cmocka_unit_test(a_camera_that_jumps_has_all_maps_at_once),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

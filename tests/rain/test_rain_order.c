@@ -207,5 +207,5 @@ int main(void)
         cmocka_unit_test(the_thinnest_are_lines_where_the_device_has_them),
         cmocka_unit_test(a_view_without_rain_draws_nothing_in_order),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

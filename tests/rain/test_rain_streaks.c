@@ -367,5 +367,5 @@ int main(void)
         cmocka_unit_test(a_lamp_behind_the_rain_brightens_it_and_most_near_the_lamp),
         cmocka_unit_test(without_lamps_nothing_glitters),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

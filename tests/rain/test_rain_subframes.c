@@ -96,5 +96,5 @@ int main(void)
         cmocka_unit_test(parts_of_a_shutter_cover_as_much_as_all_of_it),
         cmocka_unit_test(longer_streaks_end_at_the_ground),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

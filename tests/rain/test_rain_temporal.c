@@ -388,5 +388,5 @@ int main(void)
         cmocka_unit_test(a_target_with_one_of_them_writes_that_alone),
         cmocka_unit_test(a_resolve_smears_rain_less_with_the_outputs),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -273,5 +273,5 @@ int main(void)
         cmocka_unit_test(haze_eases_with_the_rate),
         cmocka_unit_test(no_rate_is_no_impacts_after_the_transition),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

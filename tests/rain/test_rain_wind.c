@@ -516,5 +516,5 @@ int main(void)
         cmocka_unit_test(a_texture_of_still_air_changes_nothing),
         cmocka_unit_test(drops_calm_down_when_the_texture_goes),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -437,22 +437,13 @@ static void mesh_fields(void **state)
     close_told(&t);
 }
 
-static int set_up(void **state)
-{
-    gpu_set_up(state);
-    watch.keep_pipelines = true;
-    return 0;
-}
-
-#define fields_test(name) cmocka_unit_test_setup_teardown(name, set_up, gpu_tear_down)
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        fields_test(rain_settings_fields),   fields_test(ground_settings_fields),
-        fields_test(splash_settings_fields), fields_test(glass_settings_fields),
-        fields_test(scene_frame_fields),     fields_test(view_fields),
-        fields_test(scene_pane_fields),      fields_test(mesh_fields),
+        gpu_kept_test(rain_settings_fields),   gpu_kept_test(ground_settings_fields),
+        gpu_kept_test(splash_settings_fields), gpu_kept_test(glass_settings_fields),
+        gpu_kept_test(scene_frame_fields),     gpu_kept_test(view_fields),
+        gpu_kept_test(scene_pane_fields),      gpu_kept_test(mesh_fields),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

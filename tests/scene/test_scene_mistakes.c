@@ -210,13 +210,13 @@ static void ground_tells_its_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(a_draw_of_nothing_says_why),
-        gpu_test(panes_that_nobody_prepared_are_told),
-        gpu_test(a_view_beyond_the_rain_is_told),
-        gpu_test(views_that_contradict_themselves_are_refused),
-        gpu_test(lists_and_pointers_that_are_missing_are_named),
-        gpu_test(targets_of_other_contexts_are_refused),
-        gpu_test(ground_tells_its_settings),
+        gpu_kept_test(a_draw_of_nothing_says_why),
+        gpu_kept_test(panes_that_nobody_prepared_are_told),
+        gpu_kept_test(a_view_beyond_the_rain_is_told),
+        gpu_kept_test(views_that_contradict_themselves_are_refused),
+        gpu_kept_test(lists_and_pointers_that_are_missing_are_named),
+        gpu_kept_test(targets_of_other_contexts_are_refused),
+        gpu_kept_test(ground_tells_its_settings),
     };
-    return cmocka_run_group_tests_name("scene mistakes", tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests_name("scene mistakes", tests, NULL, NULL));
 }

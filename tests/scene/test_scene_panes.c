@@ -6,17 +6,11 @@
 
 #include <cmocka.h>
 
-#include "../host/plate_fixture.h"
+#include "../host/effect_fixture.h"
 
 #include "glass/glass_internal.h"
 
 #include <virga/virga.h>
-
-#define REQUIRE(condition)                      \
-    do {                                        \
-        if (!(condition))                       \
-            fail_msg("not so: %s", #condition); \
-    } while (0)
 
 #define SIDE 32 /* pixels of the picture */
 
@@ -37,21 +31,10 @@ static void keep_line(void *user, virga_log_level level, virga_log_id id, const 
 static int set_up(void **state)
 {
     static scene_fixture f;
-    if (!fixture_begin(&f.gpu)) {
-        printf("skipped: %s\n", f.gpu.error);
-        exit(77);
-    }
-    virga_context_def def = virga_default_context_def();
-    def.instance = f.gpu.instance.instance;
-    def.physical_device = f.gpu.device.physical;
-    def.device = f.gpu.device.device;
-    def.queue_family = f.gpu.device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.log = keep_line;
-    def.log_user = &f;
+    f.context = effect_fixture_open(&f.gpu, false, keep_line, &f);
     f.said[0] = 0;
     *state = &f;
-    return virga_context_create(&def, &f.context) == VIRGA_OK ? 0 : -1;
+    return 0;
 }
 
 /* Nothing is left, and the layer has nothing to say. */
@@ -60,9 +43,7 @@ static int tear_down(void **state)
     scene_fixture *f = *state;
     REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
     virga_context_destroy(&f->context);
-    if (f->gpu.instance.messages)
-        printf("%s\n", f->gpu.instance.first_message);
-    return fixture_end(&f->gpu) ? -1 : 0;
+    return effect_device_give_back(&f->gpu) ? -1 : 0;
 }
 
 static virga_scene_def small_scene(virga_glass_def panes[2])
@@ -343,5 +324,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(light_is_the_same_for_all_effects, set_up, tear_down),
         cmocka_unit_test_setup_teardown(panes_are_drawn_once_they_are_prepared, set_up, tear_down),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

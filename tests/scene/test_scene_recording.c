@@ -131,5 +131,5 @@ int main(void)
         gpu_test(recording_allocates_and_creates_nothing),
         gpu_test(scene_waits_for_all_of_its_pipelines),
     };
-    return cmocka_run_group_tests_name("scene recording", tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests_name("scene recording", tests, NULL, NULL));
 }

@@ -249,5 +249,5 @@ int main(void)
         cmocka_unit_test(soft_edges_rise_over_their_width),
         cmocka_unit_test(what_is_beside_the_picture_makes_no_sprite),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -260,5 +260,5 @@ int main(void)
         cmocka_unit_test(more_views_than_there_is_room_for_are_refused),
         cmocka_unit_test(the_same_frame_twice_gives_the_same_bits),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

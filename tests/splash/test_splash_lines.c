@@ -132,5 +132,5 @@ int main(void)
         cmocka_unit_test(and_where_the_scene_is_close_behind),
         cmocka_unit_test(and_in_the_papers_style),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -238,5 +238,5 @@ int main(void)
         cmocka_unit_test(test_in_the_end_droplets_fall_at_the_speed_of_the_balance),
         cmocka_unit_test(test_in_the_end_wind_carries_droplets_along),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

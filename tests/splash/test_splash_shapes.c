@@ -411,5 +411,5 @@ int main(void)
         cmocka_unit_test(a_disk_far_away_is_a_blob_that_covers_what_its_size_gives),
         cmocka_unit_test(a_splash_that_stands_for_several_shows_them_side_by_side),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -478,5 +478,5 @@ int main(void)
         cmocka_unit_test(test_spawns_that_no_device_can_bind_are_refused),
     };
     const int failed = cmocka_run_group_tests(tests, open_all, NULL);
-    return failed + (int)splash_fixture_end(&f); /* validation has said nothing, and nothing is left */
+    return effect_fixture_close(failed + (int)splash_fixture_end(&f));
 }

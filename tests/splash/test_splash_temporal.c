@@ -268,5 +268,5 @@ int main(void)
         cmocka_unit_test(pyramids_of_the_papers_style_have_vectors_too),
         cmocka_unit_test(a_resolve_smears_splashes_less_with_the_outputs),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

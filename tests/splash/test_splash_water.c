@@ -420,5 +420,5 @@ int main(void)
         cmocka_unit_test(test_a_slow_pile_lets_go_after_the_unit_time),
         cmocka_unit_test(test_a_fast_pile_lets_go_after_the_unit_distance),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }
