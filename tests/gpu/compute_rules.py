@@ -1,21 +1,19 @@
 #!/usr/bin/env python3
 """What compute shaders need of a device, and what software Vulkan, which runs a workgroup in order, never notices.
 
-Every compute shader that ships is compiled, and its SPIR-V is read:
+The SPIR-V of every compute shader of the library is read, as the build compiles it:
   - shared memory is within the 16 KiB that Vulkan promises (maxComputeSharedMemorySize);
   - a workgroup has no more invocations than the 256 that virga_check_device asks for;
   - where invocations wait for what others of their workgroup write to a buffer (memoryBarrierBuffer) there is a buffer
     that is coherent: without it each may go on to see what its own cache has (GLSL 4.60, section 4.10);
   - subgroups are known to the forms of glass's passes that are chosen by the device's size of them, and to no other.
 
-usage: compute_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
+usage: compute_rules.py SOURCE_ROOT BUILD_ROOT
 """
-import os
 import shutil
 import sys
-import tempfile
 
-from graphics_rules import GLSLANG, instructions, run
+from graphics_rules import disassemble, instructions, list_passes
 
 SHARED_BYTES = 16384
 INVOCATIONS = 256
@@ -71,19 +69,14 @@ def wrong_in(code, shader):
 
 
 def main():
-    source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
+    source, build = sys.argv[1:]
     if not shutil.which("spirv-dis"):
         print("compute_rules.py: skipped, there is no spirv-dis (package spirv-tools)")
         sys.exit(77)
     modules, wrong = 0, []
-    with tempfile.TemporaryDirectory() as folder:
-        output = os.path.join(folder, "pass.spv")
-        for shader in filter(lambda name: name.endswith(".comp"), shaders):
-            run([glslang] + GLSLANG + ["-I" + os.path.join(source, "shaders"), "-o", output,
-                                       os.path.join(source, "shaders", shader)])
-            code = instructions(run(["spirv-dis", "--raw-id", output]))
-            wrong += [shader + ": " + text for text in wrong_in(code, shader)]
-            modules += 1
+    for shader, header in list_passes(source, build, ".comp"):
+        wrong += [shader + ": " + text for text in wrong_in(instructions(disassemble(header)), shader)]
+        modules += 1
     for text in wrong:
         print("compute_rules.py: " + text, file=sys.stderr)
     print("compute_rules.py: %d modules, %d wrong" % (modules, len(wrong)))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What Vulkan asks of vertex and fragment shaders, and neither software Vulkan nor the eye notices.
 
-Every vertex and fragment shader that ships is compiled in all of its forms, and its SPIR-V is read:
+The SPIR-V of every vertex and fragment shader of the library is read, in all forms that the build compiles:
   - no derivative (nor a sample that takes one) comes after a discard: the pixels beside may be gone, and what is
     derived is undefined (GLSL 4.60, section 8.14.1);
   - every storage buffer and image is readonly: stores in these stages are features (vertexPipelineStoresAndAtomics,
@@ -11,27 +11,19 @@ Every vertex and fragment shader that ships is compiled in all of its forms, and
   - no chance is made of a sine's last digits: they are the device's, and of each form of a shader (shared/random.h has
     numbers that are not).
 
-usage: graphics_rules.py SOURCE_ROOT GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
+usage: graphics_rules.py SOURCE_ROOT BUILD_ROOT
 """
 import os
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 
-GLSLANG = ["-V", "--quiet", "--target-env", "vulkan1.2"]
-FORMS = [[], ["-DMOTION"], ["-DREACTIVE"], ["-DMOTION", "-DREACTIVE"]]
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tools"))
+from built_shaders import disassemble, list_passes, name_of  # noqa: E402
+
 DISCARDS = ("OpKill", "OpTerminateInvocation", "OpDemoteToHelperInvocation")
 LOCATIONS = 64 // 4 - 1
 DERIVES = re.compile(r"^Op(DPdx|DPdy|Fwidth|Image\w*ImplicitLod|ImageQueryLod)")
-
-
-def run(command):
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-    if done.returncode:
-        sys.exit("graphics_rules.py: %s gave %d:\n%s" % (" ".join(command), done.returncode, done.stdout))
-    return done.stdout
 
 
 def instructions(text):
@@ -130,27 +122,23 @@ def locations(code, vertex):
     return end
 
 
-def wide(code, shader):
-    end = locations(code, shader.endswith(".vert"))
+def too_many_locations(code, vertex):
+    end = locations(code, vertex)
     return ["has varyings in %d locations, of %d" % (end, LOCATIONS)] if end > LOCATIONS else []
 
 
 def main():
-    source, glslang, shaders = sys.argv[1], sys.argv[2], sys.argv[3:]
+    source, build = sys.argv[1:]
     if not shutil.which("spirv-dis"):
         print("graphics_rules.py: skipped, there is no spirv-dis (package spirv-tools)")
         sys.exit(77)
     modules, wrong = 0, []
-    with tempfile.TemporaryDirectory() as folder:
-        output = os.path.join(folder, "pass.spv")
-        for shader in filter(lambda name: name.endswith((".vert", ".frag")), shaders):
-            for form in FORMS:
-                run([glslang] + GLSLANG + form + ["-I" + os.path.join(source, "shaders"), "-o", output,
-                                                  os.path.join(source, "shaders", shader)])
-                code = instructions(run(["spirv-dis", "--raw-id", output]))
-                wrong += [" ".join([shader] + form) + ": " + text
-                          for text in derives_late(code) + writes(code) + hashes_by_sine(code) + wide(code, shader)]
-                modules += 1
+    for shader, header in list_passes(source, build, (".vert", ".frag")):
+        code = instructions(disassemble(header))
+        wrong += ["%s: %s: %s" % (shader, name_of(header), text)
+                  for text in derives_late(code) + writes(code) + hashes_by_sine(code)
+                  + too_many_locations(code, shader.endswith(".vert"))]
+        modules += 1
     for text in wrong:
         print("graphics_rules.py: " + text, file=sys.stderr)
     print("graphics_rules.py: %d modules, %d wrong" % (modules, len(wrong)))

@@ -5,7 +5,7 @@ Every struct is asked for its offsets and size three ways: of the C compiler, of
 each, and of every pass that ships, wherever it reads or writes one. In a block of several members each must begin
 where the one before it ends, as the C that fills the buffer has it.
 
-usage: layouts.py SOURCE_ROOT CC GLSLANG_VALIDATOR [shader...]   (shaders below SOURCE_ROOT/shaders)
+usage: layouts.py SOURCE_ROOT BUILD_ROOT CC GLSLANG_VALIDATOR
 """
 import os
 import re
@@ -13,6 +13,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tools"))
+import built_shaders  # noqa: E402
 
 STRUCT = re.compile(r"^struct\s+(virga_\w+)\s*\{(.*?)^\};", re.S | re.M)
 MEMBER = re.compile(r"^(?:float|uint|int|virga_\w+)\s+(\w+)((?:\[[^\]]*\])*)$")
@@ -158,10 +161,6 @@ class Module:
         return kind
 
 
-def disassemble(path):
-    return Module(run(["spirv-dis", "--raw-id", path]))
-
-
 # ---- both beside each other
 
 
@@ -230,32 +229,28 @@ def probe(structs, source, glslang, folder):
         for i in range(len(structs)):
             file.write("    all%d[0] = all%d[1];\n" % (i, i))
         file.write("}\n")
-    return compile_shader(path, source, glslang, folder, "probe.spv")
-
-
-def compile_shader(path, source, glslang, folder, output):
-    output = os.path.join(folder, output)
+    output = os.path.join(folder, "probe.spv")
     run([glslang] + GLSLANG + ["-I" + os.path.join(source, "shaders"), "-o", output, path])
-    return output
+    return Module(run(["spirv-dis", "--raw-id", output]))
 
 
 def main():
-    source, cc, glslang, shaders = sys.argv[1], sys.argv[2].split(), sys.argv[3], sys.argv[4:]
+    source, build, cc, glslang = sys.argv[1], sys.argv[2], sys.argv[3].split(), sys.argv[4]
     if not shutil.which("spirv-dis"):
         print("layouts.py: skipped, there is no spirv-dis (package spirv-tools)")
         sys.exit(77)
     structs = read_headers(os.path.join(source, "shaders", "shared"))
+    shaders = built_shaders.list_passes(source, build, (".vert", ".frag", ".comp"))
     if not structs or not shaders:
         fail("there are %d structs and %d shaders to look at" % (len(structs), len(shaders)))
     with tempfile.TemporaryDirectory() as folder:
         checker = Checker(c_layouts(structs, source, cc, folder))
-        checker.check("probe", disassemble(probe(structs, source, glslang, folder)))
+        checker.check("probe", probe(structs, source, glslang, folder))
         missing = [name for name in structs if name not in checker.seen]
         if missing:
             fail("not seen in the probe: " + ", ".join(missing))
-        for shader in shaders:
-            path = os.path.join(source, "shaders", shader)
-            checker.check(shader, disassemble(compile_shader(path, source, glslang, folder, "pass.spv")))
+        for _, header in shaders:
+            checker.check(built_shaders.name_of(header), Module(built_shaders.disassemble(header)))
     for text in checker.failures:
         print("layouts.py: " + text, file=sys.stderr)
     used = sum(len(places) > 1 for places in checker.seen.values())
