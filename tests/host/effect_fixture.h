@@ -32,8 +32,8 @@ static inline void effect_fixture_log(void *user, virga_log_level level, virga_l
         fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
 }
 
-/* The device of all cases. A case works with a copy of it, which it gives back; one that has two fixtures at a time gets
- * a device of its own for the second. */
+/* The device of all cases. A case works with a copy of it, which it gives back; one that has two fixtures at a time
+ * gets a device of its own for the second. */
 static struct effect_device {
     fixture fixture;
     bool there, lent;

@@ -26,18 +26,18 @@ BAD_SPIRV = SPIRV[:-3]
 BAD = {
     "engine/core/format.c": ("int  add(int a, int b)\n{\n    return a + b;\n}\n", "1: format: "),
     "engine/core/tidy.c": ("int divide(void)\n{\n    int *none = 0;\n    return *none;\n}\n", "4: tidy: "),
-    "engine/core/up.c": ('#include "gpu/context.h"\n', "1: includes: engine/core may not include engine/gpu/context.h"),
+    "engine/core/up.c": ('#include "gpu/context.h"\n', "1: includes: engine/core may not include engine/gpu"),
     "engine/rain/beside.c": ('#include "glass/glass.h"\n', "1: includes: engine/rain may not include"),
     "tools/io/up.c": ('#include "../host/host.h"\n', "1: includes: tools/io may not include tools/host/host.h"),
     "tools/host/inside.c": ('#include "../../engine/gpu/context.h"\n', "1: includes: tools/host may not include"),
-    "shaders/rain/step/beside.comp": ('#include "glass/wipe.glsl"\n', "1: includes: shaders/rain/step may not include"),
+    "shaders/rain/step/beside.comp": ('#include "glass/wipe.glsl"\n', "1: includes: shaders/rain/step may not"),
     "engine/core/wide.c": ("/* %s */\n" % ("x" * 115), "1: lengths: 121 columns"),
-    "engine/core/long.c": ("int one(void)\n{\n%s    return 1;\n}\n" % ("    /* x */\n" * 58), "1: lengths: a function of"),
+    "engine/core/long.c": ("int one(void)\n{\n%s    return 1;\n}\n" % ("    /* x */\n" * 58), "1: lengths: a function"),
     "tools/long.py": ("def one():\n%s" % ("    pass\n" * 60), "1: lengths: a function of 61 lines"),
     "tools/long.sh": ("one() {\n%s}\n" % ("    true\n" * 59), "1: lengths: a function of 61 lines"),
-    "engine/core/file.c": ("/* x */\n" * 701, "701: lengths: a file of 701 lines"),
+    "engine/core/file.c": ("/* x */\n" * 801, "801: lengths: a file of 801 lines"),
     "README.md": ("The program " + "reci" + "eves drops.\n", "1: spelling: "),
-    "shaders/rain/draw/bad.comp": ("void main()\n{\n}\n", "1: spirv: bad.spv.h: "),
+    "shaders/rain/draw/bad.comp": ("void main()\n{\n}\n", "1: spirv: bad: "),
 }
 # What stands beside them, in which nothing is wrong.
 FINE = {
@@ -50,7 +50,7 @@ FINE = {
     "shaders/glass/draw/fine.comp": '#include "../wipe.glsl"\n',
     "tools/host/host.h": '#include <virga/shared/drop.h>\n',
     "tests/rain/any.c": '#include "glass/glass.h"\n',
-    "engine/core/exact.c": "/* %s */\n" % ("x" * 114) + "int one(void)\n{\n%s    return 1;\n}\n" % ("    /* x */\n" * 56),
+    "engine/core/exact.c": "/* %s */\nint one(void)\n{\n%s    return 1;\n}\n" % ("x" * 114, "    /* x */\n" * 56),
     "engine/core/add.c": GOOD,
     ".clang-tidy": "Checks: '-*,clang-analyzer-core.*'\n",
     ".gitignore": "/build/\n",

@@ -219,74 +219,76 @@ static void splash_settings_fields(void **state)
 #undef F
 
 #define F(member, low, high) FIELD(virga_glass_settings, member, CLAMPED, low, high)
+static const field glass_fields[] = {
+    F(advancing_deg, 5, 175),
+    F(receding_deg, 1, 63),
+    F(drag, 0.01, 100),
+    F(run_hold, 0, 1),
+    F(affinity, 0, 2),
+    F(meander, 0, 1),
+    F(path_ease, 0, 1),
+    F(path_s, 0.1, 600),
+    F(touch, 0, 2),
+    F(tail_m, 0.001, 1),
+    F(tail_mm, 0, 2),
+    F(tail_s, 0.1, 3600),
+    F(film_um, 0, 100),
+    F(film_break_s, 0, 60),
+    F(evaporation_mm_h, 0, 100),
+    F(mist_mm, 0, 1),
+    F(air_share, 0, 2),
+    F(particle_mm, 0.2, 5),
+    F(penalty, 0, 1),
+    F(band, 1, 16),
+    F(hold_back_mm, 0, 20),
+    F(hold_back_cells, 0, 8),
+    F(compress_from, 0, 2),
+    F(compress_step, 0, 1),
+    F(compress_k, 0, 1),
+    F(compress_steps, 0, 16),
+    F(threshold, 0.05, 0.95),
+    F(impact_s, 0, 2),
+    F(paper_shift, 0, 4),
+    F(thickness_mm, 0, 50),
+    F(tint, 0, 1),
+    F(gain, 0, 100),
+    F(wiper_count, 0, 8),
+    F(wipers[0].pivot_m, -20, 20),
+    F(wipers[0].reach_m, 0.01, 10),
+    F(wipers[0].blade_m, 0.01, 0.6),
+    F(wipers[0].width_m, 0.001, 0.1),
+    F(wipers[0].low_deg, -720, 720),
+    F(wipers[0].high_deg, -720, 720),
+    F(wipers[0].blade_deg, -180, 180),
+    F(wipers[0].blade_turn, 0, 1),
+    F(wipers[0].sweep_s, 0.1, 60),
+    F(wipers[0].pause_s, 0, 3600),
+    F(wipers[0].phase_s, 0, 3600),
+    F(wipers[0].host_deg, -7200, 7200),
+    F(wipers[0].film_mm, 0, 0.5),
+    F(wipers[0].wear, 0, 1),
+    FIELD(virga_glass_settings, wipers[0].drive, REFUSED, 0, 3),
+    FIELD(virga_glass_settings, density, REFUSED, 0, 4),
+    FIELD(virga_glass_settings, blend, REFUSED, 0, 1),
+    FIELD(virga_glass_settings, style, REFUSED, 0, 1),
+    LIGHTS(virga_glass_settings),
+};
+
 static void glass_settings_fields(void **state)
 {
-    static const field fields[] = {
-        F(advancing_deg, 5, 175),
-        F(receding_deg, 1, 63),
-        F(drag, 0.01, 100),
-        F(run_hold, 0, 1),
-        F(affinity, 0, 2),
-        F(meander, 0, 1),
-        F(path_ease, 0, 1),
-        F(path_s, 0.1, 600),
-        F(touch, 0, 2),
-        F(tail_m, 0.001, 1),
-        F(tail_mm, 0, 2),
-        F(tail_s, 0.1, 3600),
-        F(film_um, 0, 100),
-        F(film_break_s, 0, 60),
-        F(evaporation_mm_h, 0, 100),
-        F(mist_mm, 0, 1),
-        F(air_share, 0, 2),
-        F(particle_mm, 0.2, 5),
-        F(penalty, 0, 1),
-        F(band, 1, 16),
-        F(hold_back_mm, 0, 20),
-        F(hold_back_cells, 0, 8),
-        F(compress_from, 0, 2),
-        F(compress_step, 0, 1),
-        F(compress_k, 0, 1),
-        F(compress_steps, 0, 16),
-        F(threshold, 0.05, 0.95),
-        F(impact_s, 0, 2),
-        F(paper_shift, 0, 4),
-        F(thickness_mm, 0, 50),
-        F(tint, 0, 1),
-        F(gain, 0, 100),
-        F(wiper_count, 0, 8),
-        F(wipers[0].pivot_m, -20, 20),
-        F(wipers[0].reach_m, 0.01, 10),
-        F(wipers[0].blade_m, 0.01, 0.6),
-        F(wipers[0].width_m, 0.001, 0.1),
-        F(wipers[0].low_deg, -720, 720),
-        F(wipers[0].high_deg, -720, 720),
-        F(wipers[0].blade_deg, -180, 180),
-        F(wipers[0].blade_turn, 0, 1),
-        F(wipers[0].sweep_s, 0.1, 60),
-        F(wipers[0].pause_s, 0, 3600),
-        F(wipers[0].phase_s, 0, 3600),
-        F(wipers[0].host_deg, -7200, 7200),
-        F(wipers[0].film_mm, 0, 0.5),
-        F(wipers[0].wear, 0, 1),
-        FIELD(virga_glass_settings, wipers[0].drive, REFUSED, 0, 3),
-        FIELD(virga_glass_settings, density, REFUSED, 0, 4),
-        FIELD(virga_glass_settings, blend, REFUSED, 0, 1),
-        FIELD(virga_glass_settings, style, REFUSED, 0, 1),
-        LIGHTS(virga_glass_settings),
-    };
     told t;
     open_told(&t, state);
     virga_glass_settings good = virga_default_glass_settings();
     good.wiper_count = good.lighting.light_count = 1;
     /* What bounds another field is tried where the other fits under all of its range. */
-    const field *rest = fields + 1;
+    const field *rest = glass_fields + 1;
     try_fields(&t, "glass_settings", &good, sizeof good, rest, 33, set_glass, get_glass);
-    try_fields(&t, "glass_settings", &good, sizeof good, fields + 35, SIZE(fields) - 35, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, glass_fields + 35, SIZE(glass_fields) - 35, set_glass,
+               get_glass);
     good.receding_deg = 1;
     good.wipers[0].blade_m = 0.01f;
-    try_fields(&t, "glass_settings", &good, sizeof good, fields, 1, set_glass, get_glass);
-    try_fields(&t, "glass_settings", &good, sizeof good, fields + 34, 1, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, glass_fields, 1, set_glass, get_glass);
+    try_fields(&t, "glass_settings", &good, sizeof good, glass_fields + 34, 1, set_glass, get_glass);
     close_told(&t);
 }
 #undef F

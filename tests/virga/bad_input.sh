@@ -158,8 +158,10 @@ done
 bad 'plate without a name' render "$work/good.yaml" -o "$work/out" --plate
 
 # A grey picture of 0 and 255, and one of 16 bits.
-base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+vGgAAAAASUVORK5CYII=
-base64 -d >"$work/deep.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAEAAAABEAAAAABq7kcWAAAAC0lEQVR4nGNgYAQAAAQAAr96P0oAAAAASUVORK5CYII=
+base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg\
++A8AAQIBAEK+vGgAAAAASUVORK5CYII=
+base64 -d >"$work/deep.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAEAAAABEAAAAABq7kcWAAAAC0lEQVR4nGNg\
+YAQAAAQAAr96P0oAAAAASUVORK5CYII=
 cat - "$work/good.yaml" >"$work/mapped.yaml" <<'YAML'
 ground:
   on: true
@@ -274,7 +276,8 @@ grep -q '^  material map .*/map.png: 2 x 1, 2 materials on 50 % of it$' "$work/s
     complain 'the map is not in what check says'
 "$virga" check "$work/mapped.yaml" --set ground.material_map=~ >"$work/stdout" 2>"$work/err" &&
     ! grep 'material map' "$work/stdout" >"$work/err" || complain 'the scene without its map'
-base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg/A8AAQQBAcV71F8AAAAASUVORK5CYII=
+base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg\
+/A8AAQQBAcV71F8AAAAASUVORK5CYII=
 bad 'going on with another map' render "$work/mapped.yaml" -o "$work/map" --frames 1 --resume
 says 'going on with another map' 'scene hash'
 bad 'going on with another seed' render "$good" -o "$work/fine" --resume --seed 9

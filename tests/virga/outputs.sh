@@ -77,7 +77,8 @@ render far --frames 2 --points --layers depth --set 'meshes.0.position_m=[1000, 
 python3 "$here/check_outputs.py" near "$work/far/splash.0002.ply" 1001.5 1.7 -592 || fail "droplets far from the origin"
 
 # A map of materials: metal ahead of the camera to the left, tiles behind it to the right, else what the meshes say.
-base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg+M/wnxEABgECAIvKKHgAAAAASUVORK5CYII=
+base64 -d >"$work/map.png" <<<iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg\
++M/wnxEABgECAIvKKHgAAAAASUVORK5CYII=
 render mapped --frames 2-3 --points --stats --layers wetness --set "ground.material_map={file: $work/map.png, \
 low_m: [-18.5, -12], high_m: [21.5, 28], materials: [metal, tile]}"
 python3 "$here/check_outputs.py" mapped "$work/mapped/splash.0003.ply" "$work/mapped/stats.jsonl" "$out/stats.jsonl" ||
