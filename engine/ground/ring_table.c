@@ -50,17 +50,30 @@ double ring_reach(double t)
     return VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * t;
 }
 
-/* What each wave adds at time t, by depth: all depths share the waves, and so J1. */
-static void weigh(double t, double blur_m, float weights[NUMBERS][VIRGA_RING_DEPTHS])
+/* Of each wave and depth: what it begins with, its frequency and its damping. */
+typedef struct waves {
+    double start[NUMBERS], omega[NUMBERS][VIRGA_RING_DEPTHS], gamma[NUMBERS][VIRGA_RING_DEPTHS];
+} waves;
+
+static void describe_waves(double blur_m, waves *w)
 {
     static const double step = K_MOST / NUMBERS;
     for (int i = 0; i < NUMBERS; i++) {
-        const double k = (i + 0.5) * step, start = -spectrum(k) * exp(-k * k * blur_m * blur_m / 2) * k * k * step;
+        const double k = (i + 0.5) * step;
+        w->start[i] = -spectrum(k) * exp(-k * k * blur_m * blur_m / 2) * k * k * step;
         for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++) {
-            const double h = ring_depth(layer);
-            weights[i][layer] = (float)(start * cos(ring_omega(k, h) * t) * exp(-ring_gamma(k, h) * t));
+            w->omega[i][layer] = ring_omega(k, ring_depth(layer));
+            w->gamma[i][layer] = ring_gamma(k, ring_depth(layer));
         }
     }
+}
+
+/* What each wave adds at time t, by depth: all depths share the waves, and so J1. */
+static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DEPTHS])
+{
+    for (int i = 0; i < NUMBERS; i++)
+        for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)
+            weights[i][layer] = (float)(w->start[i] * cos(w->omega[i][layer] * t) * exp(-w->gamma[i][layer] * t));
 }
 
 static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double r,
@@ -80,11 +93,13 @@ static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *be
 void ring_table_fill(float *slope, double blur_m)
 {
     float bessel[J1_SIZE], weights[NUMBERS][VIRGA_RING_DEPTHS], sums[VIRGA_RING_DEPTHS];
+    waves w;
+    describe_waves(blur_m, &w);
     for (int i = 0; i < J1_SIZE; i++)
         bessel[i] = (float)j1((double)i / J1_STEPS);
     for (int j = 0; j < VIRGA_RING_TIMES; j++) {
         const double t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1);
-        weigh(t, blur_m, weights);
+        weigh(&w, t, weights);
         for (int r = 0; r < VIRGA_RING_RADII; r++) {
             sum_waves(weights, bessel, r * ring_reach(t) / (VIRGA_RING_RADII - 1), sums);
             for (int layer = 0; layer < VIRGA_RING_DEPTHS; layer++)

@@ -49,7 +49,7 @@ double ring_reach(double t);
  * i * ring_reach(t) / (VIRGA_RING_RADII - 1) and time t = j * VIRGA_RING_TIME_S / (VIRGA_RING_TIMES - 1). Radii that
  * grow with the front keep entries where the waves are, and ride along with their groups, so that little changes from
  * one time to the next: read linearly in both it is within 6 % of the highest slope of that time (120 even radii:
- * 28 %). Takes about 0.05 s, and 120 KiB of stack. */
+ * 28 %). Takes about 0.03 s, and 140 KiB of stack. */
 /* `blur_m` is the width (standard deviation) of a bell that the surface is smoothed with, so that waves which a map's
  * texels can not carry do not turn up in it as longer ones: half of a texel. 0: none. */
 void ring_table_fill(float *slope, double blur_m);
