@@ -90,17 +90,16 @@ void main()
                      Starts(end_splash, staying, returned, first_splash, crowded_rank));
     if (lane != 0u)
         return;
-    const uint crowded = crowded_rank == NO_SLOT ? 0u : found.x - crowded_rank;
+    const uint crowded = crowded_rank == NO_SLOT ? 0u : found.x - crowded_rank, droplets = staying + crowded_droplets;
     state.first_splash = first_splash;
     state.end_splash = end_after;
     state.tick_splash = end_splash;
     state.tick_droplet = staying;
-    state.end_droplet = staying + crowded_droplets;
+    state.end_droplet = droplets;
     state.crowded_from = crowded_rank;
     state.returns_before = returned;
     state.returns = min(returned + crowded, tick.max_returns);
     state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
-    const uint droplets = staying + crowded_droplets;
     state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_FEW ? 0u : droplets);
     state.splash_groups = ring_groups(first_splash, end_after);
     count(VIRGA_SPLASH_CROWDED, crowded);
