@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A new effect takes one file and one entry in the list of effects: its setting, its layer, its pass and its statistic are
-# then there in every command.
+# A new effect takes one file and one entry in the list of effects: its setting, its layer, its pass and its statistic
+# are then there in every command.
 # Usage: new_effect.sh VIRGA   (the program with the effect of nothing.c)
 set -u
 virga=$1
