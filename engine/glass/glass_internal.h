@@ -12,8 +12,8 @@
 #ifndef VIRGA_GLASS_INTERNAL_H
 #define VIRGA_GLASS_INTERNAL_H
 
-#include "glass/glass_picture.h"
 #include "glass/glass.h"
+#include "glass/glass_picture.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
 
@@ -42,7 +42,7 @@ struct virga_glass {
     virga_glass_def def;
     uint32_t columns, rows; /* cells */
     virga_glass_settings settings;
-    uint64_t ticks;      /* run since creation */
+    uint64_t ticks; /* run since creation */
     uint32_t last_tick;
     double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) at the end of the newest step */
     bool host_known;
@@ -56,15 +56,15 @@ struct virga_glass {
     virga_ring tick_ring;
     uint32_t tick_offset; /* of the newest tick */
     virga_bindings *bindings;
-    virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell, *enter_cell,
-        *capture_mark, *capture, *wipe_film, *split_drops, *empty_bins, *particle_grid, *push_particles, *to_drops_claim, *to_drops, *spawn_claim,
-        *spawn_scan, *spawn, *end_tick, *dry_film, *film_compact, *measure;
+    virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
+        *enter_cell, *capture_mark, *capture, *wipe_film, *split_drops, *empty_bins, *particle_grid, *push_particles,
+        *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick, *dry_film, *film_compact, *measure;
     float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
     float farthest_m;                                        /* of the nodes from the pane's origin */
     bool masked;                                             /* there may be cells without glass */
-    float outline[9][3];                /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
-    virga_glass_tick_gpu blades;        /* of the tick that is recorded */
-    bool particles_ever;                /* there may be particles */
+    float outline[9][3];         /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
+    virga_glass_tick_gpu blades; /* of the tick that is recorded */
+    bool particles_ever;         /* there may be particles */
     VkDescriptorSet step_set;
     VkBuffer impacts; /* of the step that is recorded */
     VkDeviceSize impacts_offset;

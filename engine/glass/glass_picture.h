@@ -61,11 +61,12 @@ struct glass_picture {
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy, *plate_shrink;
+    virga_pipeline *ball_pass, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy,
+        *plate_shrink;
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
-    virga_pipeline *relief_passes[2];             /* without and with a mask */
-    virga_pipeline *gather_passes[GLASS_GATHERS]; /* by density, blend and film; NULL: not needed yet */
-    uint32_t lanes; /* of a subgroup that passes hand values around in; 0: they use shared memory */
+    virga_pipeline *relief_passes[2];              /* without and with a mask */
+    virga_pipeline *gather_passes[GLASS_GATHERS];  /* by density, blend and film; NULL: not needed yet */
+    uint32_t lanes;                  /* of a subgroup that passes hand values around in; 0: they use shared memory */
     bool has_written;                /* `written` says something of every tile */
     virga_glass_style written_style; /* that `written` says of what its images hold */
 
@@ -75,7 +76,7 @@ struct glass_picture {
     uint32_t columns, rows; /* texels in use since the newest prepare */
     VkExtent2D mist_size;   /* and of the mist's map */
     uint32_t mist_cells;
-    bool beads;             /* may have a shape in this view */
+    bool beads; /* may have a shape in this view */
 };
 
 /* ---- glass_picture.c */

@@ -1,4 +1,4 @@
-/* gpu/effect.h - an effect is data: one table says what it is made of, and one life cycle runs any such table. Internal.
+/* gpu/effect.h - an effect is data: one table says what it is made of, one life cycle runs any such table. Internal.
  *
  * An effect's object begins with a virga_effect. Its virga_effect_type lists buffers, rings, images, bindings, passes
  * and draws, each with the member of the object that holds it. From these rows effect.c estimates, creates, shrinks to
@@ -15,12 +15,12 @@
 
 #include <virga/light.h>
 
-#define VIRGA_EFFECT_MAX_COUNTS  24
-#define VIRGA_EFFECT_MAX_DEF     512  /* bytes */
+#define VIRGA_EFFECT_MAX_COUNTS   24
+#define VIRGA_EFFECT_MAX_DEF      512   /* bytes */
 #define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes, of an effect with a lighting */
-#define VIRGA_EFFECT_MAX_TARGETS 8
-#define VIRGA_EFFECT_MAX_DRAWS   32 /* pipelines of a target */
-#define VIRGA_EFFECT_PARTS       2  /* of the statistics of a frame: those of its step, and those of its prepare */
+#define VIRGA_EFFECT_MAX_TARGETS  8
+#define VIRGA_EFFECT_MAX_DRAWS    32 /* pipelines of a target */
+#define VIRGA_EFFECT_PARTS        2  /* of the statistics of a frame: those of its step, and those of its prepare */
 
 #define VIRGA_ROWS(table) (uint32_t)(sizeof(table) / sizeof(table)[0])
 
@@ -98,10 +98,19 @@ typedef struct virga_effect_pass {
 } virga_effect_pass;
 
 /* The shaders of a draw by virga_target_outputs. A row that leaves out a form writes color alone on any target. */
-#define VIRGA_FRAGMENT_FORMS(name) \
-    {VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), VIRGA_SPIRV_ROW(name##_both)}
-#define VIRGA_VERTEX_FORMS(name) {VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion)}
-#define VIRGA_FORM(name)         {VIRGA_SPIRV_ROW(name)}
+#define VIRGA_FRAGMENT_FORMS(name)                                                               \
+    {                                                                                            \
+        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), \
+            VIRGA_SPIRV_ROW(name##_both)                                                         \
+    }
+#define VIRGA_VERTEX_FORMS(name)                              \
+    {                                                         \
+        VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion) \
+    }
+#define VIRGA_FORM(name)      \
+    {                         \
+        VIRGA_SPIRV_ROW(name) \
+    }
 
 /* Pipelines of a target that differ in the specialisation constant 0: one for each of `constants`. */
 typedef struct virga_effect_draw {
@@ -195,63 +204,63 @@ typedef struct virga_effect_type {
 /* The fields that all types have alike, of an effect that names its parts as the others do: virga_<name>, its _def and
  * _settings, <name>_readback; tables buffers, rings, images, layouts, passes and pools; callbacks check_def, count,
  * init, create, describe and <name>_read_statistics. */
-#define VIRGA_EFFECT_TYPE(effect, title)                                                                             \
-    .name = title, .size = sizeof(virga_##effect),                                                                   \
-    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},                \
-    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                            \
-                 offsetof(virga_##effect, settings)},                                                                \
-    .buffers = buffers, .buffer_count = VIRGA_ROWS(buffers), .rings = rings, .ring_count = VIRGA_ROWS(rings),        \
-    .images = images, .image_count = VIRGA_ROWS(images), .layouts = layouts, .layout_count = VIRGA_ROWS(layouts),    \
-    .passes = passes, .pass_count = VIRGA_ROWS(passes), .pools = pools, .pool_count = VIRGA_ROWS(pools),             \
-    .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback), .check_def = check_def,       \
-    .count = count, .init = init, .create = create, .describe = describe,                                            \
-    .read_statistics = effect##_read_statistics, .set = effect##_type_set
+#define VIRGA_EFFECT_TYPE(effect, title)                                                                               \
+    .name = title, .size = sizeof(virga_##effect),                                                                     \
+    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},                  \
+    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                              \
+                 offsetof(virga_##effect, settings)},                                                                  \
+    .buffers = buffers, .buffer_count = VIRGA_ROWS(buffers), .rings = rings, .ring_count = VIRGA_ROWS(rings),          \
+    .images = images, .image_count = VIRGA_ROWS(images), .layouts = layouts, .layout_count = VIRGA_ROWS(layouts),      \
+    .passes = passes, .pass_count = VIRGA_ROWS(passes), .pools = pools, .pool_count = VIRGA_ROWS(pools),               \
+    .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback), .check_def = check_def,         \
+    .count = count, .init = init, .create = create, .describe = describe, .read_statistics = effect##_read_statistics, \
+    .set = effect##_type_set
 
 /* The public functions that all effects have alike, from <name>_type, and `set` of the type. */
-#define VIRGA_EFFECT_FUNCTIONS(name)                                                                                 \
-    static virga_result name##_type_set(void *object, const void *settings)                                          \
-    {                                                                                                                \
-        return virga_##name##_set(object, settings);                                                                 \
-    }                                                                                                                \
-    VkDeviceSize virga_##name##_estimate(const virga_##name##_def *def)                                              \
-    {                                                                                                                \
-        return virga_effect_estimate(&name##_type, def);                                                             \
-    }                                                                                                                \
-    virga_result virga_##name##_create(virga_context *context, const virga_##name##_def *def, virga_##name **made)   \
-    {                                                                                                                \
-        void *object = NULL;                                                                                         \
-        const virga_result result =                                                                                  \
-            virga_effect_create(context, &name##_type, "virga_" #name "_create", def, made ? &object : NULL);        \
-        if (made)                                                                                                    \
-            *made = object;                                                                                          \
-        return result;                                                                                               \
-    }                                                                                                                \
-    void virga_##name##_destroy(virga_##name **object)                                                               \
-    {                                                                                                                \
-        if (object && *object)                                                                                       \
-            virga_effect_destroy(&(*object)->base);                                                                  \
-        if (object)                                                                                                  \
-            *object = NULL;                                                                                          \
-    }                                                                                                                \
-    void virga_##name##_get(const virga_##name *object, virga_##name##_settings *settings)                           \
-    {                                                                                                                \
-        if (object && settings)                                                                                      \
-            *settings = object->settings;                                                                            \
-    }                                                                                                                \
-    virga_result virga_##name##_ready(const virga_##name *object)                                                    \
-    {                                                                                                                \
-        return object ? virga_effect_ready(&object->base) : VIRGA_ERROR_INVALID;                                     \
+#define VIRGA_EFFECT_FUNCTIONS(name)                                                                               \
+    static virga_result name##_type_set(void *object, const void *settings)                                        \
+    {                                                                                                              \
+        return virga_##name##_set(object, settings);                                                               \
+    }                                                                                                              \
+    VkDeviceSize virga_##name##_estimate(const virga_##name##_def *def)                                            \
+    {                                                                                                              \
+        return virga_effect_estimate(&name##_type, def);                                                           \
+    }                                                                                                              \
+    virga_result virga_##name##_create(virga_context *context, const virga_##name##_def *def, virga_##name **made) \
+    {                                                                                                              \
+        void *object = NULL;                                                                                       \
+        const virga_result result =                                                                                \
+            virga_effect_create(context, &name##_type, "virga_" #name "_create", def, made ? &object : NULL);      \
+        if (made)                                                                                                  \
+            *made = object;                                                                                        \
+        return result;                                                                                             \
+    }                                                                                                              \
+    void virga_##name##_destroy(virga_##name **object)                                                             \
+    {                                                                                                              \
+        if (object && *object)                                                                                     \
+            virga_effect_destroy(&(*object)->base);                                                                \
+        if (object)                                                                                                \
+            *object = NULL;                                                                                        \
+    }                                                                                                              \
+    void virga_##name##_get(const virga_##name *object, virga_##name##_settings *settings)                         \
+    {                                                                                                              \
+        if (object && settings)                                                                                    \
+            *settings = object->settings;                                                                          \
+    }                                                                                                              \
+    virga_result virga_##name##_ready(const virga_##name *object)                                                  \
+    {                                                                                                              \
+        return object ? virga_effect_ready(&object->base) : VIRGA_ERROR_INVALID;                                   \
     }
 
 /* And those of effects that draw, with `draw` of the type. */
-#define VIRGA_EFFECT_DRAW_FUNCTIONS(name)                                                                            \
-    static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)              \
-    {                                                                                                                \
-        return virga_##name##_draw(object, cmd, target);                                                             \
-    }                                                                                                                \
-    virga_result virga_##name##_attach(virga_##name *object, const virga_target *target)                             \
-    {                                                                                                                \
-        return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID;  \
+#define VIRGA_EFFECT_DRAW_FUNCTIONS(name)                                                                           \
+    static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)             \
+    {                                                                                                               \
+        return virga_##name##_draw(object, cmd, target);                                                            \
+    }                                                                                                               \
+    virga_result virga_##name##_attach(virga_##name *object, const virga_target *target)                            \
+    {                                                                                                               \
+        return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID; \
     }
 
 /* A ring's buffer, and how far the frame at hand has filled its part. */
@@ -263,13 +272,12 @@ typedef struct virga_ring {
 } virga_ring;
 
 /* Bytes of a block of this type in a ring: each starts where Vulkan lets a dynamic offset be. */
-#define VIRGA_RING_BYTES(type) \
-    ((sizeof(type) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
+#define VIRGA_RING_BYTES(type) ((sizeof(type) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
 
 /* Pipelines for one target. */
 typedef struct virga_effect_target {
-    uint64_t serial; /* of the virga_target; 0: free */
-    bool motion;     /* it has motion vectors */
+    uint64_t serial;                               /* of the virga_target; 0: free */
+    bool motion;                                   /* it has motion vectors */
     virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* row by row, constant by constant */
 } virga_effect_target;
 
@@ -288,10 +296,10 @@ typedef struct virga_effect {
     virga_pipeline_group passes; /* all that a step and a prepare need */
     virga_effect_target targets[VIRGA_EFFECT_MAX_TARGETS];
     virga_effect_view view;
-    bool has_contents;       /* first contents were recorded */
-    bool not_drawn_logged;   /* since the last draw that had all it needs */
-    uint64_t step_frame;     /* of the newest step */
-    virga_buffer *readback;  /* statistics of the frames in flight */
+    bool has_contents;      /* first contents were recorded */
+    bool not_drawn_logged;  /* since the last draw that had all it needs */
+    uint64_t step_frame;    /* of the newest step */
+    virga_buffer *readback; /* statistics of the frames in flight */
     uint64_t readback_frames[VIRGA_EFFECT_PARTS][VIRGA_MAX_FRAMES_IN_FLIGHT]; /* 0: nothing to be read */
 } virga_effect;
 
@@ -386,8 +394,7 @@ bool virga_effect_wants_motion(const virga_effect *effect);
 /* What a draw checks first. Gives the target's pipelines; VIRGA_NOT_READY where the target is not attached or nothing
  * was prepared in this frame, which is logged once where `ready` is VIRGA_OK. */
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                     const virga_target *target, virga_result ready,
-                                     const virga_effect_target **found);
+                                     const virga_target *target, virga_result ready, const virga_effect_target **found);
 
 /* The same where nothing needs to be prepared: *found is NULL for a target that is not attached. */
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,

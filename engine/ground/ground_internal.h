@@ -12,10 +12,10 @@
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
 
-#include "ground/ground.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
 #include "gpu/mesh_map.h"
+#include "ground/ground.h"
 
 #include <virga/ground.h>
 #include <virga/shared/ground_gpu.h>
@@ -166,8 +166,8 @@ struct virga_ground {
     double ripple_low_m[2]; /* in the world */
     uint32_t last_tick;
     virga_bindings *bindings;
-    virga_pipeline *tile_load, *tile_discard, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure, *measure_kept,
-        *map, *ring;
+    virga_pipeline *tile_load, *tile_discard, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure,
+        *measure_kept, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, by where water comes from */

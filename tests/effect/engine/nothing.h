@@ -1,4 +1,4 @@
-/* nothing.h - an effect that exists in the tests only: it counts its own ticks. One setting, one pass, one statistic. */
+/* nothing.h - an effect that exists in the tests only: it counts its ticks. One setting, one pass, one statistic. */
 #ifndef VIRGA_TESTS_NOTHING_H
 #define VIRGA_TESTS_NOTHING_H
 
