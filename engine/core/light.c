@@ -31,15 +31,15 @@ static field_name name_field(const char *owner, const char *field)
 static virga_result check_floats(const virga_log *log, const char *owner, const char *field, const float *values,
                                  uint32_t count)
 {
-    if (!virga_settings_finite(NULL, field, values, count))
+    if (!virga_settings_check_finite(NULL, field, values, count))
         return VIRGA_OK;
-    return virga_settings_finite(log, name_field(owner, field).text, values, count);
+    return virga_settings_check_finite(log, name_field(owner, field).text, values, count);
 }
 
 static virga_result check_light(const virga_log *log, const char *owner, const virga_light *light)
 {
-    if (virga_settings_places(NULL, "position_m", light->position_m, 3))
-        return virga_settings_places(log, name_field(owner, "lights.position_m").text, light->position_m, 3);
+    if (virga_settings_check_positions(NULL, "position_m", light->position_m, 3))
+        return virga_settings_check_positions(log, name_field(owner, "lights.position_m").text, light->position_m, 3);
     if (check_floats(log, owner, "lights.intensity", light->intensity, 3) ||
         check_floats(log, owner, "lights.direction", light->direction, 3) ||
         check_floats(log, owner, "lights.range_m", &light->range_m, 1) ||

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-void virga_log_say(const virga_log *log, virga_log_level level, virga_log_id id, const char *format, ...)
+void virga_log_write(const virga_log *log, virga_log_level level, virga_log_id id, const char *format, ...)
 {
     if (log == NULL || log->fn == NULL) {
         return;

@@ -19,7 +19,7 @@ typedef struct virga_log {
 #endif
 
 /* Formats into a buffer on the stack, so it may be called after memory has run out. `log` may be NULL. */
-void virga_log_say(const virga_log *log, virga_log_level level, virga_log_id id, const char *format, ...)
+void virga_log_write(const virga_log *log, virga_log_level level, virga_log_id id, const char *format, ...)
     VIRGA_PRINTF(4, 5);
 
 #endif

@@ -8,15 +8,15 @@ virga_result virga_settings_check(const virga_log *log, const char *name, uint32
                                   uint32_t cookie, uint32_t expected_cookie)
 {
     if (cookie != expected_cookie) {
-        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
-                      "%s: cookie is 0x%08" PRIx32 ", expected 0x%08" PRIx32 "; fill it with virga_default_%s", name,
-                      cookie, expected_cookie, name);
+        virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
+                        "%s: cookie is 0x%08" PRIx32 ", expected 0x%08" PRIx32 "; fill it with virga_default_%s", name,
+                        cookie, expected_cookie, name);
         return VIRGA_ERROR_INVALID;
     }
     if (size != expected_size) {
-        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
-                      "%s: size is %" PRIu32 ", expected %" PRIu32 "; header and library are of different versions",
-                      name, size, expected_size);
+        virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
+                        "%s: size is %" PRIu32 ", expected %" PRIu32 "; header and library are of different versions",
+                        name, size, expected_size);
         return VIRGA_ERROR_INVALID;
     }
     return VIRGA_OK;
@@ -28,8 +28,8 @@ double virga_clamp_setting(const virga_log *log, const char *name, double value,
         return value;
     }
     double inside = value > hi ? hi : lo;
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s: %g is outside [%g; %g], %g is used", name, value, lo,
-                  hi, inside);
+    virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s: %g is outside [%g; %g], %g is used", name, value,
+                    lo, hi, inside);
     if (changed != NULL) {
         *changed = true;
     }
@@ -43,9 +43,9 @@ uint32_t virga_clamp_setting_u32(const virga_log *log, const char *name, uint32_
         return value;
     }
     uint32_t inside = value > hi ? hi : lo;
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                  "%s: %" PRIu32 " is outside [%" PRIu32 "; %" PRIu32 "], %" PRIu32 " is used", name, value, lo, hi,
-                  inside);
+    virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "%s: %" PRIu32 " is outside [%" PRIu32 "; %" PRIu32 "], %" PRIu32 " is used", name, value, lo, hi,
+                    inside);
     if (changed != NULL) {
         *changed = true;
     }
@@ -55,15 +55,15 @@ uint32_t virga_clamp_setting_u32(const virga_log *log, const char *name, uint32_
 static virga_result refuse_value(const virga_log *log, const char *name, uint32_t index, uint32_t count, double value)
 {
     if (count == 1) {
-        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s: is %g, expected a finite number", name, value);
+        virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s: is %g, expected a finite number", name, value);
     } else {
-        virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s[%" PRIu32 "]: is %g, expected a finite number",
-                      name, index, value);
+        virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s[%" PRIu32 "]: is %g, expected a finite number",
+                        name, index, value);
     }
     return VIRGA_ERROR_INVALID;
 }
 
-virga_result virga_settings_finite(const virga_log *log, const char *name, const float *values, uint32_t count)
+virga_result virga_settings_check_finite(const virga_log *log, const char *name, const float *values, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (!isfinite(values[i])) {
@@ -73,7 +73,8 @@ virga_result virga_settings_finite(const virga_log *log, const char *name, const
     return VIRGA_OK;
 }
 
-virga_result virga_settings_finite_double(const virga_log *log, const char *name, const double *values, uint32_t count)
+virga_result virga_settings_check_finite_double(const virga_log *log, const char *name, const double *values,
+                                                uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (!isfinite(values[i])) {
@@ -83,23 +84,24 @@ virga_result virga_settings_finite_double(const virga_log *log, const char *name
     return VIRGA_OK;
 }
 
-virga_result virga_settings_places(const virga_log *log, const char *name, const double *values, uint32_t count)
+virga_result virga_settings_check_positions(const virga_log *log, const char *name, const double *values,
+                                            uint32_t count)
 {
-    if (virga_settings_finite_double(log, name, values, count)) {
+    if (virga_settings_check_finite_double(log, name, values, count)) {
         return VIRGA_ERROR_INVALID;
     }
     for (uint32_t i = 0; i < count; i++) {
-        if (fabs(values[i]) > VIRGA_FARTHEST_M) {
-            virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
-                          "%s[%" PRIu32 "]: is %g, expected no more than %g m from the world's origin", name, i,
-                          values[i], VIRGA_FARTHEST_M);
+        if (fabs(values[i]) > VIRGA_MAX_COORDINATE_M) {
+            virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
+                            "%s[%" PRIu32 "]: is %g, expected no more than %g m from the world's origin", name, i,
+                            values[i], VIRGA_MAX_COORDINATE_M);
             return VIRGA_ERROR_INVALID;
         }
     }
     return VIRGA_OK;
 }
 
-virga_result virga_settings_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride)
+virga_result virga_settings_check_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride)
 {
     for (uint32_t i = 0; i < 3; i++) {
         for (uint32_t k = 0; k <= i; k++) {
@@ -108,8 +110,8 @@ virga_result virga_settings_rotation(const virga_log *log, const char *name, con
                 product += (double)m[stride * i + axis] * (double)m[stride * k + axis];
             }
             if (!(fabs(product - (i == k ? 1 : 0)) <= 0.04)) {
-                virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
-                              "%s: expected a rotation, columns of unit length at right angles", name);
+                virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT,
+                                "%s: expected a rotation, columns of unit length at right angles", name);
                 return VIRGA_ERROR_INVALID;
             }
         }
@@ -117,20 +119,20 @@ virga_result virga_settings_rotation(const virga_log *log, const char *name, con
     return VIRGA_OK;
 }
 
-void virga_clamp_vector(const virga_log *log, const char *name, float v[3], float most, bool *changed)
+void virga_clamp_vector(const virga_log *log, const char *name, float v[3], float max_magnitude, bool *changed)
 {
     const float given[3] = {v[0], v[1], v[2]};
     bool moved = false;
     for (int axis = 0; axis < 3; axis++) {
-        v[axis] = virga_clamp_setting_float(NULL, name, v[axis], -most, most, &moved);
+        v[axis] = virga_clamp_setting_float(NULL, name, v[axis], -max_magnitude, max_magnitude, &moved);
     }
     if (!moved) {
         return;
     }
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                  "%s: (%g, %g, %g) is outside [%g; %g], (%g, %g, %g) is used", name, (double)given[0],
-                  (double)given[1], (double)given[2], -(double)most, (double)most, (double)v[0], (double)v[1],
-                  (double)v[2]);
+    virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "%s: (%g, %g, %g) is outside [%g; %g], (%g, %g, %g) is used", name, (double)given[0],
+                    (double)given[1], (double)given[2], -(double)max_magnitude, (double)max_magnitude, (double)v[0],
+                    (double)v[1], (double)v[2]);
     *changed = true;
 }
 
@@ -140,8 +142,8 @@ static virga_result check_row(const virga_log *log, const virga_setting_row *row
 {
     const void *value = settings + row->member;
     switch (row->number) {
-    case VIRGA_NUMBER_FLOAT: return virga_settings_finite(log, row->name, value, 1);
-    case VIRGA_NUMBER_DOUBLE: return virga_settings_finite_double(log, row->name, value, 1);
+    case VIRGA_NUMBER_FLOAT: return virga_settings_check_finite(log, row->name, value, 1);
+    case VIRGA_NUMBER_DOUBLE: return virga_settings_check_finite_double(log, row->name, value, 1);
     default: return VIRGA_OK;
     }
 }

@@ -11,13 +11,13 @@
 
 /* How far from the world's origin a place may lie on each axis (m): floats relative to a camera out there are finite,
  * and so are their squares and cubes. */
-#define VIRGA_FARTHEST_M 1e9
+#define VIRGA_MAX_COORDINATE_M 1e9
 
 /* What a host may say of the motion of panes and air, on each axis: m/s, m/s^2, rad/s. Faster is a mistake, e.g. a
  * speed taken from a cut, and its squares would leave the range of floats in what is made of them. */
-#define VIRGA_FASTEST_M_S      1000.0f
-#define VIRGA_STRONGEST_M_S2   1000.0f
-#define VIRGA_QUICKEST_RAD_S   100.0f
+#define VIRGA_MAX_SPEED_M_S      1000.0f
+#define VIRGA_MAX_ACCELERATION_M_S2   1000.0f
+#define VIRGA_MAX_ANGULAR_SPEED_RAD_S   100.0f
 
 /* The cookie of the settings struct with this tag (any number, another for each struct; a constant expression).
  * An odd factor keeps different tags apart, and no small tag gives 0 or all ones, as forgotten memory would. */
@@ -29,7 +29,7 @@ virga_result virga_settings_check(const virga_log *log, const char *name, uint32
                                   uint32_t cookie, uint32_t expected_cookie);
 
 /* The value moved into [lo; hi]. If it had to move, sets *changed (may be NULL; never cleared) and says so.
- * `name` is as a host would write it, e.g. "rain.rate_mm_h". A NaN becomes `lo`: check with virga_settings_finite
+ * `name` is as a host would write it, e.g. "rain.rate_mm_h". A NaN becomes `lo`: check with virga_settings_check_finite
  * first. */
 double virga_clamp_setting(const virga_log *log, const char *name, double value, double lo, double hi, bool *changed);
 
@@ -45,11 +45,13 @@ static inline float virga_clamp_setting_float(const virga_log *log, const char *
 }
 
 /* VIRGA_OK if all values are finite; else VIRGA_ERROR_INVALID with one line that names the first that is not. */
-virga_result virga_settings_finite(const virga_log *log, const char *name, const float *values, uint32_t count);
-virga_result virga_settings_finite_double(const virga_log *log, const char *name, const double *values, uint32_t count);
+virga_result virga_settings_check_finite(const virga_log *log, const char *name, const float *values, uint32_t count);
+virga_result virga_settings_check_finite_double(const virga_log *log, const char *name, const double *values,
+                                                uint32_t count);
 
-/* The same for places in the world: finite, and within VIRGA_FARTHEST_M of its origin. */
-virga_result virga_settings_places(const virga_log *log, const char *name, const double *values, uint32_t count);
+/* The same for places in the world: finite, and within VIRGA_MAX_COORDINATE_M of its origin. */
+virga_result virga_settings_check_positions(const virga_log *log, const char *name, const double *values,
+                                            uint32_t count);
 
 /* A number of a settings struct, and the range that it is moved into. */
 typedef enum virga_number { VIRGA_NUMBER_FLOAT, VIRGA_NUMBER_DOUBLE, VIRGA_NUMBER_U32 } virga_number;
@@ -68,9 +70,9 @@ virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting
 
 /* VIRGA_OK if the columns of a 3 x 3 matrix, `stride` apart, are finite and a rotation or a mirrored one: of unit
  * length and at right angles to 2 %, which is what is left of a rotation after many products of floats. */
-virga_result virga_settings_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride);
+virga_result virga_settings_check_rotation(const virga_log *log, const char *name, const float *m, uint32_t stride);
 
 /* The axes of a vector moved into [-most; most], with one line where any had to. It must be finite. */
-void virga_clamp_vector(const virga_log *log, const char *name, float v[3], float most, bool *changed);
+void virga_clamp_vector(const virga_log *log, const char *name, float v[3], float max_magnitude, bool *changed);
 
 #endif

@@ -85,7 +85,7 @@ static double table_shape(const virga_sizes *sizes, double diameter_m)
     return sizes->table_number[lo] + fmin(fmax(t, 0.0), 1.0) * (sizes->table_number[hi] - sizes->table_number[lo]);
 }
 
-static bool holds(const virga_sizes *sizes, double diameter_m)
+static bool covers(const virga_sizes *sizes, double diameter_m)
 {
     if (!(diameter_m >= VIRGA_DROP_MIN_M && diameter_m <= VIRGA_DROP_MAX_M)) {
         return false;
@@ -163,7 +163,7 @@ virga_result virga_sizes_densities(const virga_sizes *sizes, double rate_mm_h, d
     }
     for (uint32_t i = 0; i < count; i++) {
         double diameter = diameters_m[i];
-        densities[i] = holds(sizes, diameter) ? scale * shape(sizes, rate_mm_h, diameter) : 0.0;
+        densities[i] = covers(sizes, diameter) ? scale * shape(sizes, rate_mm_h, diameter) : 0.0;
     }
     return VIRGA_OK;
 }

@@ -62,7 +62,7 @@ virga_glass_def virga_default_glass_def(void)
                              .height_m = 0.75f,
                              .cell_m = 0.002f,
                              .max_drops = 32768,
-                             .affinity_m = 0.006f,
+                             .affinity_size_m = 0.006f,
                              .max_texels = 1024,
                              .max_ticks_per_step = 16,
                              .tick_s = 1.0 / 60};
@@ -75,17 +75,17 @@ virga_glass_settings virga_default_glass_settings(void)
                                      .drag = 1,
                                      .meander = 0.1f,
                                      .path_ease = 0.6f,
-                                     .path_s = 8,
-                                     .touch = 1.2f,
-                                     .tail_m = 0.012f,
-                                     .tail_s = 12,
+                                     .path_dry_s = 8,
+                                     .merge_distance = 1.2f,
+                                     .tail_spacing_m = 0.012f,
+                                     .tail_lifetime_s = 12,
                                      .film_break_s = 0.8f,
                                      .evaporation_mm_h = 0.5f,
-                                     .mist_mm = 0.6f,
+                                     .mist_max_mm = 0.6f,
                                      .air_share = 0.4f,
-                                     .particle_mm = 1.5f,
+                                     .particle_radius_mm = 1.5f,
                                      .penalty = 0.1f,
-                                     .band = 4,
+                                     .particle_band = 4,
                                      .hold_back_mm = 2.2f,
                                      .hold_back_cells = 3,
                                      .density = VIRGA_GLASS_DENSITY_GOTO,
@@ -103,7 +103,7 @@ virga_glass_settings virga_default_glass_settings(void)
                                      .tint = {1, 1, 1},
                                      .gain = 1,
                                      .lighting = virga_default_lighting()};
-    virga_glass_settings_of(VIRGA_GLASS_KIND_PAPER, &settings);
+    virga_glass_apply_kind(VIRGA_GLASS_KIND_PAPER, &settings);
     for (uint32_t i = 0; i < VIRGA_GLASS_MAX_WIPERS; i++)
         settings.wipers[i] = virga_default_glass_wiper();
     return settings;
@@ -112,7 +112,7 @@ virga_glass_settings virga_default_glass_settings(void)
 static const virga_setting_row def_rows[] = {
     {"glass_def.width_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, width_m), 0.01, 10},
     {"glass_def.height_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, height_m), 0.01, 10},
-    {"glass_def.affinity_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, affinity_m), 0.0005, 0.1},
+    {"glass_def.affinity_size_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, affinity_size_m), 0.0005, 0.1},
     {"glass_def.max_drops", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_drops), 256, 262144},
     {"glass_def.max_texels", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_texels), 64, 4096},
     {"glass_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_ticks_per_step), 1, 64},
@@ -122,7 +122,7 @@ static const virga_setting_row def_rows[] = {
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_glass_def *def = given;
-    if (virga_settings_finite(log, "glass_def.cell_m", &def->cell_m, 1) ||
+    if (virga_settings_check_finite(log, "glass_def.cell_m", &def->cell_m, 1) ||
         virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
         return VIRGA_ERROR_INVALID;
     const float min_m = (float)sqrt((double)def->width_m * (double)def->height_m / MAX_CELLS) * 1.01f;
@@ -151,7 +151,7 @@ uint32_t glass_film_blocks(const virga_glass_def *def)
 
 static VkDeviceSize grid_cells(const virga_glass_def *def)
 {
-    const float side_m = glass_least_grid_m(def);
+    const float side_m = glass_min_grid_m(def);
     return (VkDeviceSize)glass_cells_along(def->width_m, side_m) * glass_cells_along(def->height_m, side_m);
 }
 
@@ -222,9 +222,9 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 #define LIST_HEAD   sizeof(virga_list_gpu)
 #define NODE_BYTES  (VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu))
 
-_Static_assert(NODE_BYTES <= 16 * VIRGA_SURE_TEXELS, "nodes are texels on every device");
+_Static_assert(NODE_BYTES <= 16 * VIRGA_GUARANTEED_TEXELS, "nodes are texels on every device");
 _Static_assert(VIRGA_MAX_FRAMES_IN_FLIGHT *VIRGA_GLASS_MAX_VIEWS *VIRGA_RING_BYTES(glass_view_block) <=
-                   16 * VIRGA_SURE_TEXELS,
+                   16 * VIRGA_GUARANTEED_TEXELS,
                "views are texels on every device");
 
 static const virga_effect_buffer buffers[] = {
@@ -233,8 +233,8 @@ static const virga_effect_buffer buffers[] = {
     {"glass.drops", AT(drops), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
     {"glass.picks", AT(picks), STORAGE_USE, DEVICE, 0, 1, COUNT_PICK_BYTES},
     {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
-    {"glass.awake", AT(awake), STORAGE_USE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
-    {"glass.claims", AT(claims), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NOWHERE},
+    {"glass.active", AT(active), STORAGE_USE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
+    {"glass.claims", AT(claims), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
     {"glass.occupants", AT(occupants), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
     {"glass.film", AT(film), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
     {"glass.passed", AT(passed), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
@@ -275,8 +275,8 @@ static const virga_effect_image images[] = {
      CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
     {"glass.map", AT(picture.map), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT, WRITTEN_USE | READ_BACK,
      COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
-    {"glass.words", AT(picture.words), VK_FORMAT_R32_UINT, COLOR_ASPECT, WRITTEN_USE, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS,
-     1, VIRGA_FIRST_STORAGE},
+    {"glass.paper_map", AT(picture.paper_map), VK_FORMAT_R32_UINT, COLOR_ASPECT, WRITTEN_USE, COUNT_MAP_COLUMNS,
+     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
     {"glass.copies", AT(picture.copies), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT,
      CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
     {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR_ASPECT, CLEARED_USE, COUNT_MIST_COLUMNS,
@@ -311,7 +311,7 @@ static const virga_binding_kind bindings[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE, VIRGA_SOURCE_TEXELS, AT(nodes)}, /* 13 */
     [BIND_IMPACTS] = {STORAGE, COMPUTE},                                                /* 14 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 15 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(awake)},                                 /* 16 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(active)},                                /* 16 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                           /* 17 */
 };
 
@@ -463,7 +463,7 @@ static const virga_setting_row wiper_rows[] = {
     WIPER(low_deg, -720, 720),
     WIPER(high_deg, -720, 720),
     WIPER(blade_deg, -180, 180),
-    WIPER(blade_turn, 0, 1),
+    WIPER(blade_hold_direction, 0, 1),
     WIPER(sweep_s, 0.1, 60),
     WIPER(pause_s, 0, 3600),
     WIPER(phase_s, 0, 3600),
@@ -495,23 +495,23 @@ static const virga_setting_row settings_rows[] = {
     {"glass_settings.receding_deg", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_settings, receding_deg), 1, 175,
      offsetof(virga_glass_settings, advancing_deg)},
     NUMBER(drag, 0.01, 100),
-    NUMBER(run_hold, 0, 1),
+    NUMBER(kinetic_hold, 0, 1),
     NUMBER(affinity, 0, 2),
     NUMBER(meander, 0, 1),
     NUMBER(path_ease, 0, 1),
-    NUMBER(path_s, 0.1, 600),
-    NUMBER(touch, 0, 2),
-    NUMBER(tail_m, 0.001, 1),
-    NUMBER(tail_mm, 0, 2),
-    NUMBER(tail_s, 0.1, 3600),
+    NUMBER(path_dry_s, 0.1, 600),
+    NUMBER(merge_distance, 0, 2),
+    NUMBER(tail_spacing_m, 0.001, 1),
+    NUMBER(tail_max_radius_mm, 0, 2),
+    NUMBER(tail_lifetime_s, 0.1, 3600),
     NUMBER(film_um, 0, 100),
     NUMBER(film_break_s, 0, 60),
     NUMBER(evaporation_mm_h, 0, 100),
-    NUMBER(mist_mm, 0, 1),
+    NUMBER(mist_max_mm, 0, 1),
     NUMBER(air_share, 0, 2),
-    NUMBER(particle_mm, 0.2, 5),
+    NUMBER(particle_radius_mm, 0.2, 5),
     NUMBER(penalty, 0, 1),
-    NUMBER(band, 1, 16),
+    NUMBER(particle_band, 1, 16),
     NUMBER(hold_back_mm, 0, 20),
     NUMBER(compress_from, 0, 2),
     NUMBER(compress_step, 0, 1),

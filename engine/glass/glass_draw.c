@@ -26,12 +26,12 @@
 #include <math.h>
 #include <string.h>
 
-#define TILE         VIRGA_GLASS_TILE
-#define BLOCK        VIRGA_GLASS_MIST_BLOCK
-#define PI           3.14159265358979323846
-#define GRAVITY      9.80665
-#define UNSEEN       0.0078 /* texels: pixels that lie so near to a dry one are not drawn for the wet one beside it */
-#define LEAST_TEXELS 64u    /* of the map, along the longer side, however far away the pane is */
+#define TILE       VIRGA_GLASS_TILE
+#define BLOCK      VIRGA_GLASS_MIST_BLOCK
+#define PI         3.14159265358979323846
+#define GRAVITY    9.80665
+#define UNSEEN     0.0078 /* texels: pixels that lie so near to a dry one are not drawn for the wet one beside it */
+#define MIN_TEXELS 64u    /* of the map, along the longer side, however far away the pane is */
 
 /* ---- the pane, as a view has it */
 
@@ -64,7 +64,7 @@ static void project(const glass_view_block *block, const float point[3], double 
  * that passes the camera counts as large as any. */
 static double pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
 {
-    double pixels[9][2], most = 0;
+    double pixels[9][2], max = 0;
     for (int i = 0; i < 9; i++) {
         double clip[4];
         project(block, glass->outline[i], clip);
@@ -79,15 +79,15 @@ static double pixels_per_metre(const virga_glass *glass, const glass_view_block 
             if (along ? next > 8 : i % 3 == 2)
                 continue;
             const double metres = 0.5 * (double)(along ? glass->def.height_m : glass->def.width_m);
-            most = fmax(most, hypot(pixels[next][0] - pixels[i][0], pixels[next][1] - pixels[i][1]) / metres);
+            max = fmax(max, hypot(pixels[next][0] - pixels[i][0], pixels[next][1] - pixels[i][1]) / metres);
         }
-    return most;
+    return max;
 }
 
-static uint32_t whole_tiles(double texels, uint32_t most)
+static uint32_t whole_tiles(double texels, uint32_t max)
 {
     const double tiles = ceil(fmin(texels, 1e6) / TILE - 1e-4);
-    return (uint32_t)fmin(fmax(tiles, 1), most);
+    return (uint32_t)fmin(fmax(tiles, 1), max);
 }
 
 /* About a texel a pixel, whole tiles, not more than there are. */
@@ -96,8 +96,8 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
     const struct glass_picture *picture = &glass->picture;
     virga_glass_picture_gpu *look = &block->look;
     const double width = (double)glass->def.width_m, height = (double)glass->def.height_m;
-    const double least = LEAST_TEXELS / fmax(width, height);
-    const double dense = fmax(pixels_per_metre(glass, block), least);
+    const double min = MIN_TEXELS / fmax(width, height);
+    const double dense = fmax(pixels_per_metre(glass, block), min);
     look->tile_columns = whole_tiles(width * dense, picture->max_tile_columns);
     look->tile_rows = whole_tiles(height * dense, picture->max_tile_rows);
     look->map_columns = look->tile_columns * TILE;
@@ -109,9 +109,9 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
 
 /* The least of the pane, in pixels, that a metre of it is long at one of the 9 points that outline it, in whatever
  * direction; 0 where one lies behind the camera. The least singular value of the projection's derivative. */
-static double least_pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
+static double min_pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
 {
-    double least = 1e12;
+    double min = 1e12;
     for (int i = 0; i < 9; i++) {
         double clip[4], ways[2][2];
         project(block, glass->outline[i], clip);
@@ -129,17 +129,17 @@ static double least_pixels_per_metre(const virga_glass *glass, const glass_view_
         const double sum =
             ways[0][0] * ways[0][0] + ways[0][1] * ways[0][1] + ways[1][0] * ways[1][0] + ways[1][1] * ways[1][1];
         const double area = ways[0][0] * ways[1][1] - ways[0][1] * ways[1][0];
-        least = fmin(least, sqrt(fmax(sum - sqrt(fmax(sum * sum - 4 * area * area, 0)), 0) / 2));
+        min = fmin(min, sqrt(fmax(sum - sqrt(fmax(sum * sum - 4 * area * area, 0)), 0) / 2));
     }
-    return least;
+    return min;
 }
 
 /* What a pixel shows is between four texels, so a texel's water shows up to the middles of those beside it. A pixel
  * covers more where the pixel beside it has other water: where one is wider than a texel that is as much farther. */
-static void fit_boxes(const virga_glass *glass, glass_view_block *block)
+static void fit_bounds(const virga_glass *glass, glass_view_block *block)
 {
     const double texel = fmin((double)block->look.texel_m[0], (double)block->look.texel_m[1]);
-    const double pixels = least_pixels_per_metre(glass, block) * texel;
+    const double pixels = min_pixels_per_metre(glass, block) * texel;
     block->look.beside = (float)(0.5 - UNSEEN + fmin(fmax(1 / fmax(pixels, 1e-6) - 1, 0), TILE));
 }
 
@@ -189,7 +189,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     const double angle_deg = glass_rest_deg(s);
     look->drop_nl_of_m3 = (float)(glass_cap_volume(angle_deg) * 1e12);
     look->cap_height = (float)tan(angle_deg * PI / 360);
-    look->particle_m = s->particle_mm * 1e-3f;
+    look->particle_m = s->particle_radius_mm * 1e-3f;
     look->impact_s = s->impact_s;
     look->film_break_s = s->film_break_s;
     look->density = (uint32_t)s->density;
@@ -207,7 +207,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->max_tiles = glass->picture.max_tile_columns * glass->picture.max_tile_rows;
     look->max_blocks = glass->picture.max_mist.width / BLOCK * (glass->picture.max_mist.height / BLOCK);
     look->max_entries = glass->picture.max_entries;
-    look->box_word = 6 * (look->max_tiles + look->max_blocks);
+    look->bounds_offset = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
     look->whole_map = glass->picture.whole_map;
     look->sheets = s->style != VIRGA_GLASS_STYLE_PAPER || look->whole_map;
@@ -224,7 +224,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fill_look(glass, &filled.look);
     glass_fill_before(view, pose, &filled.look);
     fit_map(glass, &filled);
-    fit_boxes(glass, &filled);
+    fit_bounds(glass, &filled);
     fit_mist(glass, &filled.look);
     glass->picture.columns = filled.look.map_columns;
     glass->picture.rows = filled.look.map_rows;
@@ -395,12 +395,12 @@ static virga_result ready_to_prepare(const virga_glass *glass)
 
 virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)
 {
-    if (virga_settings_places(log, "glass_pose.position_m", pose->position_m, 3))
+    if (virga_settings_check_positions(log, "glass_pose.position_m", pose->position_m, 3))
         return VIRGA_ERROR_INVALID;
-    if (virga_settings_places(log, "glass_pose.before_position_m", pose->before_position_m, 3))
+    if (virga_settings_check_positions(log, "glass_pose.previous_position_m", pose->previous_position_m, 3))
         return VIRGA_ERROR_INVALID;
     const virga_result now = glass_axes_check(log, "glass_pose.world_from_pane", pose->world_from_pane);
-    return now ? now : glass_axes_check(log, "glass_pose.before_world_from_pane", pose->before_world_from_pane);
+    return now ? now : glass_axes_check(log, "glass_pose.previous_world_from_pane", pose->previous_world_from_pane);
 }
 
 /* Which side of the pane all of it is seen from; 0 where that is not known. */
@@ -470,7 +470,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
     picture->prepared_style = glass->settings.style;
-    return virga_uploaded(context);
+    return virga_check_uploads(context);
 }
 
 void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
@@ -520,7 +520,7 @@ static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pip
 
 static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
 {
-    virga_draw_area(glass->base.context, cmd, glass->base.view.viewport);
+    virga_set_draw_area(glass->base.context, cmd, glass->base.view.viewport);
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, glass->base.view.set);
     glass->base.context->vk.CmdBindIndexBuffer(cmd, glass->picture.corners->buffer, 0, VK_INDEX_TYPE_UINT32);
 }

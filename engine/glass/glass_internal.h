@@ -24,7 +24,7 @@
 #define GLASS_MAX_IMPACTS  8192 /* of the host's list, in a step */
 
 /* Side of a cell of the particles' grid, at the least. */
-static inline float glass_least_grid_m(const virga_glass_def *def)
+static inline float glass_min_grid_m(const virga_glass_def *def)
 {
     return def->cell_m > 0.003f ? def->cell_m : 0.003f;
 }
@@ -32,7 +32,7 @@ static inline float glass_least_grid_m(const virga_glass_def *def)
 /* What is read back of one frame. */
 typedef struct glass_readback {
     virga_glass_state_gpu state; /* of its step */
-    uint32_t balls, balls_cut;   /* of its prepare, as in virga_glass_work_gpu */
+    uint32_t balls, ball_entries_dropped;   /* of its prepare, as in virga_glass_work_gpu */
 } glass_readback;
 
 enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* of the statistics */
@@ -49,7 +49,7 @@ struct virga_glass {
 
     /* State of the pane. */
     virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
-        *awake, *film_blocks;
+        *active, *film_blocks;
     /* What the pane is like: cells (affinity, bump, mask) and the grid of its shape. */
     virga_buffer *surface, *nodes;
     virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */

@@ -12,7 +12,7 @@
  * glass and coated glass: within what is published for soda-lime glass after cleaning, and for silane coatings
  * (hysteresis of 10 to 15 degrees); a leaf: the waxy ones, e.g. lotus has even more. */
 static const struct {
-    float advancing_deg, receding_deg, run_hold, film_um, tail_mm, affinity;
+    float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity;
 } kinds[VIRGA_GLASS_KINDS] = {
     [VIRGA_GLASS_KIND_PAPER] = {63, 38, 0.6f, 6, 0.5f, 0.5f},
     [VIRGA_GLASS_KIND_CLEAN] = {35, 15, 0.5f, 10, 0.5f, 0.3f},
@@ -22,15 +22,15 @@ static const struct {
     [VIRGA_GLASS_KIND_LEAF] = {130, 115, 0.4f, 0, 0, 0.4f},
 };
 
-void virga_glass_settings_of(virga_glass_kind kind, virga_glass_settings *settings)
+void virga_glass_apply_kind(virga_glass_kind kind, virga_glass_settings *settings)
 {
     if (!settings || (uint32_t)kind >= VIRGA_GLASS_KINDS)
         return;
     settings->advancing_deg = kinds[kind].advancing_deg;
     settings->receding_deg = kinds[kind].receding_deg;
-    settings->run_hold = kinds[kind].run_hold;
+    settings->kinetic_hold = kinds[kind].kinetic_hold;
     settings->film_um = kinds[kind].film_um;
-    settings->tail_mm = kinds[kind].tail_mm;
+    settings->tail_max_radius_mm = kinds[kind].tail_max_radius_mm;
     settings->affinity = kinds[kind].affinity;
 }
 

@@ -24,7 +24,7 @@ static uint32_t tiles_of(float side_m, float longer_m, uint32_t max_texels)
 
 static uint32_t blocks_of(uint32_t cells)
 {
-    while (cells > VIRGA_GLASS_MIST_MOST)
+    while (cells > VIRGA_GLASS_MAX_MIST_TEXELS)
         cells = (cells + 1) / 2;
     return (cells + VIRGA_GLASS_MIST_BLOCK - 1) / VIRGA_GLASS_MIST_BLOCK;
 }
@@ -88,8 +88,8 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                                        /* 23 */
     [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                            /* 24 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                                       /* 25 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.words)},                                        /* 26 */
-    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.words)},                                     /* 27 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                    /* 26 */
+    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                 /* 27 */
     [BIND_VIEWS] = {TEXELS, FRAGMENT}, /* 28 the ring's buffer, as texels */
 };
 
@@ -138,9 +138,9 @@ static bool can_filter(const virga_context *context)
 uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settings *settings)
 {
     const bool paper = settings->style == VIRGA_GLASS_STYLE_PAPER;
-    const bool few = !settings->compress || settings->compress_steps <= VIRGA_GLASS_FEW_STEPS;
+    const bool usual_steps = !settings->compress || settings->compress_steps <= VIRGA_GLASS_USUAL_STEPS;
     return (uint32_t)settings->density | (uint32_t)settings->blend << 3 | (paper ? GLASS_GATHER_PAPER : 0) |
-           (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (few ? GLASS_GATHER_FEW : 0);
+           (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (usual_steps ? GLASS_GATHER_USUAL_STEPS : 0);
 }
 
 /* Those for these settings that are not there yet: without film, with sheets of it, and with beads too. All of them
@@ -204,7 +204,7 @@ virga_result glass_picture_create(virga_glass *glass)
     return create_reliefs(glass);
 }
 
-virga_result glass_picture_take_lanes(virga_glass *glass, uint32_t lanes)
+virga_result glass_picture_use_lanes(virga_glass *glass, uint32_t lanes)
 {
     retire_gathers(glass->base.context, &glass->picture);
     retire_reliefs(glass->base.context, &glass->picture);

@@ -32,7 +32,7 @@ enum {
 #define GLASS_GATHER_MAP    32u  /* the host wants the map */
 #define GLASS_GATHER_BEADS  64u  /* in a view that is near enough to show beads of film as drops */
 #define GLASS_GATHER_PAPER  128u /* words of densities, for the paper's style; heights only for the host */
-#define GLASS_GATHER_FEW    256u /* not more than VIRGA_GLASS_FEW_STEPS of compression */
+#define GLASS_GATHER_USUAL_STEPS    256u /* not more than VIRGA_GLASS_USUAL_STEPS of compression */
 #define GLASS_GATHER_MASKED 512u /* (paper) there may be cells without glass */
 #define GLASS_MIST_SEVERAL  1u   /* cells to a texel */
 #define GLASS_MIST_MASKED   2u   /* there may be cells without glass */
@@ -55,7 +55,7 @@ struct glass_picture {
     uint32_t view_offset; /* of the newest view */
     virga_image_2d *map;
     bool whole_map;         /* the host wants it, also where there is only mist */
-    virga_image_2d *words;  /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
+    virga_image_2d *paper_map;  /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
     virga_image_2d *relief; /* what others do */
     virga_image_2d *copies, *mist_map;
     bool filtered;                             /* the device filters the relief */
@@ -91,7 +91,7 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
 virga_result glass_picture_create(virga_glass *glass);
 void glass_picture_destroy(virga_glass *glass);
 
-/* Pipelines that these settings need and that are not there yet, see virga_context_def.pipelines. */
+/* Pipelines that these settings need and that are not there yet, see virga_context_def.pipeline_build_mode. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings);
 
 /* Of the gathers, those for these settings: without GLASS_GATHER_FILM and _BEADS. */
@@ -109,6 +109,6 @@ void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, vir
 
 /* Makes the passes anew as for a subgroup of so many lanes, 0: as for a device that hands balls around in shared
  * memory. For tests and measurements, on a device that may shuffle. The same bits. */
-virga_result glass_picture_take_lanes(virga_glass *glass, uint32_t lanes);
+virga_result glass_picture_use_lanes(virga_glass *glass, uint32_t lanes);
 
 #endif

@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#define SHAPE_COOKIE VIRGA_COOKIE(13)
-#define NODES        VIRGA_GLASS_NODES
-#define MOST_GRID    1025    /* columns and rows of positions */
-#define MOST_PLACE_M 1000.0f /* from the origin of a pane's own frame */
+#define SHAPE_COOKIE   VIRGA_COOKIE(13)
+#define NODES          VIRGA_GLASS_NODES
+#define MAX_GRID       1025    /* columns and rows of positions */
+#define MAX_POSITION_M 1000.0f /* from the origin of a pane's own frame */
 
 virga_glass_shape virga_default_glass_shape(void)
 {
@@ -26,17 +26,17 @@ virga_glass_shape virga_default_glass_shape(void)
                                .bump_rows = 2,
                                .bump_width_m = 0.1f,
                                .bump_height_m = 0.1f,
-                               .bump_pull = 1};
+                               .bump_affinity = 1};
 }
 
 /* ---- shapes for hosts */
 
-void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
-                            uint32_t rows, float *positions)
+void virga_glass_fill_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
+                                 uint32_t rows, float *positions)
 {
     const float numbers[4] = {width_m, height_m, rake_deg, bend_m};
-    if (!positions || columns < 2 || rows < 2 || columns > MOST_GRID || rows > MOST_GRID ||
-        virga_settings_finite(NULL, "windshield", numbers, 4))
+    if (!positions || columns < 2 || rows < 2 || columns > MAX_GRID || rows > MAX_GRID ||
+        virga_settings_check_finite(NULL, "windshield", numbers, 4))
         return;
     const double rake = (double)rake_deg * 3.14159265358979323846 / 180;
     for (uint32_t row = 0; row < rows; row++)
@@ -105,13 +105,13 @@ static float nearest_in_row(const uint8_t *row, uint32_t columns, uint32_t colum
 static uint32_t nearest_covered(uint32_t columns, uint32_t rows, const float *grid, const uint8_t *mask, uint32_t i)
 {
     const double column = i % columns, row = i / columns;
-    double least = INFINITY;
+    double squared_min = INFINITY;
     uint32_t nearest = 0;
     for (uint32_t k = 0; k < rows; k++) {
         const uint32_t above = k * columns + i % columns;
         const double found = mask[above] ? column : (double)grid[3 * above], x = found - column, y = k - row;
-        if (found >= 0 && x * x + y * y < least) {
-            least = x * x + y * y;
+        if (found >= 0 && x * x + y * y < squared_min) {
+            squared_min = x * x + y * y;
             nearest = k * columns + (uint32_t)found;
         }
     }
@@ -133,12 +133,12 @@ static void fill_uncovered(uint32_t columns, uint32_t rows, float *grid, const u
             memcpy(grid + 3 * i, grid + 3 * (uint32_t)grid[3 * i + 1], 3 * sizeof *grid);
 }
 
-virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
-                                   const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
-                                   uint32_t columns, uint32_t rows, float *grid, uint8_t *mask)
+virga_result virga_glass_fill_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
+                                        const uint32_t *indices, uint32_t index_count, float width_m, float height_m,
+                                        uint32_t columns, uint32_t rows, float *grid, uint8_t *mask)
 {
-    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || columns > MOST_GRID ||
-        rows > MOST_GRID || !(width_m > 0 && width_m <= 10) || !(height_m > 0 && height_m <= 10))
+    if (!positions || !uvs_m || !indices || !grid || !mask || columns < 2 || rows < 2 || columns > MAX_GRID ||
+        rows > MAX_GRID || !(width_m > 0 && width_m <= 10) || !(height_m > 0 && height_m <= 10))
         return VIRGA_ERROR_INVALID;
     memset(mask, 0, (size_t)columns * rows);
     bool any = false;
@@ -252,7 +252,7 @@ static double noise(uint32_t seed, double x, double y)
  * third of it. The sum of two even numbers has a variance of 1/6, blending halves it about. */
 static double uneven(const virga_glass *glass, double u, double v)
 {
-    const double width = (double)glass->def.affinity_m;
+    const double width = (double)glass->def.affinity_size_m;
     const double sum = noise(glass->def.seed ^ 0x51ed27u, u / width, v / width) +
                        0.5 * noise(glass->def.seed ^ 0x77b3e1u, 3 * u / width, 3 * v / width);
     return sum / 0.27;
@@ -310,7 +310,7 @@ static void fill_cells(const virga_glass *glass, const virga_glass_shape *shape,
             double affinity = uneven(glass, u, v), slope[2] = {0, 0};
             if (shape->bumps_m) {
                 /* Low places draw drops on: affinity from the bump map, which Chen and Zhang leave to the future. */
-                affinity -= (double)shape->bump_pull * (bump(shape, u, v) - mean) / deviation;
+                affinity -= (double)shape->bump_affinity * (bump(shape, u, v) - mean) / deviation;
                 slope[0] = (bump(shape, u + 0.5 * cell, v) - bump(shape, u - 0.5 * cell, v)) / cell;
                 slope[1] = (bump(shape, u, v + 0.5 * cell) - bump(shape, u, v - 0.5 * cell)) / cell;
             }
@@ -331,7 +331,7 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
     if (result)
         return result;
     if (shape->positions &&
-        (shape->columns < 2 || shape->rows < 2 || shape->columns > MOST_GRID || shape->rows > MOST_GRID))
+        (shape->columns < 2 || shape->rows < 2 || shape->columns > MAX_GRID || shape->rows > MAX_GRID))
         return virga_wrong_argument(log, "glass_shape: expected 2 to 1025 columns and rows, got %u x %u",
                                     shape->columns, shape->rows);
     if (shape->mask &&
@@ -346,16 +346,17 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
                             shape->bump_height_m >= 1e-4f && shape->bump_height_m <= 100))
         return virga_wrong_argument(log, "glass_shape: expected a bump map of 0.0001 to 100 m, got %g x %g",
                                     (double)shape->bump_width_m, (double)shape->bump_height_m);
-    if (!(shape->bump_pull >= 0 && shape->bump_pull <= 10))
-        return virga_wrong_argument(log, "glass_shape.bump_pull: expected 0 to 10, got %g", (double)shape->bump_pull);
+    if (!(shape->bump_affinity >= 0 && shape->bump_affinity <= 10))
+        return virga_wrong_argument(log, "glass_shape.bump_affinity: expected 0 to 10, got %g",
+                                    (double)shape->bump_affinity);
     for (uint32_t i = 0; shape->positions && i < 3 * shape->columns * shape->rows; i++)
-        if (!(fabsf(shape->positions[i]) <= MOST_PLACE_M))
+        if (!(fabsf(shape->positions[i]) <= MAX_POSITION_M))
             return virga_wrong_argument(log,
                                         "glass_shape.positions[%u]: is %g, expected no more than %g m from the "
                                         "pane's origin",
-                                        i, (double)shape->positions[i], (double)MOST_PLACE_M);
+                                        i, (double)shape->positions[i], (double)MAX_POSITION_M);
     if (shape->bumps_m &&
-        virga_settings_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
+        virga_settings_check_finite(log, "glass_shape.bumps_m", shape->bumps_m, shape->bump_columns * shape->bump_rows))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -432,7 +433,7 @@ virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *
     virga_buffer_flush(context, nodes, 0, nodes->size);
     glass->masked = shape->mask != NULL;
     TRY(glass_picture_need(glass, &glass->settings));
-    TRY(virga_uploaded(context));
+    TRY(virga_check_uploads(context));
     remember(glass, nodes->memory.block.mapped);
     VIRGA_RETIRE(context, glass->surface_upload);
     VIRGA_RETIRE(context, glass->nodes_upload);

@@ -39,13 +39,13 @@ static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_gla
     stats->merged = count_of(state->counts[VIRGA_GLASS_MERGED]);
     stats->to_particles = count_of(state->counts[VIRGA_GLASS_TO_PARTS]);
     stats->to_drops = count_of(state->counts[VIRGA_GLASS_TO_DROPS]);
-    stats->crowded = count_of(state->counts[VIRGA_GLASS_CROWDED]);
+    stats->drops_without_slot = count_of(state->counts[VIRGA_GLASS_WITHOUT_SLOT]);
     stats->drops_nl = count_of(state->measured[0]);
     stats->particles_nl = count_of(state->measured[1]);
     stats->film_nl = count_of(state->measured[2]);
     stats->drops = state->drops;
     stats->particles = state->particles;
-    stats->held = state->held;
+    stats->particles_waiting = state->particles_waiting;
 }
 
 /* A frame may draw without a step, and the other way round. */
@@ -59,7 +59,7 @@ void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
         read_state(stats, frame, &read.state);
     if (parts & 1u << GLASS_PART_PREPARE) {
         stats->balls = read.balls;
-        stats->balls_cut = read.balls_cut;
+        stats->ball_entries_dropped = read.ball_entries_dropped;
     }
 }
 
@@ -81,7 +81,7 @@ virga_result glass_axes_check(const virga_log *log, const char *name, const floa
     bool none = true;
     for (int i = 0; i < 9; i++)
         none = none && axes[i] == 0;
-    return none ? VIRGA_OK : virga_settings_rotation(log, name, axes, 3);
+    return none ? VIRGA_OK : virga_settings_check_rotation(log, name, axes, 3);
 }
 
 static double length_of(const double v[3])
@@ -188,7 +188,7 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->drop_nl_of_m3 = (float)(cap * 1e12);
     out->hold = (float)glass_hold(s);
     out->drag = (float)glass_drag(s);
-    out->run_hold = s->run_hold;
+    out->kinetic_hold = s->kinetic_hold;
     /* A cap's section: the circle's segment over its base, a^2 (t - sin t cos t) / sin^2 t. */
     const double section = (angle - sin(angle) * cos(angle)) / (sin(angle) * sin(angle));
     out->air_drag = (float)(0.5 * VIRGA_AIR_DENSITY * DRAG_OF_SPHERE * section);
@@ -196,16 +196,16 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->affinity_sigma = s->affinity;
     out->meander = s->meander;
     out->path_ease = s->path_ease;
-    out->path_s = s->path_s;
-    out->touch = s->touch;
-    out->tail_m = s->tail_m;
+    out->path_dry_s = s->path_dry_s;
+    out->merge_distance = s->merge_distance;
+    out->tail_spacing_m = s->tail_spacing_m;
     out->tail_share = TAIL_SHARE;
-    out->tail_radius_m = s->tail_mm * 1e-3f;
-    /* One of the largest shrinks away in tail_s if its base keeps its shape: water over base over time. */
-    out->shrink_nl_s = (float)(cap / PI * (double)s->tail_mm * 1e-3 * 1e12 / (double)s->tail_s * 3);
+    out->tail_max_radius_m = s->tail_max_radius_mm * 1e-3f;
+    /* One of the largest shrinks away in tail_lifetime_s if its base keeps its shape: water over base over time. */
+    out->shrink_nl_s = (float)(cap / PI * (double)s->tail_max_radius_mm * 1e-3 * 1e12 / (double)s->tail_lifetime_s * 3);
     out->film_m = s->film_um * 1e-6f;
     out->evaporation_m_s = s->evaporation_mm_h * 1e-3f / 3600;
-    out->mist_nl = (float)(PI / 6 * pow((double)s->mist_mm * 1e-3, 3) * 1e12);
+    out->mist_nl = (float)(PI / 6 * pow((double)s->mist_max_mm * 1e-3, 3) * 1e12);
     out->cells_per_tick = ROUNDS;
 }
 
@@ -230,28 +230,29 @@ static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
 {
     const virga_glass_settings *s = &glass->settings;
     const double cap = glass_cap_volume(glass_rest_deg(s));
-    const double particle = (double)s->particle_mm * 1e-3;
+    const double particle = (double)s->particle_radius_mm * 1e-3;
     const double hold_back = fmax((double)s->hold_back_mm * 1e-3, HOLD_BACK * running_radius(glass, out));
     out->particle_m = (float)particle;
     /* A hemisphere's, whatever the glass: before a blade water stands as high as that, not as flat as drops at rest. */
     out->particle_nl = (uint32_t)fmax(2 * PI / 3 * particle * particle * particle * 1e12, 1);
     out->penalty = s->penalty;
-    out->band_m = (float)((double)s->band * 2 * particle);
+    out->band_m = (float)((double)s->particle_band * 2 * particle);
     out->hold_back_nl = (uint32_t)fmin(cap * hold_back * hold_back * hold_back * 1e12, 4e9);
     out->hold_back_cells = s->hold_back_cells;
-    const float least = glass_least_grid_m(&glass->def);
-    out->grid_m = 2.5f * out->particle_m > least ? 2.5f * out->particle_m : least;
+    const float min = glass_min_grid_m(&glass->def);
+    out->grid_m = 2.5f * out->particle_m > min ? 2.5f * out->particle_m : min;
     out->grid_columns = (uint32_t)ceil((double)glass->def.width_m / (double)out->grid_m - 1e-4);
     out->grid_rows = (uint32_t)ceil((double)glass->def.height_m / (double)out->grid_m - 1e-4);
     out->grid_columns += !out->grid_columns;
     out->grid_rows += !out->grid_rows;
 }
 
-static void fill_place(const virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *out)
+static void fill_motion(const virga_glass *glass, const virga_glass_step_info *info, virga_glass_tick_gpu *out)
 {
     const double gravity[3] = {-(double)info->acceleration_m_s2[0], -VIRGA_GRAVITY - (double)info->acceleration_m_s2[1],
                                -(double)info->acceleration_m_s2[2]};
-    const double turn[3] = {(double)info->turn_rad_s[0], (double)info->turn_rad_s[1], (double)info->turn_rad_s[2]};
+    const double turn[3] = {(double)info->angular_velocity_rad_s[0], (double)info->angular_velocity_rad_s[1],
+                            (double)info->angular_velocity_rad_s[2]};
     double air[3], local[3];
     for (int i = 0; i < 3; i++)
         air[i] = (double)info->wind_m_s[i] - (double)info->velocity_m_s[i];
@@ -263,8 +264,8 @@ static void fill_place(const virga_glass *glass, const virga_glass_step_info *in
     store(local, out->air);
     /* What acts anywhere on the pane, at most: turning pulls the more the farther from the axis. */
     const double spin = length_of(turn);
-    out->most_pull = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
-    out->most_air = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
+    out->max_acceleration = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
+    out->max_air_m_s = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
     out->pane = glass_describe_pane(glass);
 }
 
@@ -302,16 +303,16 @@ static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *
     virga_dispatch_indirect_and_barrier(glass->base.context, cmd, pipeline, glass->state->buffer, groups);
 }
 
-static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *words, uint32_t count)
+static void push(virga_glass *glass, VkCommandBuffer cmd, const uint32_t *constants, uint32_t count)
 {
-    glass->base.context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0, count * sizeof *words,
-                                             words);
+    glass->base.context->vk.CmdPushConstants(cmd, glass->bindings->layout, VIRGA_ALL_STAGES, 0,
+                                             count * sizeof *constants, constants);
 }
 
-#define CENSUS    offsetof(virga_glass_state_gpu, census_groups)
+#define LIVE_LIST offsetof(virga_glass_state_gpu, live_list_groups)
 #define ALIVE     offsetof(virga_glass_state_gpu, alive_groups)
 #define SEEDS     offsetof(virga_glass_state_gpu, seed_groups)
-#define AWAKE     offsetof(virga_glass_state_gpu, awake_groups)
+#define ACTIVE    offsetof(virga_glass_state_gpu, active_groups)
 #define PARTICLES offsetof(virga_glass_state_gpu, particle_groups)
 
 static uint32_t groups_of(uint64_t invocations)
@@ -323,9 +324,9 @@ static uint32_t groups_of(uint64_t invocations)
 static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.motion");
-    over(glass, cmd, glass->live_mark, CENSUS);
+    over(glass, cmd, glass->live_mark, LIVE_LIST);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->live_scan, 1);
-    over(glass, cmd, glass->live_compact, CENSUS);
+    over(glass, cmd, glass->live_compact, LIVE_LIST);
     over(glass, cmd, glass->begin_tick, ALIVE);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->active_scan, 1);
     over(glass, cmd, glass->active_compact, ALIVE);
@@ -333,17 +334,17 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
         const uint32_t round[2] = {i, ROUNDS};
         push(glass, cmd, round, 2);
         const size_t groups_of_round = offsetof(virga_glass_state_gpu, round_groups) + i * 3 * sizeof(uint32_t);
-        over(glass, cmd, glass->choose_cell, i < ROUNDS ? groups_of_round : AWAKE);
+        over(glass, cmd, glass->choose_cell, i < ROUNDS ? groups_of_round : ACTIVE);
         if (i < ROUNDS)
             over(glass, cmd, glass->enter_cell, groups_of_round);
     }
-    over(glass, cmd, glass->capture_mark, AWAKE);
+    over(glass, cmd, glass->capture_mark, ACTIVE);
     over(glass, cmd, glass->capture, ALIVE);
     virga_pass_end(glass->base.context, cmd, scope);
 }
 
 /* The cells around all that a blade passes over in a tick. */
-static bool blade_box(const virga_glass *glass, const virga_glass_blade_gpu *blade, uint32_t box[4])
+static bool blade_bounds(const virga_glass *glass, const virga_glass_blade_gpu *blade, uint32_t box[4])
 {
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
     for (int i = 0; i < 8; i++) {
@@ -378,14 +379,15 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
         return;
     virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.wipe");
     for (uint32_t i = 0; i < glass->blades.blade_count; i++) {
-        uint32_t words[5] = {i};
-        if (glass->blades.blades[i].side == 0 || !blade_box(glass, &glass->blades.blades[i], words + 1))
+        uint32_t constants[5] = {i};
+        if (glass->blades.blades[i].side == 0 || !blade_bounds(glass, &glass->blades.blades[i], constants + 1))
             continue;
-        push(glass, cmd, words, 5);
-        virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, (words[3] + 15) / 16, (words[4] + 15) / 16);
+        push(glass, cmd, constants, 5);
+        virga_dispatch_2d(glass->base.context, cmd, glass->wipe_film, (constants[3] + 15) / 16,
+                          (constants[4] + 15) / 16);
         virga_indirect_barrier(glass->base.context, cmd);
     }
-    over(glass, cmd, glass->split_drops, AWAKE);
+    over(glass, cmd, glass->split_drops, ACTIVE);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->empty_bins,
                                groups_of((uint64_t)glass->blades.blade_count * VIRGA_GLASS_BINS));
     virga_pass_end(glass->base.context, cmd, scope);
@@ -400,9 +402,9 @@ static void record_wipers(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(glass->base.context, cmd, scope);
 }
 
-static void record_places(virga_glass *glass, VkCommandBuffer cmd)
+static void record_spawns(virga_glass *glass, VkCommandBuffer cmd)
 {
-    const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.place");
+    const virga_pass_scope scope = virga_pass_begin(glass->base.context, cmd, "glass.spawn");
     over(glass, cmd, glass->spawn_claim, SEEDS);
     virga_dispatch_and_barrier(glass->base.context, cmd, glass->spawn_scan, 1);
     over(glass, cmd, glass->spawn, SEEDS);
@@ -454,10 +456,10 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
     const virga_tick_range ticks = {info->first_tick, info->ticks, glass->def.max_ticks_per_step};
     if (virga_effect_check_ticks(&glass->base, "virga_glass_step", &ticks, glass->ticks ? &glass->last_tick : NULL) ||
         glass_axes_check(log, "step_info.world_from_pane", info->world_from_pane) ||
-        virga_settings_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
-        virga_settings_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
-        virga_settings_finite(log, "step_info.turn_rad_s", info->turn_rad_s, 3) ||
-        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
+        virga_settings_check_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
+        virga_settings_check_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||
+        virga_settings_check_finite(log, "step_info.angular_velocity_rad_s", info->angular_velocity_rad_s, 3) ||
+        virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3))
         return VIRGA_ERROR_INVALID;
     if (!(info->rate_mm_h >= 0 && info->rate_mm_h <= 200))
         return virga_wrong_argument(log, "step_info.rate_mm_h: expected 0 to 200, got %g", (double)info->rate_mm_h);
@@ -474,10 +476,12 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
 static bool clamp_motion(const virga_log *log, virga_glass_step_info *info)
 {
     bool changed = false;
-    virga_clamp_vector(log, "step_info.velocity_m_s", info->velocity_m_s, VIRGA_FASTEST_M_S, &changed);
-    virga_clamp_vector(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
-    virga_clamp_vector(log, "step_info.turn_rad_s", info->turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
-    virga_clamp_vector(log, "step_info.wind_m_s", info->wind_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(log, "step_info.velocity_m_s", info->velocity_m_s, VIRGA_MAX_SPEED_M_S, &changed);
+    virga_clamp_vector(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, VIRGA_MAX_ACCELERATION_M_S2,
+                       &changed);
+    virga_clamp_vector(log, "step_info.angular_velocity_rad_s", info->angular_velocity_rad_s,
+                       VIRGA_MAX_ANGULAR_SPEED_RAD_S, &changed);
+    virga_clamp_vector(log, "step_info.wind_m_s", info->wind_m_s, VIRGA_MAX_SPEED_M_S, &changed);
     return changed;
 }
 
@@ -485,7 +489,7 @@ static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_gl
 {
     virga_glass_tick_gpu common = {.impacts = info->impacts ? GLASS_MAX_IMPACTS : 0};
     double arrivals;
-    fill_place(glass, info, &common);
+    fill_motion(glass, info, &common);
     fill_holding(glass, &common);
     fill_particles(glass, &common);
     landing_of(glass, info, &common, &arrivals);
@@ -495,7 +499,7 @@ static void record_ticks(virga_glass *glass, VkCommandBuffer cmd, const virga_gl
         bind(glass, cmd);
         record_motion(glass, cmd);
         record_wipers(glass, cmd);
-        record_places(glass, cmd);
+        record_spawns(glass, cmd);
     }
     glass->ticks += info->ticks;
     glass->last_tick = info->first_tick + info->ticks - 1;
@@ -539,6 +543,6 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
         record_ticks(glass, cmd, info);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),
                                  sizeof(virga_glass_state_gpu));
-    const virga_result uploaded = virga_uploaded(context);
+    const virga_result uploaded = virga_check_uploads(context);
     return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

@@ -20,7 +20,7 @@ static void turn(const double a[9], const double b[9], double out[9])
 static bool has_before(const virga_glass_pose *pose)
 {
     for (int i = 0; i < 9; i++)
-        if (pose->before_world_from_pane[i] != 0)
+        if (pose->previous_world_from_pane[i] != 0)
             return true;
     return false;
 }
@@ -32,9 +32,9 @@ static void motion_of_pane(const virga_view *view, const virga_glass_pose *pose,
 {
     double before[9], inverse[9];
     const bool given = has_before(pose);
-    const double *origin = given ? pose->before_position_m : pose->position_m;
+    const double *origin = given ? pose->previous_position_m : pose->position_m;
     for (int i = 0; i < 9; i++) {
-        before[i] = (double)(given ? pose->before_world_from_pane[i] : world_from_pane[i]);
+        before[i] = (double)(given ? pose->previous_world_from_pane[i] : world_from_pane[i]);
         inverse[i] = (double)world_from_pane[i % 3 * 3 + i / 3];
     }
     turn(before, inverse, rotation);
@@ -64,6 +64,6 @@ void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, vir
         double sum = 0;
         for (int i = 0; i < 3; i++)
             sum -= rotation[3 * column + i] * shift[i];
-        look->eye_before[column] = (float)sum;
+        look->previous_eye[column] = (float)sum;
     }
 }

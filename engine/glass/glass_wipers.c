@@ -43,8 +43,9 @@ double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s)
 static void pose(const virga_glass_wiper *wiper, double arm_deg, float middle[2], float along[2])
 {
     const double arm = arm_deg * RADIANS, hub = (double)wiper->reach_m - 0.5 * (double)wiper->blade_m;
-    const double blade =
-        (arm_deg + (double)wiper->blade_deg - (double)wiper->blade_turn * (arm_deg - (double)wiper->low_deg)) * RADIANS;
+    const double blade = (arm_deg + (double)wiper->blade_deg -
+                          (double)wiper->blade_hold_direction * (arm_deg - (double)wiper->low_deg)) *
+                         RADIANS;
     middle[0] = (float)((double)wiper->pivot_m[0] + hub * cos(arm));
     middle[1] = (float)((double)wiper->pivot_m[1] + hub * sin(arm));
     along[0] = (float)cos(blade);

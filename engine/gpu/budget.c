@@ -16,7 +16,7 @@
 typedef struct budget_try {
     const virga_effect_type *type;
     char *def;
-    uint32_t asked[VIRGA_MAX_POOLS];
+    uint32_t requested[VIRGA_MAX_POOLS];
 } budget_try;
 
 static uint32_t *pool_size(const budget_try *attempt, uint32_t i)
@@ -25,21 +25,21 @@ static uint32_t *pool_size(const budget_try *attempt, uint32_t i)
 }
 
 /* The size of a pool at a share of what it was asked to be: a whole number of units, or a power of two. */
-static uint32_t size_at(const virga_effect_pool *pool, uint32_t asked, double share)
+static uint32_t size_at(const virga_effect_pool *pool, uint32_t requested, double share)
 {
-    uint32_t size = (uint32_t)(asked * share), power = 1;
+    uint32_t size = (uint32_t)(requested * share), power = 1;
     while (power <= size / 2)
         power *= 2;
     size = pool->unit ? size / pool->unit * pool->unit : power;
     size = size > pool->min ? size : pool->min;
-    return size < asked ? size : asked;
+    return size < requested ? size : requested;
 }
 
 /* Whether any pool would be smaller at that share than it is now. */
 static bool can_shrink(const budget_try *attempt, double share)
 {
     for (uint32_t i = 0; i < attempt->type->pool_count; i++)
-        if (size_at(&attempt->type->pools[i], attempt->asked[i], share) < *pool_size(attempt, i))
+        if (size_at(&attempt->type->pools[i], attempt->requested[i], share) < *pool_size(attempt, i))
             return true;
     return false;
 }
@@ -51,12 +51,12 @@ static bool log_shrunk(const virga_context *context, const budget_try *attempt)
     int at = 0;
     list[0] = 0;
     for (uint32_t i = 0; i < attempt->type->pool_count && at < (int)sizeof list; i++)
-        if (*pool_size(attempt, i) != attempt->asked[i])
+        if (*pool_size(attempt, i) != attempt->requested[i])
             at += snprintf(list + at, sizeof list - (size_t)at, "%s%s %u (of %u)", at ? ", " : "",
-                           attempt->type->pools[i].name, *pool_size(attempt, i), attempt->asked[i]);
+                           attempt->type->pools[i].name, *pool_size(attempt, i), attempt->requested[i]);
     if (at)
-        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_SHRUNK,
-                      "%s is made smaller for the memory budget: %s", attempt->type->name, list);
+        virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_SHRUNK,
+                        "%s is made smaller for the memory budget: %s", attempt->type->name, list);
     return at > 0;
 }
 
@@ -66,10 +66,11 @@ virga_result virga_make_in_budget(virga_context *context, const virga_effect_typ
     virga_result result;
     double share = 1;
     for (uint32_t i = 0; i < type->pool_count; i++)
-        attempt.asked[i] = *pool_size(&attempt, i);
+        attempt.requested[i] = *pool_size(&attempt, i);
     for (;;) {
         for (uint32_t i = 0; i < type->pool_count; i++)
-            *pool_size(&attempt, i) = share < 1 ? size_at(&type->pools[i], attempt.asked[i], share) : attempt.asked[i];
+            *pool_size(&attempt, i) =
+                share < 1 ? size_at(&type->pools[i], attempt.requested[i], share) : attempt.requested[i];
         /* From here on some may have reached their minimum while others have steps to go. */
         share *= SHRINK;
         while (share > MIN_SHARE && !can_shrink(&attempt, share))

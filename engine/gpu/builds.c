@@ -67,7 +67,7 @@ static virga_result finish(virga_context *context, virga_pipeline *pipeline, VkR
 virga_result virga_build_request(virga_context *context, virga_pipeline *pipeline, const virga_compute_def *compute,
                                  const virga_graphics_def *graphics)
 {
-    if (context->pipelines_when == VIRGA_PIPELINES_AT_ONCE) {
+    if (context->pipeline_build_mode == VIRGA_PIPELINES_IMMEDIATE) {
         VkPipeline handle = VK_NULL_HANDLE;
         const char *call = NULL;
         const VkResult made = make(context, compute, graphics, &handle, &call);
@@ -91,7 +91,7 @@ virga_result virga_build_request(virga_context *context, virga_pipeline *pipelin
     while (*end)
         end = &(*end)->next;
     *end = build;
-    if (context->pipelines_when == VIRGA_PIPELINES_AS_JOBS)
+    if (context->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS)
         context->pipeline_jobs.run(context->pipeline_jobs.user, run, build);
     return VIRGA_OK;
 }
@@ -138,7 +138,7 @@ virga_result virga_builds_collect(virga_context *context)
             continue;
         }
         if (build->owner && build->owner->resource.retired)
-            virga_build_disown(context, build->owner);
+            virga_build_abandon(context, build->owner);
         if (build->owner) {
             const virga_result result = hand_over(context, build);
             first = first ? first : result;
@@ -155,11 +155,11 @@ virga_result virga_builds_collect(virga_context *context)
 static void drop(const virga_context *context, virga_build *build)
 {
     int expected = WAITING;
-    const bool ours = context->pipelines_when != VIRGA_PIPELINES_AS_JOBS;
+    const bool ours = context->pipeline_build_mode != VIRGA_PIPELINES_AS_JOBS;
     atomic_compare_exchange_strong(&build->state, &expected, ours ? DONE : DROPPED);
 }
 
-void virga_build_disown(virga_context *context, virga_pipeline *pipeline)
+void virga_build_abandon(virga_context *context, virga_pipeline *pipeline)
 {
     if (!pipeline->build)
         return;
@@ -200,21 +200,21 @@ static void run_some(const virga_context *context, uint32_t max_count)
         }
 }
 
-virga_result virga_pipelines_build(virga_context *context, uint32_t most, uint32_t *left)
+virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, uint32_t *remaining)
 {
-    if (left)
-        *left = 0;
+    if (remaining)
+        *remaining = 0;
     if (!context)
         return VIRGA_ERROR_INVALID;
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (context->pipelines_when == VIRGA_PIPELINES_IN_STEPS)
-        run_some(context, most);
+    if (context->pipeline_build_mode == VIRGA_PIPELINES_DEFERRED)
+        run_some(context, max_count);
     const virga_result result = virga_builds_collect(context);
     uint32_t count = 0;
     for (const virga_build *build = context->builds; build; build = build->next)
         count += build->owner && !build->owner->resource.retired;
-    if (left)
-        *left = count;
+    if (remaining)
+        *remaining = count;
     return result ? result : count ? VIRGA_NOT_READY : VIRGA_OK;
 }

@@ -17,7 +17,7 @@ virga_result virga_group_ready(const virga_pipeline_group *group);
 virga_result virga_builds_collect(virga_context *context);
 
 /* The pipeline is destroyed before it was built. */
-void virga_build_disown(virga_context *context, virga_pipeline *pipeline);
+void virga_build_abandon(virga_context *context, virga_pipeline *pipeline);
 
 /* Cancels the builds of retired pipelines that have not started. True while one still runs: then the layout that it
  * reads must not be destroyed. */

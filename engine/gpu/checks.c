@@ -30,7 +30,7 @@ virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ti
 {
     if (!ticks || !last || (int32_t)(first - *last) > 0)
         return VIRGA_OK;
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                  "step_info.first_tick: %u after %u, expected one behind it", first, *last);
+    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                    "step_info.first_tick: %u after %u, expected one behind it", first, *last);
     return VIRGA_ERROR_INVALID;
 }

@@ -38,9 +38,10 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
                                     VIRGA_MAX_FRAMES_IN_FLIGHT, def->frames_in_flight);
     if (!def->device_memory.alloc != !def->device_memory.free)
         return virga_wrong_argument(log, "context_def.device_memory: expected both alloc and free, or neither");
-    if ((uint32_t)def->pipelines > VIRGA_PIPELINES_AS_JOBS)
-        return virga_wrong_argument(log, "context_def.pipelines: there is no %d", (int)def->pipelines);
-    if ((def->pipelines == VIRGA_PIPELINES_AS_JOBS) != (def->pipeline_jobs.run != NULL))
+    if ((uint32_t)def->pipeline_build_mode > VIRGA_PIPELINES_AS_JOBS)
+        return virga_wrong_argument(log, "context_def.pipeline_build_mode: there is no %d",
+                                    (int)def->pipeline_build_mode);
+    if ((def->pipeline_build_mode == VIRGA_PIPELINES_AS_JOBS) != (def->pipeline_jobs.run != NULL))
         return virga_wrong_argument(log, "context_def.pipeline_jobs: expected run with VIRGA_PIPELINES_AS_JOBS, and "
                                          "without it none");
     return VIRGA_OK;
@@ -115,13 +116,13 @@ static virga_result init(virga_context *context, const virga_context_def *def)
     context->memory_budget = def->memory_budget;
     context->frames_in_flight = def->frames_in_flight;
     context->debug_names = def->debug_names;
-    context->pipelines_when = def->pipelines;
+    context->pipeline_build_mode = def->pipeline_build_mode;
     context->pipeline_jobs = def->pipeline_jobs;
     TRY(virga_functions_load_instance(&context->vk, &context->log, def->get_instance_proc_addr, def->instance));
     result =
         virga_check_device(def->get_instance_proc_addr, def->instance, def->physical_device, reason, sizeof reason);
     if (result) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "the device %s", reason);
+        virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "the device %s", reason);
         return result;
     }
     TRY(virga_functions_load_device(&context->vk, &context->log, def->device));
@@ -156,7 +157,7 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
         return virga_wrong_argument(&log, "context_def.host_memory: expected both alloc and free, or neither");
     virga_context *made = virga_alloc(&heap, sizeof *made);
     if (!made) {
-        virga_log_say(&log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for a context");
+        virga_log_write(&log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for a context");
         return VIRGA_ERROR_HOST_MEMORY;
     }
     made->heap = heap;
@@ -168,8 +169,8 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
         free_context(made);
         return result;
     }
-    virga_log_say(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s, %u frames in flight",
-                  made->properties.deviceName, made->frames_in_flight);
+    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "context on %s, %u frames in flight",
+                    made->properties.deviceName, made->frames_in_flight);
     *context = made;
     return VIRGA_OK;
 }
@@ -178,12 +179,12 @@ void virga_context_destroy(virga_context **context)
 {
     if (!context || !*context)
         return;
-    virga_context *dying = *context;
-    if (dying->effects)
-        virga_log_say(&dying->log, VIRGA_LOG_ERROR, VIRGA_LOG_LIVE_OBJECTS,
-                      "%u effects are alive while their context is destroyed; destroy them first", dying->effects);
-    destroy_objects(dying);
-    free_context(dying);
+    virga_context *object = *context;
+    if (object->effects)
+        virga_log_write(&object->log, VIRGA_LOG_ERROR, VIRGA_LOG_LIVE_OBJECTS,
+                        "%u effects are alive while their context is destroyed; destroy them first", object->effects);
+    destroy_objects(object);
+    free_context(object);
     *context = NULL;
 }
 
@@ -197,16 +198,18 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
         return VIRGA_ERROR_DEVICE_LOST;
     if (frame_index <= context->frame_index || completed_index >= frame_index ||
         completed_index < context->completed_index) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                      "frame %llu after %llu with %llu completed: indices start at 1 and rise, and completed is behind",
-                      (unsigned long long)frame_index, (unsigned long long)context->frame_index,
-                      (unsigned long long)completed_index);
+        virga_log_write(
+            &context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+            "frame %llu after %llu with %llu completed: indices start at 1 and rise, and completed is behind",
+            (unsigned long long)frame_index, (unsigned long long)context->frame_index,
+            (unsigned long long)completed_index);
         return VIRGA_ERROR_INVALID;
     }
     if (frame_index - completed_index > context->frames_in_flight) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                      "frame %llu with %llu completed: more than %u frames in flight", (unsigned long long)frame_index,
-                      (unsigned long long)completed_index, context->frames_in_flight);
+        virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                        "frame %llu with %llu completed: more than %u frames in flight",
+                        (unsigned long long)frame_index, (unsigned long long)completed_index,
+                        context->frames_in_flight);
         return VIRGA_ERROR_INVALID;
     }
     context->frame_index = frame_index;
@@ -224,10 +227,10 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     if (completed_index < context->completed_index || completed_index > context->frame_index) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                      "frame %llu said to be complete, between %llu and %llu expected",
-                      (unsigned long long)completed_index, (unsigned long long)context->completed_index,
-                      (unsigned long long)context->frame_index);
+        virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                        "frame %llu said to be complete, between %llu and %llu expected",
+                        (unsigned long long)completed_index, (unsigned long long)context->completed_index,
+                        (unsigned long long)context->frame_index);
         return VIRGA_ERROR_INVALID;
     }
     context->completed_index = completed_index;

@@ -44,7 +44,7 @@ struct virga_context {
 
     /* Resources. */
     struct virga_resource *retired; /* see gpu/retire.h */
-    virga_result upload_failed;     /* of the newest flush that failed, see virga_uploaded */
+    virga_result upload_failed;     /* of the newest flush that failed, see virga_check_uploads */
     VkSampler nearest, linear;      /* clamped to the edge */
     uint32_t objects;               /* Vulkan objects alive */
     uint32_t effects;               /* alive */
@@ -52,7 +52,7 @@ struct virga_context {
 
     /* Pipelines, see gpu/builds.c. */
     VkPipelineCache pipeline_cache;
-    virga_pipelines_when pipelines_when;
+    virga_pipeline_build_mode pipeline_build_mode;
     virga_pipeline_jobs pipeline_jobs;
     struct virga_build *builds; /* waiting, in the order of the requests */
 };

@@ -185,7 +185,7 @@ static virga_result init(virga_effect *effect)
     if (type->create)
         TRY(type->create(effect));
     TRY(create_passes(effect));
-    TRY(virga_uploaded(effect->context));
+    TRY(virga_check_uploads(effect->context));
 error:
     return result < 0 ? result : fitted;
 }
@@ -214,8 +214,8 @@ static void log_created(const virga_effect *effect)
     char line[VIRGA_LOG_LINE];
     const virga_context *context = effect->context;
     effect->type->describe(effect, line, sizeof line);
-    virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%s, %.1f MB of device memory in use", line,
-                  (double)context->device_used * 1e-6);
+    virga_log_write(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%s, %.1f MB of device memory in use", line,
+                    (double)context->device_used * 1e-6);
 }
 
 virga_result virga_effect_create(virga_context *context, const virga_effect_type *type, const char *call,

@@ -134,7 +134,7 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
         return result;
     /* What was prepared for an earlier frame or step is not what the buffers hold now. */
     if (!*found || !effect->view.ready || effect->view.frame != effect->context->frame_index)
-        return virga_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
+        return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
     effect->not_drawn_logged = false;
     return VIRGA_OK;
 }

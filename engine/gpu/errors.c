@@ -39,13 +39,13 @@ virga_result virga_vulkan_failed(virga_context *context, VkResult result, const 
 {
     if (result == VK_ERROR_DEVICE_LOST) {
         if (!context->lost)
-            virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s",
-                          call);
+            virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_LOST, "the device is lost, said %.100s",
+                            call);
         context->lost = true;
         return VIRGA_ERROR_DEVICE_LOST;
     }
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_VULKAN_CALL, "%s (%d) from %.300s",
-                  vulkan_result_name(result), (int)result, call);
+    virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_VULKAN_CALL, "%s (%d) from %.300s",
+                    vulkan_result_name(result), (int)result, call);
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
         return VIRGA_ERROR_HOST_MEMORY;
     return result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? VIRGA_ERROR_DEVICE_MEMORY : VIRGA_ERROR_VULKAN;
@@ -53,7 +53,7 @@ virga_result virga_vulkan_failed(virga_context *context, VkResult result, const 
 
 virga_result virga_out_of_host_memory(virga_context *context, const char *what)
 {
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for %s", what);
+    virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_HOST_MEMORY, "no host memory for %s", what);
     return VIRGA_ERROR_HOST_MEMORY;
 }
 
@@ -64,15 +64,16 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s", line);
+    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s", line);
     return VIRGA_ERROR_INVALID;
 }
 
-virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *logged)
+virga_result virga_log_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready,
+                                 bool *logged)
 {
     if (ready == VIRGA_OK && !*logged) {
-        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "%s: %s", call,
-                      attached ? "nothing was prepared in this frame" : "the target was not attached");
+        virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN, "%s: %s", call,
+                        attached ? "nothing was prepared in this frame" : "the target was not attached");
         *logged = true;
     }
     return VIRGA_NOT_READY;

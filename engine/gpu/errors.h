@@ -35,6 +35,7 @@ virga_result virga_wrong_argument(const virga_log *log, const char *format, ...)
 /* A draw has nothing to draw. Returns VIRGA_NOT_READY, which hosts that check for errors only do not notice, so `call`
  * is logged once: `logged` is reset by the next successful draw. Not logged while pipelines are still being built
  * (`ready` is not VIRGA_OK), which is normal. */
-virga_result virga_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready, bool *logged);
+virga_result virga_log_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready,
+                                 bool *logged);
 
 #endif

@@ -43,8 +43,8 @@ static PFN_vkVoidFunction find(lookup_fn lookup, const void *context, const char
 
 static virga_result missing(const virga_log *log, const char *name)
 {
-    virga_log_say(log, VIRGA_LOG_ERROR, VIRGA_LOG_FUNCTION_MISSING,
-                  "vkGetInstanceProcAddr gives no vk%s, neither by its core name nor with KHR or EXT", name);
+    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FUNCTION_MISSING,
+                    "vkGetInstanceProcAddr gives no vk%s, neither by its core name nor with KHR or EXT", name);
     return VIRGA_ERROR_UNSUPPORTED;
 }
 

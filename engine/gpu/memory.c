@@ -56,7 +56,7 @@ static VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
 }
 
 /* Takes `size` bytes from the page's free ranges; false where no range is large enough. */
-static bool page_take(virga_memory_page *page, VkDeviceSize size, VkDeviceSize alignment, VkDeviceSize *offset)
+static bool page_allocate(virga_memory_page *page, VkDeviceSize size, VkDeviceSize alignment, VkDeviceSize *offset)
 {
     for (uint32_t i = 0; i < page->range_count; i++) {
         free_range *range = &page->ranges[i];
@@ -84,7 +84,7 @@ static bool page_take(virga_memory_page *page, VkDeviceSize size, VkDeviceSize a
     return false;
 }
 
-static void page_give(virga_memory_page *page, VkDeviceSize offset, VkDeviceSize size)
+static void page_free(virga_memory_page *page, VkDeviceSize offset, VkDeviceSize size)
 {
     page->used -= size;
     if (!page->used) {
@@ -162,7 +162,7 @@ error:
 }
 
 /* Bytes that may be allocated in all; 0: no limit. */
-static VkDeviceSize budget_now(const virga_context *context)
+static VkDeviceSize current_budget(const virga_context *context)
 {
     const VkDeviceSize share = context->budget_share;
     return share && share < context->memory_budget ? share : context->memory_budget;
@@ -171,22 +171,22 @@ static VkDeviceSize budget_now(const virga_context *context)
 /* VIRGA_ERROR_DEVICE_MEMORY where `size` more bytes would exceed the budget. */
 static virga_result check_budget(virga_context *context, VkDeviceSize size, const char *name)
 {
-    const VkDeviceSize budget = budget_now(context), taken = context->device_bytes;
-    if (!budget || (taken <= budget && size <= budget - taken))
+    const VkDeviceSize budget = current_budget(context), in_use = context->device_bytes;
+    if (!budget || (in_use <= budget && size <= budget - in_use))
         return VIRGA_OK;
     context->over_budget = true;
     if (context->may_shrink || context->share_is_wish)
         return VIRGA_ERROR_DEVICE_MEMORY;
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY,
-                  "%s needs %llu bytes and the budget of %llu bytes has %llu left", name, (unsigned long long)size,
-                  (unsigned long long)budget, (unsigned long long)(taken < budget ? budget - taken : 0));
+    virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY,
+                    "%s needs %llu bytes and the budget of %llu bytes has %llu left", name, (unsigned long long)size,
+                    (unsigned long long)budget, (unsigned long long)(in_use < budget ? budget - in_use : 0));
     return VIRGA_ERROR_DEVICE_MEMORY;
 }
 
 /* Size of the new page for a request. */
 static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
 {
-    const VkDeviceSize budget = budget_now(context), own = align_up(need, PAGE_ROUND);
+    const VkDeviceSize budget = current_budget(context), own = align_up(need, PAGE_ROUND);
     VkDeviceSize common = PAGE_BYTES;
     if (budget && budget / PAGE_BUDGET < common)
         common = align_up(budget / PAGE_BUDGET + 1, PAGE_ROUND);
@@ -195,14 +195,14 @@ static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
 }
 
 /* A page with room, or a new one. */
-static virga_result take_from_pages(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
-                                    bool for_image, const char *name, virga_memory *memory)
+static virga_result allocate_from_pages(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
+                                        bool for_image, const char *name, virga_memory *memory)
 {
     VkDeviceSize offset = 0;
     virga_memory_page *page = context->pages;
     for (; page; page = page->next)
         if (page->type_index == type_index && page->for_image == for_image &&
-            page_take(page, need->size, need->alignment, &offset))
+            page_allocate(page, need->size, need->alignment, &offset))
             break;
     if (!page) {
         const VkDeviceSize size = page_size(context, need->size);
@@ -211,23 +211,23 @@ static virga_result take_from_pages(virga_context *context, const VkMemoryRequir
             result = page_create(context, size, type_index, for_image, &page);
         if (result)
             return result;
-        page_take(page, need->size, need->alignment, &offset);
+        page_allocate(page, need->size, need->alignment, &offset);
     }
     memory->page = page;
     memory->block = (virga_memory_block){page->memory, offset, page->mapped ? page->mapped + offset : NULL, NULL};
     return VIRGA_OK;
 }
 
-static virga_result take_from_host(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
-                                   bool mapped, const char *name, virga_memory *memory)
+static virga_result allocate_from_host(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
+                                       bool mapped, const char *name, virga_memory *memory)
 {
     const virga_result result = check_budget(context, need->size, name);
     if (result)
         return result;
-    const VkResult taken =
+    const VkResult result_of_host =
         context->device_memory.alloc(context->device_memory.user, need, type_index, mapped, &memory->block);
-    if (taken != VK_SUCCESS)
-        return virga_vulkan_failed(context, taken, "the host's device memory callback");
+    if (result_of_host != VK_SUCCESS)
+        return virga_vulkan_failed(context, result_of_host, "the host's device memory callback");
     context->device_allocations++;
     context->device_bytes += need->size;
     return VIRGA_OK;
@@ -240,13 +240,13 @@ virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequire
     memset(memory, 0, sizeof *memory);
     const uint32_t type = choose_type(context, requirements->memoryTypeBits, wanted, preferred);
     if (type == UINT32_MAX) {
-        virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY, "no memory type suits %s", name);
+        virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_DEVICE_MEMORY, "no memory type suits %s", name);
         return VIRGA_ERROR_DEVICE_MEMORY;
     }
     const bool mapped = wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
     const virga_result result = context->device_memory.alloc
-                                    ? take_from_host(context, requirements, type, mapped, name, memory)
-                                    : take_from_pages(context, requirements, type, for_image, name, memory);
+                                    ? allocate_from_host(context, requirements, type, mapped, name, memory)
+                                    : allocate_from_pages(context, requirements, type, for_image, name, memory);
     if (result)
         return result;
     memory->size = requirements->size;
@@ -261,7 +261,7 @@ void virga_memory_release(virga_context *context, virga_memory *memory)
         return;
     context->device_used -= memory->size;
     if (memory->page) {
-        page_give(memory->page, memory->block.offset, memory->size);
+        page_free(memory->page, memory->block.offset, memory->size);
         if (!memory->page->used)
             page_destroy(context, memory->page);
     } else {

@@ -169,10 +169,10 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
                                    virga_pipeline_group *group, virga_mesh_map **map)
 {
     virga_result result = VIRGA_OK;
-    const uint32_t most = context->properties.limits.maxVertexInputBindingStride;
+    const uint32_t max = context->properties.limits.maxVertexInputBindingStride;
     for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
-        if (strides[i] > most)
-            return virga_wrong_argument(&context->log, "%s: occluder_strides: the device allows %u, got %u", name, most,
+        if (strides[i] > max)
+            return virga_wrong_argument(&context->log, "%s: occluder_strides: the device allows %u, got %u", name, max,
                                         strides[i]);
     virga_mesh_map *made = virga_alloc(&context->heap, sizeof *made);
     if (!made)
@@ -230,9 +230,9 @@ static virga_result check_mesh(const virga_log *log, const virga_occluder *mesh,
         return virga_wrong_argument(log, "occluder %u: cover: expected 0 to 1, got %g", i, (double)mesh->cover);
     bool none = true;
     for (int k = 0; k < 12; k++) {
-        if (!(fabs((double)mesh->world_from_mesh[k]) <= VIRGA_FARTHEST_M))
+        if (!(fabs((double)mesh->world_from_mesh[k]) <= VIRGA_MAX_COORDINATE_M))
             return virga_wrong_argument(log, "occluder %u: world_from_mesh[%d]: is %g, expected no more than %g", i, k,
-                                        (double)mesh->world_from_mesh[k], VIRGA_FARTHEST_M);
+                                        (double)mesh->world_from_mesh[k], VIRGA_MAX_COORDINATE_M);
         none = none && (k % 4 == 3 || mesh->world_from_mesh[k] == 0);
     }
     if (none && mesh->index_count)
@@ -257,7 +257,7 @@ virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh
 /* Translations are large far from the world's origin, so they are made relative to the map's origin in double. */
 static virga_map_push describe_push(const virga_mesh_map *map, const virga_map_view *view, const virga_occluder *mesh)
 {
-    virga_map_push push = {.centre = {(float)view->centre[0], (float)view->centre[1]},
+    virga_map_push push = {.center = {(float)view->center[0], (float)view->center[1]},
                            .inv_half_m = (float)(1 / view->half_m),
                            .inv_height = (float)(1 / view->height_m),
                            .slant = {(float)view->slant[0], (float)view->slant[1]},
@@ -306,7 +306,7 @@ void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virg
     context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
     for (uint32_t i = 0; i < count; i++)
         if (meshes[i].index_count && (!view->ground_only || meshes[i].ground) &&
-            (!view->still_only || !meshes[i].moves))
+            (!view->still_only || !meshes[i].is_dynamic))
             draw_mesh(context, cmd, map, view, &meshes[i], &bound);
     context->vk.CmdEndRenderPass(cmd);
 }

@@ -30,7 +30,7 @@ typedef struct virga_mesh_map {
 /* Where a layer looks, relative to an origin near it. */
 typedef struct virga_map_view {
     double origin_m[3];
-    double centre[2]; /* in sheared coordinates */
+    double center[2]; /* in sheared coordinates */
     double slant[2];
     double half_m;    /* half of the side */
     double top_m;     /* height of depth 0 */

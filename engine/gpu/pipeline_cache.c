@@ -58,9 +58,9 @@ virga_result virga_pipeline_cache_create(virga_context *context, const void *blo
         info.initialDataSize = size - sizeof(blob_head);
         info.pInitialData = data;
     } else if (blob && size) {
-        virga_log_say(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_PIPELINE_CACHE,
-                      "the pipeline cache blob is %s; starting with an empty one",
-                      whole ? "from another driver or device" : "not whole, or not one of virga_pipeline_cache_get");
+        virga_log_write(&context->log, VIRGA_LOG_INFO, VIRGA_LOG_PIPELINE_CACHE,
+                        "the pipeline cache blob is %s; starting with an empty one",
+                        whole ? "from another driver or device" : "not whole, or not one of virga_pipeline_cache_get");
     }
     VK_TRY(context, CreatePipelineCache(context->device, &info, NULL, &context->pipeline_cache));
     context->objects++;

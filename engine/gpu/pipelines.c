@@ -11,7 +11,7 @@
 static void pipeline_destroy(virga_context *context, virga_resource *resource)
 {
     virga_pipeline *pipeline = (virga_pipeline *)resource;
-    virga_build_disown(context, pipeline);
+    virga_build_abandon(context, pipeline);
     virga_free(&context->heap, pipeline->code);
     VIRGA_DESTROY(context, Pipeline, pipeline->pipeline);
     virga_free(&context->heap, pipeline);
@@ -262,9 +262,9 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
 /* From the SPIR-V specification: length of the header, opcodes, a decoration and a storage class. */
 enum { SPIRV_HEADER_WORDS = 5, OP_VARIABLE = 59, OP_DECORATE = 71, LOCATION = 30, OUTPUT = 3 };
 
-static bool is_output(const uint32_t *code, size_t words, uint32_t id)
+static bool is_output(const uint32_t *code, size_t word_count, uint32_t id)
 {
-    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16)
+    for (size_t at = SPIRV_HEADER_WORDS; at < word_count; at += code[at] >> 16)
         if ((code[at] & 0xffff) == OP_VARIABLE && code[at + 2] == id)
             return code[at + 3] == OUTPUT;
     return false;
@@ -272,10 +272,11 @@ static bool is_output(const uint32_t *code, size_t words, uint32_t id)
 
 /* The host decides which attachment gets which output, but Vulkan can not specialise locations. So they are patched in
  * the SPIR-V, which needs no check because it is our own. */
-static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t words)
+static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t word_count)
 {
-    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += code[at] >> 16) {
-        if ((code[at] & 0xffff) != OP_DECORATE || code[at + 2] != LOCATION || !is_output(code, words, code[at + 1]))
+    for (size_t at = SPIRV_HEADER_WORDS; at < word_count; at += code[at] >> 16) {
+        if ((code[at] & 0xffff) != OP_DECORATE || code[at + 2] != LOCATION ||
+            !is_output(code, word_count, code[at + 1]))
             continue;
         if (code[at + 3] == LOCATION_MOTION)
             code[at + 3] = def->motion_attachment;

@@ -87,7 +87,7 @@ void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage im
     context->vk.CmdPipelineBarrier(cmd, from, after.stage, 0, 0, NULL, 0, NULL, 1, &barrier);
 }
 
-void virga_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4])
+void virga_set_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4])
 {
     const VkViewport area = {viewport[0], viewport[1], viewport[2], viewport[3], 0, 1};
     const VkRect2D scissor = {{viewport[0] > 0 ? (int32_t)viewport[0] : 0, viewport[1] > 0 ? (int32_t)viewport[1] : 0},

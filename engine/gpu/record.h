@@ -5,7 +5,7 @@
 #include "gpu/pipelines.h"
 
 /* Sets viewport and scissor to a view's rectangle: x, y, width, height in pixels. */
-void virga_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4]);
+void virga_set_draw_area(virga_context *context, VkCommandBuffer cmd, const float viewport[4]);
 
 /* A memory barrier: writes before it, in the stages `from`, are visible to accesses after it, in the stages `to`. */
 void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageFlags from, VkAccessFlags wrote,

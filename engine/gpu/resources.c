@@ -45,8 +45,9 @@ static virga_result check_limit(virga_context *context, const char *name, const 
 {
     if (value <= limit)
         return VIRGA_OK;
-    virga_log_say(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING, "%s: %llu %s, and the device allows %llu",
-                  name, (unsigned long long)value, what, (unsigned long long)limit);
+    virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FEATURE_MISSING,
+                    "%s: %llu %s, and the device allows %llu", name, (unsigned long long)value, what,
+                    (unsigned long long)limit);
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
@@ -143,7 +144,7 @@ void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
         virga_vulkan_failed(context, result, "vkInvalidateMappedMemoryRanges"); /* statistics stay as they were */
 }
 
-virga_result virga_uploaded(virga_context *context)
+virga_result virga_check_uploads(virga_context *context)
 {
     const virga_result result = context->upload_failed;
     context->upload_failed = VIRGA_OK;

@@ -43,12 +43,12 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 virga_image_2d **image);
 
 /* Make what the host wrote visible to the device, and what the device wrote visible to the host. A failed flush is
- * logged, and the API call that flushed returns virga_uploaded(). */
+ * logged, and the API call that flushed returns virga_check_uploads(). */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
 
 /* The error of the flushes since the last call, or VIRGA_OK. A lost device stays lost. */
-virga_result virga_uploaded(virga_context *context);
+virga_result virga_check_uploads(virga_context *context);
 
 /* The name that debuggers and validation messages show. */
 void virga_set_name(virga_context *context, VkObjectType type, uint64_t handle, const char *name);

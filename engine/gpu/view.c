@@ -15,10 +15,10 @@
 
 /* Limits of the first two diagonal elements of a projection, the cotangents of half its field of view: from 179.99
  * degrees to a tenth of a microradian. Larger elements are useless, and their products exceed the range of floats. */
-#define LEAST_PROJECTION 1e-4f
-#define MOST_PROJECTION  1e7f
-#define MOST_TIME_S      1e9
-#define MOST_SUB_FRAMES  65536
+#define MIN_PROJECTION 1e-4f
+#define MAX_PROJECTION 1e7f
+#define MAX_TIME_S     1e9
+#define MAX_SUB_FRAMES 65536
 
 virga_view virga_default_view(void)
 {
@@ -37,18 +37,18 @@ static virga_result check_projection(const virga_log *log, const char *name, con
 {
     bool sound = p[11] == -1;
     for (int i = 0; i < 16; i++)
-        sound = sound && fabsf(p[i]) <= MOST_PROJECTION;
-    if (!sound || !(fabsf(p[0]) >= LEAST_PROJECTION) || !(fabsf(p[5]) >= LEAST_PROJECTION))
+        sound = sound && fabsf(p[i]) <= MAX_PROJECTION;
+    if (!sound || !(fabsf(p[0]) >= MIN_PROJECTION) || !(fabsf(p[5]) >= MIN_PROJECTION))
         return virga_wrong_argument(log, "%s: expected a perspective projection with w = -z", name);
     return VIRGA_OK;
 }
 
 static virga_result check_camera(const virga_log *log, const virga_view *view)
 {
-    if (virga_settings_places(log, "view.position_m", view->position_m, 3) ||
-        virga_settings_places(log, "view.open_position_m", view->open_position_m, 3) ||
-        virga_settings_rotation(log, "view.view_from_world", view->view_from_world, 4) ||
-        virga_settings_rotation(log, "view.open_view_from_world", view->open_view_from_world, 4) ||
+    if (virga_settings_check_positions(log, "view.position_m", view->position_m, 3) ||
+        virga_settings_check_positions(log, "view.open_position_m", view->open_position_m, 3) ||
+        virga_settings_check_rotation(log, "view.view_from_world", view->view_from_world, 4) ||
+        virga_settings_check_rotation(log, "view.open_view_from_world", view->open_view_from_world, 4) ||
         check_projection(log, "view.clip_from_view", view->clip_from_view) ||
         check_projection(log, "view.open_clip_from_view", view->open_clip_from_view))
         return VIRGA_ERROR_INVALID;
@@ -86,16 +86,17 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     bool given = false; /* all zero: the open camera */
     for (int i = 0; i < 16; i++)
         given = given || temporal->clip_from_view[i] != 0; /* also true for NaN */
-    if (given && (virga_settings_places(log, "view.temporal.position_m", temporal->position_m, 3) ||
-                  virga_settings_rotation(log, "view.temporal.view_from_world", temporal->view_from_world, 4) ||
+    if (given && (virga_settings_check_positions(log, "view.temporal.position_m", temporal->position_m, 3) ||
+                  virga_settings_check_rotation(log, "view.temporal.view_from_world", temporal->view_from_world, 4) ||
                   check_projection(log, "view.temporal.clip_from_view", temporal->clip_from_view)))
         return VIRGA_ERROR_INVALID;
-    if (virga_settings_finite_double(log, "view.temporal.position_m", temporal->position_m, 3) ||
-        virga_settings_finite(log, "view.temporal.view_from_world", temporal->view_from_world, 16) ||
-        virga_settings_finite(log, "view.temporal.motion_scale", scale, 2))
+    if (virga_settings_check_finite_double(log, "view.temporal.position_m", temporal->position_m, 3) ||
+        virga_settings_check_finite(log, "view.temporal.view_from_world", temporal->view_from_world, 16) ||
+        virga_settings_check_finite(log, "view.temporal.motion_scale", scale, 2))
         return VIRGA_ERROR_INVALID;
-    if (!(temporal->ago_s >= 0 && temporal->ago_s <= 1))
-        return virga_wrong_argument(log, "view.temporal.ago_s: expected 0 to 1 s, got %g", temporal->ago_s);
+    if (!(temporal->frame_interval_s >= 0 && temporal->frame_interval_s <= 1))
+        return virga_wrong_argument(log, "view.temporal.frame_interval_s: expected 0 to 1 s, got %g",
+                                    temporal->frame_interval_s);
     if (scale[0] == 0 || scale[1] == 0)
         return virga_wrong_argument(log, "view.temporal.motion_scale: expected other numbers than 0");
     if (!(temporal->motion_coverage > 0 && temporal->motion_coverage <= 1))
@@ -112,7 +113,7 @@ static virga_result check_viewport(const virga_context *context, const float box
 {
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
     const virga_log *log = &context->log;
-    if (virga_settings_finite(log, "view.viewport", box, 4))
+    if (virga_settings_check_finite(log, "view.viewport", box, 4))
         return VIRGA_ERROR_INVALID;
     for (int axis = 0; axis < 2; axis++)
         if (box[axis] < limits->viewportBoundsRange[0] ||
@@ -123,9 +124,9 @@ static virga_result check_viewport(const virga_context *context, const float box
                                         (double)box[2], (double)box[3], (double)box[0], (double)box[1]);
     if (box[2] >= 1 && box[3] >= 1)
         return VIRGA_OK;
-    virga_log_say(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT,
-                  "view.viewport: %g x %g pixels, there is nothing to draw%s", (double)box[2], (double)box[3],
-                  box[3] < 0 ? "; for a picture upside down negate clip_from_view[5]" : "");
+    virga_log_write(log, VIRGA_LOG_WARNING, VIRGA_LOG_ARGUMENT,
+                    "view.viewport: %g x %g pixels, there is nothing to draw%s", (double)box[2], (double)box[3],
+                    box[3] < 0 ? "; for a picture upside down negate clip_from_view[5]" : "");
     return VIRGA_NOT_READY;
 }
 
@@ -139,18 +140,17 @@ virga_result virga_view_check(const virga_context *context, const virga_view *vi
         return VIRGA_ERROR_INVALID;
     if (!(view->shutter_s >= 0 && view->shutter_s <= 1))
         return virga_wrong_argument(log, "view.shutter_s: expected 0 to 1 s, got %g", view->shutter_s);
-    if (!view->sub_frames || view->sub_frames > MOST_SUB_FRAMES)
-        return virga_wrong_argument(log, "view.sub_frames: expected 1 to %d, got %u", MOST_SUB_FRAMES,
-                                    view->sub_frames);
+    if (!view->sub_frames || view->sub_frames > MAX_SUB_FRAMES)
+        return virga_wrong_argument(log, "view.sub_frames: expected 1 to %d, got %u", MAX_SUB_FRAMES, view->sub_frames);
     if (!(view->aperture_m >= 0 && view->aperture_m <= 1))
         return virga_wrong_argument(log, "view.aperture_m: expected 0 to 1 m, got %g", (double)view->aperture_m);
     if (!(view->focus_m >= 0 && view->focus_m <= 1e6f))
         return virga_wrong_argument(log, "view.focus_m: expected 0 to 1e6 m, got %g", (double)view->focus_m);
-    if (!(view->open_camera_s >= 0 && view->open_camera_s <= MOST_TIME_S))
-        return virga_wrong_argument(log, "view.open_camera_s: expected 0 to %g s, got %g", MOST_TIME_S,
+    if (!(view->open_camera_s >= 0 && view->open_camera_s <= MAX_TIME_S))
+        return virga_wrong_argument(log, "view.open_camera_s: expected 0 to %g s, got %g", MAX_TIME_S,
                                     view->open_camera_s);
-    if (!(fabs(time_s) <= MOST_TIME_S))
-        return virga_wrong_argument(log, "time_s: expected a time within %g s, got %g", MOST_TIME_S, time_s);
+    if (!(fabs(time_s) <= MAX_TIME_S))
+        return virga_wrong_argument(log, "time_s: expected a time within %g s, got %g", MAX_TIME_S, time_s);
     const virga_result temporal = check_temporal(log, &view->temporal);
     return temporal ? temporal : check_viewport(context, view->viewport);
 }
@@ -274,7 +274,7 @@ static void fill_temporal(const virga_view *view, virga_view_gpu *out)
     clip_from_relative(given ? temporal->clip_from_view : view->open_clip_from_view,
                        given ? temporal->view_from_world : view->open_view_from_world, moved,
                        out->previous_clip_from_rel);
-    out->ago_s = (float)(temporal->ago_s > 0 ? temporal->ago_s : open_s);
+    out->frame_interval_s = (float)(temporal->frame_interval_s > 0 ? temporal->frame_interval_s : open_s);
     memcpy(out->motion_scale, temporal->motion_scale, sizeof out->motion_scale);
     out->motion_coverage = temporal->motion_coverage;
     out->reactive_gain = temporal->reactive_gain;

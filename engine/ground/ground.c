@@ -37,7 +37,7 @@ virga_ground_def virga_default_ground_def(void)
                               .seed = 1,
                               .cells = 1024,
                               .cell_m = 0.05f,
-                              .kept_tiles = 1024,
+                              .cached_tiles = 1024,
                               .far_cells = 512,
                               .tick_s = 1.0 / 60,
                               .flow_ticks = 4,
@@ -45,7 +45,7 @@ virga_ground_def virga_default_ground_def(void)
                               .ripple_texel_m = 0.005f,
                               .max_impacts = 65536,
                               .max_spawns = 65536,
-                              .max_returns = 131072,
+                              .max_returned_droplets = 131072,
                               .max_ticks_per_step = 16,
                               .occluder_strides = {12, 32}};
 }
@@ -65,7 +65,7 @@ static void fit_to_cells(virga_ground_def *def)
 {
     const uint32_t tiles = def->cells / VIRGA_GROUND_TILE, min_kept = 2 * tiles * tiles;
     const uint32_t twice = 2 * def->cells / VIRGA_GROUND_FAR_CELL, min_far = twice > 128 ? twice : 128;
-    def->kept_tiles = def->kept_tiles > min_kept ? def->kept_tiles : min_kept;
+    def->cached_tiles = def->cached_tiles > min_kept ? def->cached_tiles : min_kept;
     if (def->far_cells)
         def->far_cells = def->far_cells < min_far ? min_far : def->far_cells / VIRGA_GROUND_TILE * VIRGA_GROUND_TILE;
 }
@@ -73,7 +73,7 @@ static void fit_to_cells(virga_ground_def *def)
 static const virga_setting_row def_rows[] = {
     {"ground_def.cells", VIRGA_NUMBER_U32, offsetof(virga_ground_def, cells), 128, 4096},
     {"ground_def.cell_m", VIRGA_NUMBER_FLOAT, offsetof(virga_ground_def, cell_m), 0.01, 0.1},
-    {"ground_def.kept_tiles", VIRGA_NUMBER_U32, offsetof(virga_ground_def, kept_tiles), 0, 60000},
+    {"ground_def.cached_tiles", VIRGA_NUMBER_U32, offsetof(virga_ground_def, cached_tiles), 0, 60000},
     {"ground_def.far_cells", VIRGA_NUMBER_U32, offsetof(virga_ground_def, far_cells), 0, 2048},
     {"ground_def.ripple_texels", VIRGA_NUMBER_U32, offsetof(virga_ground_def, ripple_texels), 64, 4096},
     {"ground_def.ripple_texel_m", VIRGA_NUMBER_FLOAT, offsetof(virga_ground_def, ripple_texel_m), 0.002, 0.05},
@@ -81,7 +81,8 @@ static const virga_setting_row def_rows[] = {
     {"ground_def.flow_ticks", VIRGA_NUMBER_U32, offsetof(virga_ground_def, flow_ticks), 1, 60},
     {"ground_def.max_impacts", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_impacts), 256, 4194240},
     {"ground_def.max_spawns", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_spawns), 0, 1048576},
-    {"ground_def.max_returns", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_returns), 0, 4194240},
+    {"ground_def.max_returned_droplets", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_returned_droplets), 0,
+     4194240},
     {"ground_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_ticks_per_step), 1, 64},
 };
 
@@ -118,8 +119,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_CELLS] = (VkDeviceSize)def->cells * def->cells;
     counts[COUNT_SIDE] = def->cells;
     counts[COUNT_TWO_SIDES] = 2 * def->cells;
-    counts[COUNT_KEPT] = (VkDeviceSize)def->kept_tiles * VIRGA_GROUND_TILE_CELLS;
-    counts[COUNT_LANDINGS] = (VkDeviceSize)def->max_impacts + def->max_returns;
+    counts[COUNT_KEPT] = (VkDeviceSize)def->cached_tiles * VIRGA_GROUND_TILE_CELLS;
+    counts[COUNT_LANDINGS] = (VkDeviceSize)def->max_impacts + def->max_returned_droplets;
     counts[COUNT_SPAWNS] = def->max_spawns;
     counts[COUNT_FAR_CELLS] = far_cells ? (VkDeviceSize)far_cells * far_cells : 1;
     counts[COUNT_FAR_WIDTH] = far_cells > VIRGA_GROUND_MATERIALS ? far_cells : VIRGA_GROUND_MATERIALS;
@@ -141,15 +142,15 @@ static const virga_effect_buffer buffers[] = {
     {"ground.stirs", AT(stirs), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
     {"ground.swings", AT(swings), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
     {"ground.spots", AT(spots), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL},
-    {"ground.kept_cells", AT(kept_cells), STORAGE_USE, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_KEPT, FILL},
-    {"ground.kept_spots", AT(kept_spots), STORAGE_USE, DEVICE, 0, 8, COUNT_KEPT},
+    {"ground.cached_cells", AT(cached_cells), STORAGE_USE, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_KEPT, FILL},
+    {"ground.cached_spots", AT(cached_spots), STORAGE_USE, DEVICE, 0, 8, COUNT_KEPT},
     {"ground.counts", AT(counts), STORAGE_USE, DEVICE, sizeof(ground_readback), .first = FILL},
     {"ground.landings", AT(landings), STORAGE_USE, DEVICE, 0, sizeof(virga_landing_gpu), COUNT_LANDINGS, FILL},
     {"ground.spawns", AT(spawns), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_spawns_gpu), sizeof(virga_spawn_gpu),
      COUNT_SPAWNS, FILL},
     {"ground.no_rules", AT(no_rules), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_TRANSFER_DST_BIT, DEVICE,
      sizeof(virga_splash_rules_gpu), .first = FILL},
-    {"ground.rings", AT(rings), STORAGE_USE, DEVICE, sizeof(virga_rings_gpu) + VIRGA_RINGS * sizeof(virga_ring_gpu),
+    {"ground.rings", AT(rings), STORAGE_USE, DEVICE, sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu),
      .first = FILL},
     {"ground.far_floors", AT(far.floors), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, DEVICE, 0, sizeof(virga_far_floor_gpu),
      COUNT_FAR_CELLS},
@@ -205,7 +206,7 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(stirs)},          /* 5 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(arrivals)},       /* 6 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spots)},          /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(kept_cells)},     /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cached_cells)},   /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(counts)},         /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(landings)},       /* 10 */
     [BIND_DEPTH] = {SAMPLED, COMPUTE},                           /* 11 */
@@ -241,16 +242,16 @@ static const virga_effect_pass passes[] = {
     {"ground.flow", AT(flow), VIRGA_SPIRV_ROW(ground_flow_comp)},
     {"ground.ring", AT(ring), VIRGA_SPIRV_ROW(ground_ring_comp)},
     {"ground.measure", AT(measure), VIRGA_SPIRV_ROW(ground_measure_comp)},
-    {"ground.measure_kept", AT(measure_kept), VIRGA_SPIRV_ROW(ground_measure_comp), .constant = VK_TRUE},
+    {"ground.measure_cached", AT(measure_cached), VIRGA_SPIRV_ROW(ground_measure_comp), .constant = VK_TRUE},
     {"ground.map", AT(map), VIRGA_SPIRV_ROW(ground_map_comp)},
-    {"ground.far_floor", AT(far.find_floors), VIRGA_SPIRV_ROW(ground_far_floor_comp)},
+    {"ground.far_floor", AT(far.floor_pass), VIRGA_SPIRV_ROW(ground_far_floor_comp)},
     {"ground.far_map", AT(far.draw), VIRGA_SPIRV_ROW(ground_far_map_comp)},
 };
 
 /* Its window, what it keeps beyond that, and the map of ripples. What it shares with rain and splashes stays. */
 static const virga_effect_pool pools[] = {
     {"cells", offsetof(virga_ground_def, cells), 128, 0},
-    {"kept_tiles", offsetof(virga_ground_def, kept_tiles), 0, 1},
+    {"cached_tiles", offsetof(virga_ground_def, cached_tiles), 0, 1},
     {"ripple_texels", offsetof(virga_ground_def, ripple_texels), 64, 1},
     {"far_cells", offsetof(virga_ground_def, far_cells), 0, VIRGA_GROUND_TILE},
 };
@@ -276,10 +277,10 @@ static virga_result init(void *object)
     virga_ground *ground = object;
     ground->settings = virga_default_ground_settings(); /* dry: as memory of zeros is */
     ground->window.tiles = ground->def.cells / VIRGA_GROUND_TILE;
-    ground->window.kept_capacity = ground->def.kept_tiles;
-    ground->window.kept =
-        virga_alloc_array(&ground->base.context->heap, ground->def.kept_tiles, sizeof ground->window.kept[0]);
-    return ground->window.kept ? VIRGA_OK : virga_out_of_host_memory(ground->base.context, "the tiles of the ground");
+    ground->window.cache_capacity = ground->def.cached_tiles;
+    ground->window.cache =
+        virga_alloc_array(&ground->base.context->heap, ground->def.cached_tiles, sizeof ground->window.cache[0]);
+    return ground->window.cache ? VIRGA_OK : virga_out_of_host_memory(ground->base.context, "the tiles of the ground");
 }
 
 static virga_result create(void *object)
@@ -289,9 +290,10 @@ static virga_result create(void *object)
     const virga_ground_def *def = &ground->def;
     virga_pipeline_group *group = &ground->base.passes;
     virga_result result = VIRGA_OK;
-    TRY(virga_mesh_map_create(context, def->cells, 1, def->occluder_strides, "ground.survey", group, &ground->survey));
-    TRY(virga_mesh_map_create(context, def->far_cells, 2, def->occluder_strides, "ground.far_survey", group,
-                              &ground->far.survey));
+    TRY(virga_mesh_map_create(context, def->cells, 1, def->occluder_strides, "ground.height_map", group,
+                              &ground->height_map));
+    TRY(virga_mesh_map_create(context, def->far_cells, 2, def->occluder_strides, "ground.far_height_map", group,
+                              &ground->far.height_map));
     TRY(ground_ripples_create(context, def->ripple_texels, (double)def->ripple_texel_m, ground->bindings->layout, group,
                               &ground->ripples));
 error:
@@ -302,17 +304,17 @@ static void destroy(void *object)
 {
     virga_ground *ground = object;
     virga_context *context = ground->base.context;
-    virga_mesh_map_retire(context, &ground->survey);
-    virga_mesh_map_retire(context, &ground->far.survey);
+    virga_mesh_map_retire(context, &ground->height_map);
+    virga_mesh_map_retire(context, &ground->far.height_map);
     ground_ripples_retire(context, &ground->ripples);
-    virga_free(&context->heap, ground->window.kept);
+    virga_free(&context->heap, ground->window.cache);
 }
 
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_ground_def *def = &((const virga_ground *)object)->def;
     snprintf(line, size, "ground: %u x %u cells of %g m, %u tiles kept", def->cells, def->cells, (double)def->cell_m,
-             def->kept_tiles);
+             def->cached_tiles);
 }
 
 VIRGA_EFFECT_FUNCTIONS(ground)
@@ -356,10 +358,11 @@ static void write_set(virga_ground *ground, uint32_t source)
     virga_effect_bound(&ground->base, ground->bindings, bound);
     bound[BIND_IMPACTS] =
         source == GROUND_RETURNS
-            ? host_list(ground, info->returns, info->returns_offset, info->returns_size, def->max_returns)
+            ? host_list(ground, info->returned_droplets, info->returned_droplets_offset, info->returned_droplets_size,
+                        def->max_returned_droplets)
             : host_list(ground, info->impacts, info->impacts_offset, info->impacts_size, def->max_impacts);
-    bound[BIND_DEPTH] = sampled(ground, ground->survey->depth);
-    bound[BIND_SURFACE] = sampled(ground, ground->survey->surface);
+    bound[BIND_DEPTH] = sampled(ground, ground->height_map->depth);
+    bound[BIND_SURFACE] = sampled(ground, ground->height_map->surface);
     bound[BIND_WET_MAP] = written(ground->wet_map);
     bound[BIND_SPOT_MAP] = written(ground->spot_map);
     bound[BIND_WAVES] = sampled(ground, ground->ripples->waves);
@@ -368,8 +371,8 @@ static void write_set(virga_ground *ground, uint32_t source)
                                                            .offset = info->splash_rules_offset,
                                                            .range = sizeof(virga_splash_rules_gpu)}
                                            : (virga_bound){.buffer = ground->no_rules->buffer};
-    bound[BIND_FAR_DEPTH] = sampled(ground, ground->far.survey->depth);
-    bound[BIND_FAR_SURFACE] = sampled(ground, ground->far.survey->surface);
+    bound[BIND_FAR_DEPTH] = sampled(ground, ground->far.height_map->depth);
+    bound[BIND_FAR_SURFACE] = sampled(ground, ground->far.height_map->surface);
     bound[BIND_FAR_MAP] = written(ground->far.map);
     ground->sets[source] = virga_bindings_write(context, ground->bindings, source, bound);
 }
@@ -377,7 +380,7 @@ static void write_set(virga_ground *ground, uint32_t source)
 void ground_write_sets(virga_ground *ground)
 {
     write_set(ground, GROUND_DROPS);
-    if (ground->info.returns)
+    if (ground->info.returned_droplets)
         write_set(ground, GROUND_RETURNS);
 }
 
@@ -406,10 +409,10 @@ virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings 
     return result;
 }
 
-void virga_ground_survey(virga_ground *ground)
+void virga_ground_refresh_heights(virga_ground *ground)
 {
     if (ground)
-        ground->survey_all = true;
+        ground->redraw_heights = true;
 }
 
 /* ---- what others read */
@@ -422,7 +425,7 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     if (!ground)
         return;
     const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
-    *maps = (virga_ground_maps){.wet = ground->wet_map->layer_views[0],
+    *maps = (virga_ground_maps){.wetness = ground->wet_map->layer_views[0],
                                 .spots = ground->spot_map->layer_views[0],
                                 .cells = ground->def.cells,
                                 .cell_m = ground->def.cell_m,
@@ -488,5 +491,5 @@ void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats)
         return;
     virga_effect_read_statistics(&ground->base);
     *stats = ground->stats;
-    stats->tiles_kept = ground->window.kept_count;
+    stats->tiles_cached = ground->window.cached_count;
 }

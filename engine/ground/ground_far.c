@@ -26,38 +26,39 @@ bool ground_far_follow(virga_ground *ground, const double camera_m[3])
 {
     ground_far *far = &ground->far;
     int32_t low[2];
-    bool moves = !far->placed;
+    bool moves = !far->is_placed;
     if (!ground->def.far_cells)
         return false;
     for (int axis = 0; axis < 2; axis++) {
-        const double most = INT32_MAX / STEP / VIRGA_GROUND_FAR_CELL - 2.0 * ground->def.far_cells;
+        const double max = INT32_MAX / STEP / VIRGA_GROUND_FAR_CELL - 2.0 * ground->def.far_cells;
         const double at = floor(camera_m[axis * 2] / (STEP * cell_m(ground)));
-        low[axis] = (int32_t)fmin(fmax(at, -most), most) * STEP - (int32_t)ground->def.far_cells / 2;
+        low[axis] = (int32_t)fmin(fmax(at, -max), max) * STEP - (int32_t)ground->def.far_cells / 2;
         moves = moves || abs(low[axis] - far->low[axis]) > STEP;
     }
     if (moves) {
         far->low[0] = low[0];
         far->low[1] = low[1];
     }
-    far->placed = true;
+    far->is_placed = true;
     return moves;
 }
 
-void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
 {
     ground_far *far = &ground->far;
     const uint32_t cells = ground->def.far_cells;
-    virga_map_view view = {
-        .half_m = 0.5 * cells * cell_m(ground), .height_m = GROUND_SURVEY_DEEP_M, .top_m = GROUND_SURVEY_TOP_M};
+    virga_map_view view = {.half_m = 0.5 * cells * cell_m(ground),
+                           .height_m = GROUND_HEIGHT_MAP_DEPTH_M,
+                           .top_m = GROUND_HEIGHT_MAP_TOP_M};
     for (int axis = 0; axis < 2; axis++)
         view.origin_m[axis * 2] = far->low[axis] * cell_m(ground) + view.half_m;
     view.origin_m[1] = ground->base_m;
     view.still_only = true;
     for (uint32_t layer = 0; layer < 2; layer++) {
         view.ground_only = layer == 0;
-        virga_mesh_map_draw(ground->base.context, cmd, far->survey, layer, &view, info->meshes, info->mesh_count);
+        virga_mesh_map_draw(ground->base.context, cmd, far->height_map, layer, &view, info->meshes, info->mesh_count);
     }
-    virga_dispatch(ground->base.context, cmd, far->find_floors, cells * cells / VIRGA_GROUND_GROUP);
+    virga_dispatch(ground->base.context, cmd, far->floor_pass, cells * cells / VIRGA_GROUND_GROUP);
     virga_compute_barrier(ground->base.context, cmd);
     far->drawn = false;
 }
@@ -92,7 +93,7 @@ void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out)
 
 void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps)
 {
-    maps->far_wet = ground->far.map->layer_views[0];
+    maps->far_wetness = ground->far.map->layer_views[0];
     maps->far_cells = ground->def.far_cells;
     maps->far_cell_m = (float)cell_m(ground);
     for (int axis = 0; axis < 2; axis++)

@@ -51,11 +51,11 @@ void ground_standing_fill(const ground_standing cells[GROUND_STANDING],
 
 /* ---- ground_window.c: the bookkeeping, on the host */
 
-typedef struct ground_kept {
+typedef struct ground_cached_tile {
     int32_t tile[2];
     uint64_t since; /* move in which it left the window; 0: free */
     bool wanted;    /* by the move at hand */
-} ground_kept;
+} ground_cached_tile;
 
 /* What a move of the window does, by slots of tiles: in the window's buffers, and among the kept. */
 typedef struct ground_move {
@@ -71,10 +71,10 @@ typedef struct ground_move {
 typedef struct ground_window {
     uint32_t tiles; /* along a side */
     int32_t low[2];
-    bool placed;
+    bool is_placed;
     uint64_t moves;
-    ground_kept *kept;
-    uint32_t kept_capacity, kept_count;
+    ground_cached_tile *cache;
+    uint32_t cache_capacity, cached_count;
 } ground_window;
 
 /* Low corner that a window around a place should have. It stays where it is while the place is within a tile and a
@@ -82,7 +82,7 @@ typedef struct ground_window {
 void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2]);
 
 /* One more than the highest place among the kept that is in use. */
-uint32_t ground_window_kept_end(const ground_window *window);
+uint32_t ground_window_cache_end(const ground_window *window);
 
 /* Moves the window and tells what that takes. */
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move);
@@ -108,22 +108,22 @@ void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const grou
 
 /* ---- ground_far.c */
 
-#define GROUND_SURVEY_TOP_M  256.0 /* above the base */
-#define GROUND_SURVEY_DEEP_M 512.0
+#define GROUND_HEIGHT_MAP_TOP_M  256.0 /* above the base */
+#define GROUND_HEIGHT_MAP_DEPTH_M 512.0
 
 typedef struct ground_far {
     virga_buffer *floors;
     virga_image_2d *map;    /* and in a row of its own below, level open ground by material */
-    virga_mesh_map *survey; /* ground; all meshes */
-    virga_pipeline *find_floors, *draw;
+    virga_mesh_map *height_map; /* ground; all meshes */
+    virga_pipeline *floor_pass, *draw;
     int32_t low[2]; /* in far cells */
-    bool placed, drawn;
+    bool is_placed, drawn;
     uint64_t drawn_at; /* in ticks */
 } ground_far;
 
 /* Whether it is to be surveyed at another place. */
 bool ground_far_follow(virga_ground *ground, const double camera_m[3]);
-void ground_far_survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
+void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
 
 /* Where that is due. */
 void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd);
@@ -151,15 +151,15 @@ struct virga_ground {
     ground_window window;
     ground_move move;
     double base_m;
-    bool survey_all;
+    bool redraw_heights;
     uint64_t ticks; /* run since creation */
 
-    virga_buffer *floors, *cells, *arrivals, *spots, *kept_cells, *kept_spots, *counts, *landings, *rings, *stirs,
+    virga_buffer *floors, *cells, *arrivals, *spots, *cached_cells, *cached_spots, *counts, *landings, *rings, *stirs,
         *swings, *spawns, *no_rules;
     virga_ring tick_ring, list_ring;
     uint32_t tick_offset, list_offset; /* of the newest blocks */
     virga_image_2d *wet_map, *spot_map, *blank_materials;
-    virga_mesh_map *survey;
+    virga_mesh_map *height_map;
     ground_ripples *ripples;
     ground_far far;
     ground_standing standing[GROUND_STANDING];
@@ -167,7 +167,7 @@ struct virga_ground {
     uint32_t last_tick;
     virga_bindings *bindings;
     virga_pipeline *tile_load, *tile_discard, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure,
-        *measure_kept, *map, *ring;
+        *measure_cached, *map, *ring;
     VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
 
     VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, by where water comes from */

@@ -127,7 +127,7 @@ static virga_result create_waves(virga_context *context, double texel_m, ground_
         entries[i] = wave_entry(slopes, i);
     fill_texels(entries, ripples->upload->memory.block.mapped);
     virga_buffer_flush(context, ripples->upload, 0, ripples->upload->size);
-    TRY(virga_uploaded(context));
+    TRY(virga_check_uploads(context));
 error:
     virga_free(&context->heap, entries);
     virga_free(&context->heap, slopes);
@@ -194,6 +194,6 @@ void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const grou
     context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
     context->vk.CmdSetScissor(cmd, 0, 1, &begin.renderArea);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline->pipeline);
-    context->vk.CmdDraw(cmd, 6 * VIRGA_RINGS, 1, 0, 0);
+    context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
     context->vk.CmdEndRenderPass(cmd);
 }

@@ -37,15 +37,15 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     stats->returned_nl = count_of(&read, VIRGA_GROUND_RETURNED);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
-    stats->elsewhere_nl = count_of(&read, VIRGA_GROUND_ELSEWHERE);
+    stats->off_ground_nl = count_of(&read, VIRGA_GROUND_OFF_GROUND);
     stats->infiltrated_nl = count_of(&read, VIRGA_GROUND_INFILTRATED);
     stats->run_off_nl = count_of(&read, VIRGA_GROUND_RUN_OFF);
     stats->evaporated_nl = count_of(&read, VIRGA_GROUND_EVAPORATED);
-    stats->forgotten_nl = count_of(&read, VIRGA_GROUND_FORGOTTEN);
+    stats->evicted_nl = count_of(&read, VIRGA_GROUND_EVICTED);
     stats->film_nl = count_of(&read, VIRGA_GROUND_FILM);
     stats->puddles_nl = count_of(&read, VIRGA_GROUND_PUDDLES);
     stats->held_nl = count_of(&read, VIRGA_GROUND_HELD);
-    stats->kept_nl = count_of(&read, VIRGA_GROUND_KEPT);
+    stats->cached_nl = count_of(&read, VIRGA_GROUND_CACHED);
     for (uint32_t i = 0; i < VIRGA_GROUND_STATES; i++)
         stats->cells[i] = read.counts[VIRGA_GROUND_CELLS + i].low;
 }
@@ -94,8 +94,8 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->seed = ground->def.seed;
     out->flow_s = (float)(ground->def.tick_s * ground->def.flow_ticks);
     out->evaporation_nl_s = (float)((double)ground->settings.evaporation_mm_h / 3600 * area * 1e9);
-    out->survey_top_m = (float)GROUND_SURVEY_TOP_M;
-    out->survey_height_m = (float)GROUND_SURVEY_DEEP_M;
+    out->height_map_top_m = (float)GROUND_HEIGHT_MAP_TOP_M;
+    out->height_map_depth_m = (float)GROUND_HEIGHT_MAP_DEPTH_M;
     out->base_m = (float)ground->base_m;
     const double side_m = ground->def.ripple_texels * (double)ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
@@ -106,7 +106,7 @@ static void fill_tick(const virga_ground *ground, uint32_t tick, virga_ground_ti
     out->last_tick = tick ? tick : ground->last_tick;
     out->max_spawns = ground->info.splash_rules ? ground->def.max_spawns : 0;
     out->max_impacts = ground->def.max_impacts;
-    out->max_returns = ground->def.max_returns;
+    out->max_returned_droplets = ground->def.max_returned_droplets;
     out->tick_in_step = ground->tick_in_step;
     for (int axis = 0; axis < 3; axis++)
         out->camera[axis] = (float)ground->info.camera_m[axis];
@@ -166,13 +166,13 @@ static void clear_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_b
 }
 
 /* Places among the kept that were taken back hold nothing, so that their water is not counted twice. */
-static void clear_taken(virga_ground *ground, VkCommandBuffer cmd)
+static void clear_restored(virga_ground *ground, VkCommandBuffer cmd)
 {
     const ground_move *move = &ground->move;
     const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
     for (uint32_t i = 0; i < move->entering_count; i++)
         if (move->entering_from[i] != GROUND_NEW)
-            ground->base.context->vk.CmdFillBuffer(cmd, ground->kept_cells->buffer, move->entering_from[i] * bytes,
+            ground->base.context->vk.CmdFillBuffer(cmd, ground->cached_cells->buffer, move->entering_from[i] * bytes,
                                                    bytes, 0);
 }
 
@@ -191,29 +191,29 @@ static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
         dispatch_cells(ground, cmd, ground->tile_discard, move->forgotten_count * TILE_GROUPS);
         transfer_barrier(ground, cmd);
     }
-    copy_tiles(ground, cmd, cells, ground->kept_cells, move->leaving, move->leaving_to, move->leaving_count);
-    copy_tiles(ground, cmd, ground->spots, ground->kept_spots, move->leaving, move->leaving_to, move->leaving_count);
+    copy_tiles(ground, cmd, cells, ground->cached_cells, move->leaving, move->leaving_to, move->leaving_count);
+    copy_tiles(ground, cmd, ground->spots, ground->cached_spots, move->leaving, move->leaving_to, move->leaving_count);
     transfer_barrier(ground, cmd);
-    copy_tiles(ground, cmd, ground->kept_cells, cells, move->entering_from, move->entering, move->entering_count);
-    copy_tiles(ground, cmd, ground->kept_spots, ground->spots, move->entering_from, move->entering,
+    copy_tiles(ground, cmd, ground->cached_cells, cells, move->entering_from, move->entering, move->entering_count);
+    copy_tiles(ground, cmd, ground->cached_spots, ground->spots, move->entering_from, move->entering,
                move->entering_count);
     clear_tiles(ground, cmd, cells);
     clear_tiles(ground, cmd, ground->spots);
     transfer_barrier(ground, cmd);
-    clear_taken(ground, cmd);
+    clear_restored(ground, cmd);
     transfer_barrier(ground, cmd);
 }
 
-static void survey(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
+static void draw_height_map(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info)
 {
     const double side = ground->def.cells * (double)ground->def.cell_m;
-    virga_map_view view = {.half_m = 0.5 * side, .height_m = GROUND_SURVEY_DEEP_M, .ground_only = true};
+    virga_map_view view = {.half_m = 0.5 * side, .height_m = GROUND_HEIGHT_MAP_DEPTH_M, .ground_only = true};
     for (int axis = 0; axis < 2; axis++)
         view.origin_m[axis * 2] =
             ground->window.low[axis] * (double)VIRGA_GROUND_TILE * (double)ground->def.cell_m + 0.5 * side;
     view.origin_m[1] = ground->base_m;
-    view.top_m = GROUND_SURVEY_TOP_M;
-    virga_mesh_map_draw(ground->base.context, cmd, ground->survey, 0, &view, info->meshes, info->mesh_count);
+    view.top_m = GROUND_HEIGHT_MAP_TOP_M;
+    virga_mesh_map_draw(ground->base.context, cmd, ground->height_map, 0, &view, info->meshes, info->mesh_count);
     dispatch_cells(ground, cmd, ground->tile_load, ground->move.entering_count * TILE_GROUPS);
     virga_compute_barrier(ground->base.context, cmd);
 }
@@ -244,24 +244,24 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     ground_window_wanted(&ground->window, info->camera_m, tile_m, low);
     ground_window_move(&ground->window, low, &ground->move);
     const bool moved = ground->move.entering_count > 0;
-    const bool far = ground_far_follow(ground, info->camera_m) || (ground->survey_all && ground->def.far_cells);
-    if (!moved && !far && !ground->survey_all)
+    const bool far = ground_far_follow(ground, info->camera_m) || (ground->redraw_heights && ground->def.far_cells);
+    if (!moved && !far && !ground->redraw_heights)
         return;
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.window");
     write_lists(ground);
     push_tick(ground, 0);
     bind(ground, cmd);
     if (far)
-        ground_far_survey(ground, cmd, info);
+        ground_far_draw_heights(ground, cmd, info);
     if (moved)
         move_tiles(ground, cmd);
-    if (ground->survey_all && !moved) {
+    if (ground->redraw_heights && !moved) {
         enter_all(&ground->move, ground->window.tiles);
         write_lists(ground);
     }
-    if (moved || ground->survey_all)
-        survey(ground, cmd, info);
-    ground->survey_all = ground->survey_all && moved; /* all of them in the next step */
+    if (moved || ground->redraw_heights)
+        draw_height_map(ground, cmd, info);
+    ground->redraw_heights = ground->redraw_heights && moved; /* all of them in the next step */
     virga_pass_end(ground->base.context, cmd, scope);
 }
 
@@ -275,9 +275,10 @@ static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pi
     const VkDeviceSize groups = offsetof(virga_impacts_gpu, group_count);
     bind_source(ground, cmd, GROUND_DROPS);
     virga_dispatch_indirect(context, cmd, pipeline, info->impacts, info->impacts_offset + groups);
-    if (info->returns && ground->tick_in_step == 0) {
+    if (info->returned_droplets && ground->tick_in_step == 0) {
         bind_source(ground, cmd, GROUND_RETURNS);
-        virga_dispatch_indirect(context, cmd, pipeline, info->returns, info->returns_offset + groups);
+        virga_dispatch_indirect(context, cmd, pipeline, info->returned_droplets,
+                                info->returned_droplets_offset + groups);
     }
     virga_compute_barrier(context, cmd);
 }
@@ -290,7 +291,7 @@ static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
     bind_source(ground, cmd, GROUND_DROPS);
     virga_dispatch(ground->base.context, cmd, ground->spawn_scan, 1);
     virga_compute_barrier(ground->base.context, cmd);
-    if (ground->info.returns && ground->tick_in_step == 0) {
+    if (ground->info.returned_droplets && ground->tick_in_step == 0) {
         bind_source(ground, cmd, GROUND_RETURNS);
         virga_dispatch(ground->base.context, cmd, ground->spawn_scan, 1);
         virga_compute_barrier(ground->base.context, cmd);
@@ -367,19 +368,19 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     transfer_barrier(ground, cmd);
     context->vk.CmdFillBuffer(cmd, ground->counts->buffer, first, sizeof(ground_readback) - first, 0);
     transfer_barrier(ground, cmd);
-    const uint32_t kept = ground_window_kept_end(&ground->window);
+    const uint32_t cached = ground_window_cache_end(&ground->window);
     virga_dispatch(context, cmd, ground->measure, ground->window.tiles * ground->window.tiles);
-    if (kept)
-        virga_dispatch(context, cmd, ground->measure_kept, kept);
+    if (cached)
+        virga_dispatch(context, cmd, ground->measure_cached, cached);
     virga_pass_end(context, cmd, scope);
 }
 
 /* The ripple map lies on multiples of its texels, so that waves do not crawl while the camera moves. */
-static void place_ripples(virga_ground *ground, const double focus_m[3])
+static void place_ripples(virga_ground *ground, const double ripple_center_m[3])
 {
     const double texel = (double)ground->def.ripple_texel_m;
     for (int axis = 0; axis < 2; axis++)
-        ground->ripple_low_m[axis] = (floor(focus_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
+        ground->ripple_low_m[axis] = (floor(ripple_center_m[axis * 2] / texel) - ground->def.ripple_texels / 2) * texel;
 }
 
 static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
@@ -415,8 +416,8 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     if (!virga_effect_first_contents(&ground->base, cmd))
         return;
     ground->base_m = (double)(float)floor(ground->info.camera_m[1]); /* a float, as shaders and hosts get it */
-    virga_mesh_map_first_layouts(context, cmd, ground->survey);
-    virga_mesh_map_first_layouts(context, cmd, ground->far.survey);
+    virga_mesh_map_first_layouts(context, cmd, ground->height_map);
+    virga_mesh_map_first_layouts(context, cmd, ground->far.height_map);
     ground_ripples_upload(context, cmd, ground->ripples);
     static const float first_near_m = 3;
     uint32_t bits;
@@ -431,8 +432,8 @@ static virga_result check_buffers(const virga_ground *ground, const virga_ground
     const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
     if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
                               sizeof(virga_impacts_gpu)) ||
-        (info->returns && virga_host_list_check(context, "step_info.returns", info->returns_offset, info->returns_size,
-                                                sizeof(virga_impacts_gpu))))
+        (info->returned_droplets && virga_host_list_check(context, "step_info.returns", info->returned_droplets_offset,
+                                                          info->returned_droplets_size, sizeof(virga_impacts_gpu))))
         return VIRGA_ERROR_INVALID;
     if (info->splash_rules && info->splash_rules_offset % rules_alignment)
         return virga_wrong_argument(
@@ -453,16 +454,16 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
     const virga_tick_range ticks = {info->first_tick, info->ticks, ground->def.max_ticks_per_step};
     if (virga_effect_check_ticks(&ground->base, "virga_ground_step", &ticks,
                                  ground->ticks ? &ground->last_tick : NULL) ||
-        virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
-        virga_settings_places(log, "step_info.focus_m", info->focus_m, 3) ||
-        virga_settings_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
-        virga_settings_finite(log, "step_info.open_drop_m", &info->open_drop_m, 1) ||
-        virga_settings_finite(log, "step_info.impacts_reach_m", &info->impacts_reach_m, 1) ||
-        virga_settings_places(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
-        virga_settings_places(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
+        virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
+        virga_settings_check_positions(log, "step_info.ripple_center_m", info->ripple_center_m, 3) ||
+        virga_settings_check_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||
+        virga_settings_check_finite(log, "step_info.open_drop_m", &info->open_drop_m, 1) ||
+        virga_settings_check_finite(log, "step_info.impacts_reach_m", &info->impacts_reach_m, 1) ||
+        virga_settings_check_positions(log, "step_info.materials.low_m", info->materials.low_m, 2) ||
+        virga_settings_check_positions(log, "step_info.materials.high_m", info->materials.high_m, 2) ||
         check_buffers(ground, info))
         return VIRGA_ERROR_INVALID;
-    if (virga_mesh_map_check(ground->base.context, ground->survey, info->meshes, info->mesh_count))
+    if (virga_mesh_map_check(ground->base.context, ground->height_map, info->meshes, info->mesh_count))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&ground->base);
 }
@@ -490,7 +491,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     first_contents(ground, cmd);
-    place_ripples(ground, info->focus_m);
+    place_ripples(ground, info->ripple_center_m);
     follow(ground, cmd, info);
     if (!info->ticks) {
         push_tick(ground, 0);
@@ -505,5 +506,5 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
         measure(ground, cmd);
     write_maps(ground, cmd);
     virga_effect_copy_statistics(&ground->base, cmd, 0, ground->counts, 0, 0, sizeof(ground_readback));
-    return virga_uploaded(context);
+    return virga_check_uploads(context);
 }

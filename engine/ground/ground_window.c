@@ -4,16 +4,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STAY 1 /* tiles that the middle may be off before the window follows */
+#define HYSTERESIS_TILES 1 /* tiles that the middle may be off before the window follows */
 
 void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         const double at = floor(camera_m[axis * 2] / tile_m);
         /* Numbers of cells must fit an int. */
-        const double most = INT32_MAX / VIRGA_GROUND_TILE - 2.0 * window->tiles;
-        const int32_t wanted = (int32_t)fmin(fmax(at, -most), most) - (int32_t)window->tiles / 2;
-        low[axis] = window->placed && abs(wanted - window->low[axis]) <= STAY ? window->low[axis] : wanted;
+        const double max = INT32_MAX / VIRGA_GROUND_TILE - 2.0 * window->tiles;
+        const int32_t wanted = (int32_t)fmin(fmax(at, -max), max) - (int32_t)window->tiles / 2;
+        low[axis] =
+            window->is_placed && abs(wanted - window->low[axis]) <= HYSTERESIS_TILES ? window->low[axis] : wanted;
     }
 }
 
@@ -29,28 +30,28 @@ static bool inside(const ground_window *window, const int32_t low[2], int32_t x,
     return x >= low[0] && z >= low[1] && x - low[0] < (int32_t)window->tiles && z - low[1] < (int32_t)window->tiles;
 }
 
-static uint32_t find_kept(const ground_window *window, int32_t x, int32_t z)
+static uint32_t find_cached(const ground_window *window, int32_t x, int32_t z)
 {
-    for (uint32_t i = 0; i < window->kept_capacity; i++)
-        if (window->kept[i].since && window->kept[i].tile[0] == x && window->kept[i].tile[1] == z)
+    for (uint32_t i = 0; i < window->cache_capacity; i++)
+        if (window->cache[i].since && window->cache[i].tile[0] == x && window->cache[i].tile[1] == z)
             return i;
     return GROUND_NEW;
 }
 
 /* A free place among the kept, or that of the tile which left longest ago. There is always one that the move does not
  * want: there are at least twice as many as the window holds. */
-static uint32_t make_room(ground_window *window, ground_move *move)
+static uint32_t evict_tile(ground_window *window, ground_move *move)
 {
     uint32_t oldest = GROUND_NEW;
-    for (uint32_t i = 0; i < window->kept_capacity; i++) {
-        if (!window->kept[i].since)
+    for (uint32_t i = 0; i < window->cache_capacity; i++) {
+        if (!window->cache[i].since)
             return i;
-        if (!window->kept[i].wanted && window->kept[i].since < window->moves &&
-            (oldest == GROUND_NEW || window->kept[i].since < window->kept[oldest].since))
+        if (!window->cache[i].wanted && window->cache[i].since < window->moves &&
+            (oldest == GROUND_NEW || window->cache[i].since < window->cache[oldest].since))
             oldest = i;
     }
     move->forgotten[move->forgotten_count++] = oldest;
-    window->kept_count--;
+    window->cached_count--;
     return oldest;
 }
 
@@ -58,11 +59,11 @@ static void enter(ground_window *window, const int32_t low[2], ground_move *move
 {
     for (int32_t z = low[1]; z < low[1] + (int32_t)window->tiles; z++)
         for (int32_t x = low[0]; x < low[0] + (int32_t)window->tiles; x++) {
-            if (window->placed && inside(window, window->low, x, z))
+            if (window->is_placed && inside(window, window->low, x, z))
                 continue;
-            const uint32_t from = find_kept(window, x, z);
+            const uint32_t from = find_cached(window, x, z);
             if (from != GROUND_NEW)
-                window->kept[from].wanted = true;
+                window->cache[from].wanted = true;
             move->entering[move->entering_count] = slot_of(window, x, z);
             move->entering_from[move->entering_count++] = from;
         }
@@ -74,9 +75,9 @@ static void leave(ground_window *window, const int32_t low[2], ground_move *move
         for (int32_t x = window->low[0]; x < window->low[0] + (int32_t)window->tiles; x++) {
             if (inside(window, low, x, z))
                 continue;
-            const uint32_t to = make_room(window, move);
-            window->kept[to] = (ground_kept){.tile = {x, z}, .since = window->moves};
-            window->kept_count++;
+            const uint32_t to = evict_tile(window, move);
+            window->cache[to] = (ground_cached_tile){.tile = {x, z}, .since = window->moves};
+            window->cached_count++;
             move->leaving[move->leaving_count] = slot_of(window, x, z);
             move->leaving_to[move->leaving_count++] = to;
         }
@@ -85,26 +86,26 @@ static void leave(ground_window *window, const int32_t low[2], ground_move *move
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move)
 {
     move->leaving_count = move->entering_count = move->forgotten_count = 0;
-    if (window->placed && low[0] == window->low[0] && low[1] == window->low[1])
+    if (window->is_placed && low[0] == window->low[0] && low[1] == window->low[1])
         return;
     window->moves++;
     enter(window, low, move);
-    if (window->placed)
+    if (window->is_placed)
         leave(window, low, move);
     for (uint32_t i = 0; i < move->entering_count; i++)
         if (move->entering_from[i] != GROUND_NEW) {
-            window->kept[move->entering_from[i]] = (ground_kept){0};
-            window->kept_count--;
+            window->cache[move->entering_from[i]] = (ground_cached_tile){0};
+            window->cached_count--;
         }
     window->low[0] = low[0];
     window->low[1] = low[1];
-    window->placed = true;
+    window->is_placed = true;
 }
 
-uint32_t ground_window_kept_end(const ground_window *window)
+uint32_t ground_window_cache_end(const ground_window *window)
 {
-    uint32_t end = window->kept_count ? window->kept_capacity : 0;
-    while (end && !window->kept[end - 1].since)
+    uint32_t end = window->cached_count ? window->cache_capacity : 0;
+    while (end && !window->cache[end - 1].since)
         end--;
     return end;
 }

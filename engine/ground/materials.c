@@ -49,22 +49,22 @@ virga_result ground_check_settings(const virga_log *log, virga_ground_settings *
     bool changed = false;
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
         virga_ground_material *m = &settings->materials[i];
-        float *const values[7] = {&m->capacity_mm, &m->retention_mm, &m->infiltration_mm_h, &m->drying, &m->manning_n,
-                                  &m->bumps_mm,    &m->bump_m};
+        float *const values[7] = {&m->capacity_mm, &m->retention_mm,   &m->infiltration_mm_h, &m->drying,
+                                  &m->manning_n,   &m->bump_height_mm, &m->bump_width_m};
         for (int j = 0; j < 7; j++)
-            if (virga_settings_finite(log, "ground_settings.materials", values[j], 1))
+            if (virga_settings_check_finite(log, "ground_settings.materials", values[j], 1))
                 return VIRGA_ERROR_INVALID;
         check(log, &m->capacity_mm, 0, 100, "ground_settings.materials.capacity_mm", &changed);
         check(log, &m->retention_mm, 0, 50, "ground_settings.materials.retention_mm", &changed);
         check(log, &m->infiltration_mm_h, 0, 10000, "ground_settings.materials.infiltration_mm_h", &changed);
         check(log, &m->drying, 0, 10, "ground_settings.materials.drying", &changed);
         check(log, &m->manning_n, 0.005f, 1, "ground_settings.materials.manning_n", &changed);
-        check(log, &m->bumps_mm, 0, 50, "ground_settings.materials.bumps_mm", &changed);
-        check(log, &m->bump_m, 0.2f, 50, "ground_settings.materials.bump_m", &changed);
+        check(log, &m->bump_height_mm, 0, 50, "ground_settings.materials.bump_height_mm", &changed);
+        check(log, &m->bump_width_m, 0.2f, 50, "ground_settings.materials.bump_width_m", &changed);
     }
-    if (virga_settings_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1) ||
-        virga_settings_finite(log, "ground_settings.start_wetness", &settings->start_wetness, 1) ||
-        virga_settings_finite(log, "ground_settings.start_water_mm", &settings->start_water_mm, 1))
+    if (virga_settings_check_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1) ||
+        virga_settings_check_finite(log, "ground_settings.start_wetness", &settings->start_wetness, 1) ||
+        virga_settings_check_finite(log, "ground_settings.start_water_mm", &settings->start_water_mm, 1))
         return VIRGA_ERROR_INVALID;
     check(log, &settings->evaporation_mm_h, 0, 100, "ground_settings.evaporation_mm_h", &changed);
     check(log, &settings->start_wetness, 0, 1, "ground_settings.start_wetness", &changed);
@@ -88,8 +88,8 @@ void ground_fill_soils(const virga_ground_settings *settings, double cell_m,
                                     .sink_nl_s = (float)on_cell_nl((double)m->infiltration_mm_h / 3600, cell_m),
                                     .drying = m->drying,
                                     .inv_manning = 1 / m->manning_n,
-                                    .bumps_um = m->bumps_mm * 1e3f,
-                                    .bump_cells = (float)((double)m->bump_m / cell_m),
+                                    .bumps_um = m->bump_height_mm * 1e3f,
+                                    .bump_cells = (float)((double)m->bump_width_m / cell_m),
                                     .drain = m->drain};
     }
 }

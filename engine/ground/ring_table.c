@@ -7,10 +7,10 @@
 #define GRAVITY   9.80665
 #define TENSION   (0.0728 / 998.2) /* sigma / rho */
 #define VISCOSITY 1.004e-6
-#define NUMBERS   160    /* of waves: k from 0 to K_MOST */
-#define K_MOST    1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
+#define NUMBERS   160    /* of waves: k from 0 to K_MAX */
+#define K_MAX     1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
 #define J1_STEPS  64     /* of J1's table per unit: read linearly it is right to 2e-5 */
-#define J1_SIZE   25100  /* beyond K_MOST times the farthest radius */
+#define J1_SIZE   25100  /* beyond K_MAX times the farthest radius */
 
 double ring_omega(double k, double h)
 {
@@ -57,7 +57,7 @@ typedef struct waves {
 
 static void describe_waves(double blur_m, waves *w)
 {
-    static const double step = K_MOST / NUMBERS;
+    static const double step = K_MAX / NUMBERS;
     for (int i = 0; i < NUMBERS; i++) {
         const double k = (i + 0.5) * step;
         w->start[i] = -spectrum(k) * exp(-k * k * blur_m * blur_m / 2) * k * k * step;
@@ -79,7 +79,7 @@ static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DE
 static void sum_waves(float weights[NUMBERS][VIRGA_RING_DEPTHS], const float *bessel, double r,
                       float sums[VIRGA_RING_DEPTHS])
 {
-    static const double step = K_MOST / NUMBERS * J1_STEPS;
+    static const double step = K_MAX / NUMBERS * J1_STEPS;
     memset(sums, 0, VIRGA_RING_DEPTHS * sizeof sums[0]);
     for (int i = 0; i < NUMBERS; i++) {
         const double x = (i + 0.5) * step * r;
@@ -139,7 +139,7 @@ double ring_calm_time(double h)
 {
     double before = 0, held = 0;
     for (int i = 0; i < NUMBERS; i++) {
-        const double k = (i + 0.5) * (K_MOST / NUMBERS), start = spectrum(k) * spectrum(k) * k * k * k;
+        const double k = (i + 0.5) * (K_MAX / NUMBERS), start = spectrum(k) * spectrum(k) * k * k * k;
         before += start;
         held += start / (4 * ring_gamma(k, h));
     }

@@ -26,11 +26,11 @@ static void fill_hollows(ground_standing *s, const virga_soil_gpu *soil, double 
 }
 
 /* Of what is asked for. */
-static double take(double *from, double asked)
+static double remove_water(double *from, double requested)
 {
-    const double taken = fmin(asked, *from);
-    *from -= taken;
-    return taken;
+    const double removed = fmin(requested, *from);
+    *from -= removed;
+    return removed;
 }
 
 static void tick_cell(ground_standing *s, const virga_soil_gpu *soil, const ground_weather *weather)
@@ -45,9 +45,9 @@ static void tick_cell(ground_standing *s, const virga_soil_gpu *soil, const grou
     const double share = s->film_nl > 0 ? 1 : s->held_nl / fmax((double)soil->capacity_nl, 1);
     const double drying = weather->evaporation_nl * (double)soil->drying * share;
     const double sinking = (double)soil->sink_nl_s * weather->tick_s;
-    take(&s->film_nl, sinking);
-    const double dried = take(&s->film_nl, drying);
-    take(&s->held_nl, drying - dried);
+    remove_water(&s->film_nl, sinking);
+    const double dried = remove_water(&s->film_nl, drying);
+    remove_water(&s->held_nl, drying - dried);
     const double above = s->film_nl - (double)soil->retention_nl;
     const double lost = sinking + weather->evaporation_nl * (double)soil->drying - comes; /* by hollows */
     if (above > 0) {

@@ -62,10 +62,10 @@ static void deal_level(rain_classes *classes, uint32_t level)
     uint32_t dealt = 0;
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++) {
         sum += demand[k];
-        uint32_t upto =
+        uint32_t share_end =
             k + 1 == VIRGA_RAIN_CLASSES ? classes->slots_per_level : (uint32_t)(sum * classes->slots_per_level + 0.5);
-        upto = upto > classes->slots_per_level ? classes->slots_per_level : upto;
-        classes->slot_count[level][k] = upto > dealt ? upto - dealt : 0;
+        share_end = share_end > classes->slots_per_level ? classes->slots_per_level : share_end;
+        classes->slot_count[level][k] = share_end > dealt ? share_end - dealt : 0;
         dealt += classes->slot_count[level][k];
     }
 }
@@ -92,7 +92,7 @@ void rain_classes_fill_slots(const rain_classes *classes, uint32_t seed, virga_s
                 const uint32_t rank = (uint32_t)((i + jitter) / count * 65536.0);
                 slots[index].class_rank = k | (rank > 65535 ? 65535 : rank) << 16;
                 for (uint32_t axis = 0; axis < 3; axis++)
-                    slots[index].place[axis] = virga_hash3(seed, axis, index);
+                    slots[index].lattice[axis] = virga_hash3(seed, axis, index);
             }
 }
 
@@ -190,7 +190,7 @@ static void ease(rain_classes *classes, double tick_s)
     update_weights(classes);
 }
 
-double rain_classes_bodies_radius(const rain_classes *classes)
+double rain_classes_real_drop_radius(const rain_classes *classes)
 {
     double radius = 0;
     for (uint32_t level = 0; level < classes->levels; level++) {

@@ -68,13 +68,13 @@ virga_rain_settings virga_default_rain_settings(void)
                                  .light_gain = 1,
                                  .min_width_px = 1,
                                  .soft_m = 0.05f,
-                                 .near_m = 0.15f,
+                                 .near_fade_m = 0.15f,
                                  .oscillation = 1,
                                  .haze = 1,
                                  .haze_sky_m = 400,
                                  .glow = 1,
-                                 .bodies_min_mm = 0.4f,
-                                 .occlusion_turns = 1};
+                                 .streak_min_mm = 0.4f,
+                                 .occlusion_interval = 1};
 }
 
 /* ---- the sizes that follow from a definition */
@@ -108,7 +108,7 @@ static virga_result check_def(const virga_log *log, void *given)
 }
 
 /* Boxes double from one in which a cloudburst's drops are all slots up to one that holds the range. */
-static void plan_boxes(const virga_rain_def *def, uint32_t *levels, uint32_t *groups_per_level, double *side_m)
+static void plan_levels(const virga_rain_def *def, uint32_t *levels, uint32_t *groups_per_level, double *side_m)
 {
     const double widest = 2 * (double)def->range_m / RANGE_SHARE;
     *levels = 1;
@@ -122,8 +122,8 @@ static void plan_boxes(const virga_rain_def *def, uint32_t *levels, uint32_t *gr
     }
     *groups_per_level = (def->max_drops + *levels * VIRGA_RAIN_GROUP - 1) / (*levels * VIRGA_RAIN_GROUP);
     /* Slots must fit into an id's bits. */
-    const uint32_t most = (1u << VIRGA_RAIN_ID_SLOT_BITS) / (VIRGA_RAIN_GROUP * *levels);
-    *groups_per_level = *groups_per_level < most ? *groups_per_level : most;
+    const uint32_t max = (1u << VIRGA_RAIN_ID_SLOT_BITS) / (VIRGA_RAIN_GROUP * *levels);
+    *groups_per_level = *groups_per_level < max ? *groups_per_level : max;
     *side_m = widest;
 }
 
@@ -148,7 +148,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const virga_rain_def *def = given;
     uint32_t levels, groups_per_level;
     double side_m;
-    plan_boxes(def, &levels, &groups_per_level, &side_m);
+    plan_levels(def, &levels, &groups_per_level, &side_m);
     const VkDeviceSize slots = (VkDeviceSize)levels * groups_per_level * VIRGA_RAIN_GROUP;
     const VkDeviceSize streak_groups = (def->max_streaks + VIRGA_RAIN_GROUP - 1) / VIRGA_RAIN_GROUP;
     counts[COUNT_SLOTS] = slots;
@@ -181,7 +181,7 @@ static const virga_effect_buffer buffers[] = {
     {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL},
     {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
     {"rain.hits", AT(hit_buffer), STORAGE_USE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
-    {"rain.hit_places", AT(hit_places), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
+    {"rain.hit_offset_buffer", AT(hit_offset_buffer), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
     {"rain.sways", AT(sway_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
     {"rain.points", AT(point_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},
     {"rain.slot_upload", AT(slot_upload), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD, 0,
@@ -253,7 +253,7 @@ static virga_result init(void *object)
     virga_rain *rain = object;
     rain->settings = virga_default_rain_settings();
     double side_m;
-    plan_boxes(&rain->def, &rain->levels, &rain->groups_per_level, &side_m);
+    plan_levels(&rain->def, &rain->levels, &rain->groups_per_level, &side_m);
     rain->groups = rain->levels * rain->groups_per_level;
     rain->slots = rain->groups * VIRGA_RAIN_GROUP;
     rain->classes = virga_alloc(&rain->base.context->heap, sizeof *rain->classes);
@@ -345,20 +345,20 @@ static const virga_setting_row settings_rows[] = {
     NUMBER(light_gain, 0, 100),
     NUMBER(min_width_px, 0.5, 4),
     NUMBER(soft_m, 0, 1),
-    NUMBER(near_m, 0, 5),
+    NUMBER(near_fade_m, 0, 5),
     NUMBER(oscillation, 0, 4),
     NUMBER(haze, 0, 4),
     NUMBER(haze_sky_m, 0, 1e5),
     NUMBER(glow, 0, 100),
-    NUMBER(bodies_min_mm, 0.2, 2),
+    NUMBER(streak_min_mm, 0.2, 2),
     COUNT(default_material, 0, 255),
-    COUNT(occlusion_turns, 1, 16),
+    COUNT(occlusion_interval, 1, 16),
 };
 
 static virga_result check_settings(const virga_log *log, virga_rain_settings *settings, bool *changed)
 {
-    if (virga_settings_places(log, "rain.wind_min_m", settings->wind_min_m, 3) ||
-        virga_settings_places(log, "rain.wind_max_m", settings->wind_max_m, 3))
+    if (virga_settings_check_positions(log, "rain.wind_min_m", settings->wind_min_m, 3) ||
+        virga_settings_check_positions(log, "rain.wind_max_m", settings->wind_max_m, 3))
         return VIRGA_ERROR_INVALID;
     const virga_result result = virga_lighting_check(log, "rain", &settings->lighting, changed);
     if (result)
@@ -477,5 +477,5 @@ void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats)
     virga_effect_read_statistics(&rain->base);
     *stats = rain->stats;
     stats->slots = rain->slots;
-    stats->bodies_radius_m = (float)rain_classes_bodies_radius(rain->classes);
+    stats->real_drop_radius_m = (float)rain_classes_real_drop_radius(rain->classes);
 }

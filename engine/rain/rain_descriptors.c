@@ -45,10 +45,11 @@ const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                    /* 16 */
     {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                    /* 17 */
     [BIND_HITS] = {DYNAMIC, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer), RAIN_HITS_BYTES},      /* 18 of a pane */
-    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_places)}, /* 19 where each slot's hits go */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                     /* 20 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                   /* 21 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                    /* 22 */
+    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_offset_buffer)}, /* 19 where each slot's hits go
+                                                                                         * */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                            /* 20 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                          /* 21 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                           /* 22 */
 };
 
 static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayout layout)

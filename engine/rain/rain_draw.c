@@ -32,8 +32,8 @@
 
 /* ---- a view in the device's terms */
 
-#define MOST_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
-#define LEAST_COVERAGE \
+#define MAX_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
+#define MIN_COVERAGE \
     (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
 
 /* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
@@ -61,11 +61,11 @@ static double hazy_share(const virga_rain *rain, const rain_view_block *block, u
         const double cover = classes->per_m3[k] * c->diameter_m * c->diameter_m;
         const double drops = (double)classes->weights[level * VIRGA_RAIN_CLASSES + k].drops;
         const double would = streak_coverage(block, c, drops, distance);
-        const bool small = c->diameter_m < (double)block->look.bodies_min_m || !classes->slot_count[level][k];
+        const bool small = c->diameter_m < (double)block->look.streak_min_m || !classes->slot_count[level][k];
         all += cover;
-        hazy += cover * (small || would < 1.5 * LEAST_COVERAGE ? 1
-                         : would > MOST_COVERAGE && drops > 1  ? 1 - MOST_COVERAGE / would
-                                                               : 0);
+        hazy += cover * (small || would < 1.5 * MIN_COVERAGE ? 1
+                         : would > MAX_COVERAGE && drops > 1 ? 1 - MAX_COVERAGE / would
+                                                             : 0);
     }
     return all > 0 ? hazy / all : 0;
 }
@@ -99,9 +99,9 @@ static void fill_look(const virga_rain *rain, rain_view_block *out)
     out->view.light_gain = settings->light_gain;
     out->view.min_width_px = settings->min_width_px;
     out->view.soft_m = settings->soft_m;
-    out->view.near_m = settings->near_m;
+    out->view.near_fade_m = settings->near_fade_m;
     out->look.oscillation = settings->oscillation;
-    out->look.bodies_min_m = settings->bodies_min_mm * 1e-3f;
+    out->look.streak_min_m = settings->streak_min_mm * 1e-3f;
     out->look.sky_m = settings->haze_sky_m;
     out->look.glow = settings->glow;
     fill_haze(rain, out);
@@ -223,7 +223,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     rain->prepared_line_px = rain->settings.min_width_px + 1; /* as their corners would be, see streak.glsl */
     rain->prepared_haze = has_depth && hazes(rain);
     rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
-    return virga_uploaded(rain->base.context);
+    return virga_check_uploads(rain->base.context);
 }
 
 /* ---- draw */
@@ -269,16 +269,16 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
         virga_effect_check_draw(&rain->base, "virga_rain_draw", cmd, target, virga_effect_ready(&rain->base), &found);
     if (result)
         return result;
-    const virga_pipeline *thin = found->draws[RAIN_DRAW_THIN + rain->prepared_depth],
-                         *wide = found->draws[RAIN_DRAW_WIDE + rain->prepared_depth],
+    const virga_pipeline *thin_quads = found->draws[RAIN_DRAW_THIN + rain->prepared_depth],
+                         *wide_quads = found->draws[RAIN_DRAW_WIDE + rain->prepared_depth],
                          *line = found->draws[RAIN_DRAW_LINES + rain->prepared_depth],
                          *haze = found->draws[RAIN_DRAW_HAZE], *glow = found->draws[RAIN_DRAW_GLOW];
-    const virga_pipeline *used[] = {haze, glow, thin, wide, line ? line : thin};
+    const virga_pipeline *used[] = {haze, glow, thin_quads, wide_quads, line ? line : thin_quads};
     result = virga_pipelines_ready(used, sizeof used / sizeof used[0]);
     if (result)
         return result;
     virga_context *context = rain->base.context;
-    virga_draw_area(context, cmd, rain->base.view.viewport);
+    virga_set_draw_area(context, cmd, rain->base.view.viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain->base.view.set);
     if (rain->prepared_haze)
         draw_plain(rain, cmd, haze, 3, 1, "rain.haze");
@@ -290,8 +290,8 @@ virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_
         context->vk.CmdSetLineWidth(cmd, rain->prepared_line_px);
         draw_streaks(rain, cmd, line, offsetof(virga_prepared_gpu, lines));
     }
-    draw_streaks(rain, cmd, thin, offsetof(virga_prepared_gpu, thin));
-    draw_streaks(rain, cmd, wide, offsetof(virga_prepared_gpu, wide));
+    draw_streaks(rain, cmd, thin_quads, offsetof(virga_prepared_gpu, thin_quads));
+    draw_streaks(rain, cmd, wide_quads, offsetof(virga_prepared_gpu, wide_quads));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }
@@ -307,7 +307,7 @@ static virga_result check_haze_alone(virga_rain *rain, VkCommandBuffer cmd, cons
         virga_effect_find_target(&rain->base, "virga_rain_draw_haze", view ? cmd : VK_NULL_HANDLE, target, found);
     if (result)
         return result;
-    if (begin && virga_settings_finite_double(log, "virga_rain_draw_haze: begin", begin, 4))
+    if (begin && virga_settings_check_finite_double(log, "virga_rain_draw_haze: begin", begin, 4))
         return VIRGA_ERROR_INVALID;
     result = virga_view_check(rain->base.context, view, 0);
     if (result)
@@ -341,11 +341,11 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     result = push_view(rain, &block, &index);
     if (result)
         return result;
-    virga_draw_area(rain->base.context, cmd, view->viewport);
+    virga_set_draw_area(rain->base.context, cmd, view->viewport);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, rain_write_set(rain, index, &view->depth));
     draw_plain(rain, cmd, used[0], 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))
         draw_plain(rain, cmd, used[1], 6, glowing_lamps(rain), "rain.glow_alone");
     rain->view_offset = prepared_offset; /* virga_rain_draw may still come */
-    return virga_uploaded(rain->base.context);
+    return virga_check_uploads(rain->base.context);
 }

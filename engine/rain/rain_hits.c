@@ -19,11 +19,11 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
 {
     const virga_log *log = &rain->base.context->log;
     if (!cmd || !pane)
-        return virga_wrong_argument(log, "virga_rain_hits: NULL argument");
+        return virga_wrong_argument(log, "virga_rain_find_hits: NULL argument");
     if (rain->base.context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (virga_settings_places(log, "rain_pane.corner_m", pane->corner_m, 3) ||
-        virga_settings_finite(log, "rain_pane.velocity_m_s", pane->velocity_m_s, 3))
+    if (virga_settings_check_positions(log, "rain_pane.corner_m", pane->corner_m, 3) ||
+        virga_settings_check_finite(log, "rain_pane.velocity_m_s", pane->velocity_m_s, 3))
         return VIRGA_ERROR_INVALID;
     if (!unit_length(pane->along_u) || !unit_length(pane->along_v))
         return virga_wrong_argument(log, "rain_pane: expected along_u and along_v of unit length");
@@ -31,7 +31,7 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
         return virga_wrong_argument(log, "rain_pane: expected a width and height of up to 100 m, got %g x %g",
                                     (double)pane->width_m, (double)pane->height_m);
     if (rain->hits_frame == rain->base.context->frame_index && rain->hits_panes >= rain->def.max_panes)
-        return virga_wrong_argument(log, "virga_rain_hits: more than rain_def.max_panes = %u in a frame",
+        return virga_wrong_argument(log, "virga_rain_find_hits: more than rain_def.max_panes = %u in a frame",
                                     rain->def.max_panes);
     return virga_effect_ready(&rain->base);
 }
@@ -96,13 +96,13 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     virga_pass_end(context, cmd, scope);
 }
 
-virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
-                             virga_rain_buffer *hits)
+virga_result virga_rain_find_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
+                                  virga_rain_buffer *hits)
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
     if (!hits)
-        return virga_wrong_argument(&rain->base.context->log, "virga_rain_hits: NULL argument");
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_find_hits: NULL argument");
     *hits = (virga_rain_buffer){0};
     const virga_result result = check_pane(rain, cmd, pane);
     if (result)
@@ -115,7 +115,7 @@ virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain->hits_offset = (uint32_t)(rain->hits_panes++ * RAIN_HITS_BYTES);
     virga_rain_pane known = *pane;
     bool changed = false;
-    virga_clamp_vector(&rain->base.context->log, "rain_pane.velocity_m_s", known.velocity_m_s, VIRGA_FASTEST_M_S,
+    virga_clamp_vector(&rain->base.context->log, "rain_pane.velocity_m_s", known.velocity_m_s, VIRGA_MAX_SPEED_M_S,
                        &changed);
     const virga_rain_pane_gpu pushed = pane_of(rain, &known);
     record(rain, cmd, &pushed);

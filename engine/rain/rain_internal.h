@@ -66,7 +66,7 @@ void rain_classes_settle(rain_classes *classes, const double wind[3]);
 void rain_classes_tick(rain_classes *classes, const double wind[3], double tick_s);
 
 /* Half of the side of a box within which every slot is one drop; 0 where even the innermost stands for several. */
-double rain_classes_bodies_radius(const rain_classes *classes);
+double rain_classes_real_drop_radius(const rain_classes *classes);
 
 /* ---- wind.c */
 
@@ -80,7 +80,7 @@ void rain_wind_at(const rain_wind *wind, const virga_rain_settings *settings, ui
 /* ---- the object */
 
 typedef struct rain_map {
-    double centre[2]; /* world, sheared about y = 0 */
+    double center[2]; /* world, sheared about y = 0 */
     double slant[2];
     double half_m, top_m, height_m;
 } rain_map;
@@ -136,7 +136,7 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *hit_buffer, *hit_places, *sway_buffer, *order_buffer, *point_buffer;
+        *prepared_buffer, *hit_buffer, *hit_offset_buffer, *sway_buffer, *order_buffer, *point_buffer;
     virga_ring tick_ring, view_ring;
     uint32_t tick_offset, view_offset; /* of the newest blocks */
     uint64_t tick_frame;               /* in whose part of the ring the newest tick is */
@@ -147,7 +147,7 @@ struct virga_rain {
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
     uint32_t map_count; /* drawn and in use */
     bool maps_drawn;    /* the rain's own images hold what `maps` says */
-    uint32_t map_turn;  /* counts calls: whose turn it is to be drawn */
+    uint32_t next_map;  /* counts calls: whose turn it is to be drawn */
     bool host_maps;
     virga_image host_map_image;
 

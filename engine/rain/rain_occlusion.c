@@ -21,7 +21,7 @@
 #define MAP_LEFT       0.2 /* of half a map: less than its margin, 0.3 / 1.3 */
 #define MAP_CLIMB_M    32.0
 #define SLANT_TIME_S   0.5 /* a drop has come along its line for about this long when it passes cover */
-#define MOST_SLANT     8.0 /* horizontal metres a metre of fall: nearly flat, in a storm */
+#define MAX_SLANT      8.0 /* horizontal metres a metre of fall: nearly flat, in a storm */
 
 /* Diameters that part the slants, and one that stands for each. */
 static const double slant_bounds[VIRGA_RAIN_MAX_SLANTS][VIRGA_RAIN_MAX_SLANTS - 1] = {
@@ -49,7 +49,7 @@ static void slant_now(const virga_rain *rain, uint32_t slant, double out[2])
     const double down = c->velocity[1] < -0.05 ? -c->velocity[1] : 0.05;
     for (int i = 0; i < 2; i++) {
         const double s = c->velocity[i * 2] / down;
-        out[i] = s < -MOST_SLANT ? -MOST_SLANT : s > MOST_SLANT ? MOST_SLANT : s;
+        out[i] = s < -MAX_SLANT ? -MAX_SLANT : s > MAX_SLANT ? MAX_SLANT : s;
     }
 }
 
@@ -73,8 +73,8 @@ static void plan_map(virga_rain *rain, uint32_t index, const double camera_m[3],
     const double texel = 2 * map->half_m / rain->def.occlusion_size;
     for (int axis = 0; axis < 2; axis++) {
         map->slant[axis] = rain->slant_smooth[index % rain->def.occlusion_slants][axis];
-        const double centre = camera_m[axis * 2] + map->slant[axis] * camera_m[1];
-        map->centre[axis] = floor(centre / texel) * texel;
+        const double center = camera_m[axis * 2] + map->slant[axis] * camera_m[1];
+        map->center[axis] = floor(center / texel) * texel;
     }
     map->top_m = top_m;
     map->height_m = MAP_HEIGHT_M;
@@ -96,7 +96,7 @@ static uint32_t planned_count(const virga_rain *rain)
 static bool is_left(const rain_map *map, const double camera_m[3])
 {
     for (int axis = 0; axis < 2; axis++) {
-        const double off = camera_m[axis * 2] + map->slant[axis] * camera_m[1] - map->centre[axis];
+        const double off = camera_m[axis * 2] + map->slant[axis] * camera_m[1] - map->center[axis];
         if (fabs(off) > MAP_LEFT * map->half_m)
             return true;
     }
@@ -106,17 +106,17 @@ static bool is_left(const rain_map *map, const double camera_m[3])
 /* All maps have one top, so where one has to be drawn for it, all have. */
 static bool all_are_due(const virga_rain *rain, const double camera_m[3])
 {
-    bool due = rain->settings.occlusion_turns <= 1 || !rain->maps_drawn;
+    bool due = rain->settings.occlusion_interval <= 1 || !rain->maps_drawn;
     for (uint32_t i = 0; i < planned_count(rain) && !due; i++)
         due = is_left(&rain->maps[i], camera_m);
     return due;
 }
 
 /* A map's numbers seen from an origin near the camera, in double until they are small. */
-static void centre_from(const rain_map *map, const double origin[3], double centre[2])
+static void center_from(const rain_map *map, const double origin[3], double center[2])
 {
     for (int axis = 0; axis < 2; axis++)
-        centre[axis] = map->centre[axis] - origin[axis * 2] - map->slant[axis] * origin[1];
+        center[axis] = map->center[axis] - origin[axis * 2] - map->slant[axis] * origin[1];
 }
 
 void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS])
@@ -129,12 +129,12 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
     for (uint32_t i = 0; i < rain->map_count; i++) {
         const rain_map *map = &rain->maps[i];
         const double scale = 0.5 * size / map->half_m;
-        double centre[2];
-        centre_from(map, rain->origin, centre);
+        double center[2];
+        center_from(map, rain->origin, center);
         maps[i].texels_per_m = (float)scale;
         for (int axis = 0; axis < 2; axis++) {
             maps[i].slant[axis] = (float)(map->slant[axis] * scale);
-            maps[i].origin[axis] = (float)(0.5 * size - centre[axis] * scale);
+            maps[i].origin[axis] = (float)(0.5 * size - center[axis] * scale);
         }
     }
 }
@@ -157,7 +157,7 @@ static void draw_map(virga_rain *rain, VkCommandBuffer cmd, uint32_t index, cons
                            .top_m = map->top_m - camera_m[1],
                            .height_m = map->height_m};
     memcpy(view.origin_m, camera_m, sizeof view.origin_m);
-    centre_from(map, camera_m, view.centre);
+    center_from(map, camera_m, view.center);
     virga_mesh_map_draw(rain->base.context, cmd, rain->map, index, &view, occluders, count);
 }
 
@@ -169,7 +169,7 @@ static virga_result check_call(const virga_rain *rain, const double camera_m[3])
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->def.occlusion_size)
         return VIRGA_NOT_READY;
-    return camera_m ? virga_settings_places(&rain->base.context->log, "camera_m", camera_m, 3) : VIRGA_OK;
+    return camera_m ? virga_settings_check_positions(&rain->base.context->log, "camera_m", camera_m, 3) : VIRGA_OK;
 }
 
 /* The same for calls that record: what they use belongs to a frame. */
@@ -181,14 +181,14 @@ static virga_result check_recording(const virga_rain *rain, const double camera_
     return virga_wrong_argument(&rain->base.context->log, "occlusion: expected virga_frame_begin before it");
 }
 
-virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
-                                  const virga_occluder *occluders, uint32_t count)
+virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
+                                       const virga_occluder *occluders, uint32_t count)
 {
     virga_result result = check_recording(rain, camera_m);
     if (result)
         return result;
     if (!cmd || !camera_m || (count && !occluders))
-        return virga_wrong_argument(&rain->base.context->log, "virga_rain_occlusion: NULL argument");
+        return virga_wrong_argument(&rain->base.context->log, "virga_rain_draw_occlusion: NULL argument");
     result = virga_mesh_map_check(rain->base.context, rain->map, occluders, count);
     if (!result)
         result = virga_effect_ready(&rain->base);
@@ -202,10 +202,10 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
     rain->map_count = planned_count(rain);
     rain->host_maps = false;
     rain->maps_drawn = true;
-    rain->map_turn++;
+    rain->next_map++;
     const virga_pass_scope scope = virga_pass_begin(rain->base.context, cmd, "rain.occlusion");
     for (uint32_t i = 0; i < rain->map_count; i++)
-        if (all || (i + rain->map_turn) % rain->settings.occlusion_turns == 0) {
+        if (all || (i + rain->next_map) % rain->settings.occlusion_interval == 0) {
             plan_map(rain, i, camera_m, top_m);
             draw_map(rain, cmd, i, camera_m, occluders, count);
         }
@@ -215,7 +215,7 @@ virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const d
 
 /* ---- maps that the host draws */
 
-uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], virga_occlusion_view *views)
+uint32_t virga_rain_plan_occlusion(virga_rain *rain, const double camera_m[3], virga_occlusion_view *views)
 {
     if (!camera_m || !views || check_call(rain, camera_m))
         return 0;
@@ -226,8 +226,8 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
     for (uint32_t i = 0; i < count; i++) {
         plan_map(rain, i, camera_m, top_of(camera_m));
         const rain_map *map = &rain->maps[i];
-        double centre[2];
-        centre_from(map, camera_m, centre);
+        double center[2];
+        center_from(map, camera_m, center);
         const float scale = (float)(1 / map->half_m), down = (float)(1 / map->height_m);
         /* Columns are the images of x, y, z and 1: x and z scaled, y sheared into both and turned into depth. */
         const float matrix[16] = {scale,
@@ -242,8 +242,8 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
                                   scale,
                                   0,
                                   0,
-                                  -scale * (float)centre[0],
-                                  -scale * (float)centre[1],
+                                  -scale * (float)center[0],
+                                  -scale * (float)center[1],
                                   (float)(map->top_m - camera_m[1]) * down,
                                   1};
         memcpy(views[i].clip_from_world, matrix, sizeof matrix);
@@ -253,7 +253,7 @@ uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], 
     return count;
 }
 
-virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth)
+virga_result virga_rain_import_occlusion(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth)
 {
     const virga_result result = check_recording(rain, NULL);
     if (result)
@@ -261,7 +261,7 @@ virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, 
     const uint32_t count = planned_count(rain);
     if (!cmd || !depth || !depth->view || depth->extent.width != depth->extent.height || depth->layers < count)
         return virga_wrong_argument(&rain->base.context->log,
-                                    "virga_rain_occlusion_import: expected a square image with %u layers", count);
+                                    "virga_rain_import_occlusion: expected a square image with %u layers", count);
     rain_begin_frame(rain, cmd);
     rain->map_count = count;
     rain->host_maps = true;

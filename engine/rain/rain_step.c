@@ -24,9 +24,9 @@ static void read_step(virga_rain *rain, const rain_frame_stats *frame, const vir
     stats->total_water_nl += stats->impact_water_nl;
     memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
     if (stats->impacts_dropped)
-        virga_log_say(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
-                      "%u impacts of a step found no room; max_impacts is %u", stats->impacts_dropped,
-                      rain->def.max_impacts);
+        virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
+                        "%u impacts of a step found no room; max_impacts is %u", stats->impacts_dropped,
+                        rain->def.max_impacts);
 }
 
 void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
@@ -218,9 +218,9 @@ static uint32_t whole_ticks(virga_rain *rain, double dt_s, bool *dropped)
     double whole = floor(rain->left_over_s / rain->def.tick_s + 1e-9);
     if (whole > left) {
         whole = left;
-        virga_log_say(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
-                      "a step of %g s at ticks of %g s: only %g are run (max_ticks_per_step)", dt_s, rain->def.tick_s,
-                      whole);
+        virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_TICKS_DROPPED,
+                        "a step of %g s at ticks of %g s: only %g are run (max_ticks_per_step)", dt_s, rain->def.tick_s,
+                        whole);
         rain->left_over_s = whole * rain->def.tick_s;
         *dropped = true;
     }
@@ -237,7 +237,7 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
     const virga_result result = virga_effect_check_step(&rain->base, "virga_rain_step", cmd, info);
     if (result)
         return result;
-    if (virga_settings_places(log, "step_info.camera_m", info->camera_m, 3))
+    if (virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3))
         return VIRGA_ERROR_INVALID;
     if (!(info->dt_s >= 0 && info->dt_s <= MAX_STEP_S))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 10 s, got %g", info->dt_s);
@@ -295,18 +295,18 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     rain->ticks_of_step = ticks;
     for (int axis = 0; axis < 3; axis++)
         frame->wind_m_s[axis] = (float)rain->wind_now[axis];
-    const virga_result uploaded = virga_uploaded(context);
+    const virga_result uploaded = virga_check_uploads(context);
     return uploaded ? uploaded : dropped ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points, uint32_t *count,
-                               double origin_m[3])
+virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points, uint32_t *count,
+                                     double origin_m[3])
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
     virga_context *context = rain->base.context;
     if (!cmd || !points || !count || !origin_m)
-        return virga_wrong_argument(&context->log, "virga_rain_points: NULL argument");
+        return virga_wrong_argument(&context->log, "virga_rain_write_points: NULL argument");
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->point_buffer || !rain->stepped || rain->step_set_frame != context->frame_index)
@@ -343,11 +343,11 @@ void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count)
         *first = rain ? (uint32_t)rain->ticks - (run ? run - 1 : 0) : 0;
 }
 
-void virga_rain_fall_get(const virga_rain *rain, virga_rain_fall *fall)
+void virga_rain_rainfall_get(const virga_rain *rain, virga_rainfall *fall)
 {
     if (!fall)
         return;
-    *fall = (virga_rain_fall){0};
+    *fall = (virga_rainfall){0};
     if (!rain)
         return;
     double squares = 0, cubes = 0;

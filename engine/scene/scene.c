@@ -203,12 +203,12 @@ virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
     return scene_find(scene, &glass_type, index);
 }
 
-virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting)
+virga_result virga_scene_lighting_set(virga_scene *scene, const virga_lighting *lighting)
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
     if (!lighting)
-        return virga_wrong_argument(&scene->context->log, "virga_scene_light: NULL argument");
+        return virga_wrong_argument(&scene->context->log, "virga_scene_lighting_set: NULL argument");
     virga_result result = VIRGA_OK;
     for (uint32_t i = 0; i < scene->effect_count && result >= 0; i++)
         result = scene_merge_results(result, virga_effect_set_lighting(scene->effects[i].effect, lighting));
@@ -219,10 +219,10 @@ virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lightin
 
 static virga_result check_positions(const virga_log *log, const virga_scene_frame *frame)
 {
-    if (virga_settings_places(log, "scene_frame.camera_m", frame->camera_m, 3) ||
-        virga_settings_places(log, "scene_frame.focus_m", frame->focus_m, 3) ||
-        virga_settings_places(log, "scene_frame.materials.low_m", frame->materials.low_m, 2) ||
-        virga_settings_places(log, "scene_frame.materials.high_m", frame->materials.high_m, 2))
+    if (virga_settings_check_positions(log, "scene_frame.camera_m", frame->camera_m, 3) ||
+        virga_settings_check_positions(log, "scene_frame.ripple_center_m", frame->ripple_center_m, 3) ||
+        virga_settings_check_positions(log, "scene_frame.materials.low_m", frame->materials.low_m, 2) ||
+        virga_settings_check_positions(log, "scene_frame.materials.high_m", frame->materials.high_m, 2))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -253,16 +253,16 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
 /* A camera_m that was forgotten, or is in other units than the view's, looks like rain that does not work. */
 static void log_if_far(virga_scene *scene, const virga_scene_frame *frame)
 {
-    virga_rain_fall fall;
+    virga_rainfall fall;
     double distance2 = 0;
-    virga_rain_fall_get(scene_find(scene, &rain_type, 0), &fall);
+    virga_rain_rainfall_get(scene_find(scene, &rain_type, 0), &fall);
     for (int axis = 0; axis < 3; axis++)
         distance2 += pow(frame->view->position_m[axis] - frame->camera_m[axis], 2);
     const bool is_far = sqrt(distance2) > (double)fall.reach_m;
     if (is_far && !scene->far_logged)
-        virga_log_say(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
-                      "scene_frame.camera_m: is %g m from view.position_m, where no drops are: they reach %g m",
-                      sqrt(distance2), (double)fall.reach_m);
+        virga_log_write(&scene->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
+                        "scene_frame.camera_m: is %g m from view.position_m, where no drops are: they reach %g m",
+                        sqrt(distance2), (double)fall.reach_m);
     scene->far_logged = is_far;
 }
 
@@ -332,7 +332,7 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
     virga_result result = scene_merge_results(checked, step_all(scene, cmd, frame));
     if (result >= 0 && seen)
         result = scene_merge_results(result, prepare_all(scene, cmd, frame->view));
-    if (result >= 0 && seen && !frame->panes_later)
+    if (result >= 0 && seen && !frame->defer_panes)
         result = scene_merge_results(result, virga_scene_prepare_panes(scene, cmd, frame->view, frame->panes));
     return result;
 }

@@ -33,8 +33,8 @@ static void define_ground(const virga_scene_def *def, uint32_t index, void *effe
     virga_ground_def ground = def->ground;
     (void)index;
     ground.seed = def->rain.seed;
-    if (def->with_splash && ground.max_returns < ground.max_spawns)
-        ground.max_returns = ground.max_spawns; /* as splash needs */
+    if (def->with_splash && ground.max_returned_droplets < ground.max_spawns)
+        ground.max_returned_droplets = ground.max_spawns; /* as splash needs */
     ground.tick_s = def->rain.tick_s;
     ground.max_impacts = def->rain.max_impacts;
     ground.max_ticks_per_step = def->rain.max_ticks_per_step;
@@ -54,7 +54,8 @@ static void define_splash(const virga_scene_def *def, uint32_t index, void *effe
     splash.tick_s = def->rain.tick_s;
     splash.max_ticks_per_step = def->rain.max_ticks_per_step;
     splash.max_spawns = def->ground.max_spawns;
-    splash.max_returns = def->ground.max_returns > splash.max_spawns ? def->ground.max_returns : splash.max_spawns;
+    splash.max_returned_droplets =
+        def->ground.max_returned_droplets > splash.max_spawns ? def->ground.max_returned_droplets : splash.max_spawns;
     memcpy(effect_def, &splash, sizeof splash);
 }
 
@@ -86,7 +87,7 @@ static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffe
     virga_result result = VIRGA_OK;
     (void)index;
     if (frame->occluders)
-        result = virga_rain_occlusion(rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
+        result = virga_rain_draw_occlusion(rain, cmd, frame->camera_m, frame->occluders, frame->occluder_count);
     memcpy(step.camera_m, frame->camera_m, sizeof step.camera_m);
     return result < 0 ? result : scene_merge_results(result, virga_rain_step(rain, cmd, &step));
 }
@@ -96,13 +97,13 @@ static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffe
 static void fill_rainfall(const virga_rain *rain, virga_ground_step_info *info)
 {
     virga_rain_buffer impacts;
-    virga_rain_fall fall;
+    virga_rainfall fall;
     virga_rain_impacts(rain, &impacts);
     info->impacts = impacts.buffer;
     info->impacts_offset = impacts.offset;
     info->impacts_size = impacts.size;
     virga_rain_ticks(rain, &info->first_tick, &info->ticks);
-    virga_rain_fall_get(rain, &fall);
+    virga_rain_rainfall_get(rain, &fall);
     info->open_rain_mm_h = fall.rate_mm_h;
     info->open_drop_m = fall.drop_m;
     info->impacts_reach_m = fall.reach_m;
@@ -110,14 +111,14 @@ static void fill_rainfall(const virga_rain *rain, virga_ground_step_info *info)
 
 static void fill_splashes(virga_splash *splash, virga_ground_step_info *info)
 {
-    virga_splash_buffer rules, returns;
+    virga_splash_buffer rules, returned_droplets;
     virga_splash_rules(splash, &rules);
-    virga_splash_returns(splash, &returns);
+    virga_splash_returned_droplets(splash, &returned_droplets);
     info->splash_rules = rules.buffer;
     info->splash_rules_offset = rules.offset;
-    info->returns = returns.buffer;
-    info->returns_offset = returns.offset;
-    info->returns_size = returns.size;
+    info->returned_droplets = returned_droplets.buffer;
+    info->returned_droplets_offset = returned_droplets.offset;
+    info->returned_droplets_size = returned_droplets.size;
 }
 
 static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
@@ -126,7 +127,7 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
     virga_ground_step_info info = {
         .meshes = frame->occluders, .mesh_count = frame->occluder_count, .materials = frame->materials};
     memcpy(info.camera_m, frame->camera_m, sizeof info.camera_m);
-    memcpy(info.focus_m, frame->focus_m, sizeof info.focus_m);
+    memcpy(info.ripple_center_m, frame->ripple_center_m, sizeof info.ripple_center_m);
     fill_rainfall(rain_of(scene), &info);
     if (splash)
         fill_splashes(splash, &info);
@@ -176,9 +177,9 @@ static virga_result check_pane(const virga_scene *scene, uint32_t index, const v
     if (!(pane->shelter >= 0 && pane->shelter <= 1))
         return virga_wrong_argument(log, "scene_pane.shelter: expected 0 to 1, got %g", (double)pane->shelter);
     if (glass_pose_check(log, &pane->pose) ||
-        virga_settings_finite(log, "scene_pane.velocity_m_s", pane->velocity_m_s, 3) ||
-        virga_settings_finite(log, "scene_pane.acceleration_m_s2", pane->acceleration_m_s2, 3) ||
-        virga_settings_finite(log, "scene_pane.turn_rad_s", pane->turn_rad_s, 3))
+        virga_settings_check_finite(log, "scene_pane.velocity_m_s", pane->velocity_m_s, 3) ||
+        virga_settings_check_finite(log, "scene_pane.acceleration_m_s2", pane->acceleration_m_s2, 3) ||
+        virga_settings_check_finite(log, "scene_pane.angular_velocity_rad_s", pane->angular_velocity_rad_s, 3))
         return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }
@@ -200,7 +201,7 @@ static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_
     for (int axis = 0; axis < 3; axis++)
         caught.corner_m[axis] = pane->pose.position_m[axis] + (double)offset[axis];
     memcpy(caught.velocity_m_s, pane->velocity_m_s, sizeof caught.velocity_m_s);
-    const virga_result result = virga_rain_hits(rain_of(scene), cmd, &caught, &hits);
+    const virga_result result = virga_rain_find_hits(rain_of(scene), cmd, &caught, &hits);
     if (result < 0 || result == VIRGA_NOT_READY)
         return result;
     info->rate_mm_h = 0;
@@ -216,9 +217,11 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
     virga_scene_pane moved = frame->panes[index];
     const virga_scene_pane *pane = &moved;
     const virga_log *log = &scene->context->log;
-    virga_clamp_vector(log, "scene_pane.velocity_m_s", moved.velocity_m_s, VIRGA_FASTEST_M_S, &changed);
-    virga_clamp_vector(log, "scene_pane.acceleration_m_s2", moved.acceleration_m_s2, VIRGA_STRONGEST_M_S2, &changed);
-    virga_clamp_vector(log, "scene_pane.turn_rad_s", moved.turn_rad_s, VIRGA_QUICKEST_RAD_S, &changed);
+    virga_clamp_vector(log, "scene_pane.velocity_m_s", moved.velocity_m_s, VIRGA_MAX_SPEED_M_S, &changed);
+    virga_clamp_vector(log, "scene_pane.acceleration_m_s2", moved.acceleration_m_s2, VIRGA_MAX_ACCELERATION_M_S2,
+                       &changed);
+    virga_clamp_vector(log, "scene_pane.angular_velocity_rad_s", moved.angular_velocity_rad_s,
+                       VIRGA_MAX_ANGULAR_SPEED_RAD_S, &changed);
     virga_rain_settings rain;
     virga_rain_get(rain_of(scene), &rain);
     virga_glass_step_info info = {
@@ -226,7 +229,7 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
     memcpy(info.world_from_pane, pane->pose.world_from_pane, sizeof info.world_from_pane);
     memcpy(info.velocity_m_s, pane->velocity_m_s, sizeof info.velocity_m_s);
     memcpy(info.acceleration_m_s2, pane->acceleration_m_s2, sizeof info.acceleration_m_s2);
-    memcpy(info.turn_rad_s, pane->turn_rad_s, sizeof info.turn_rad_s);
+    memcpy(info.angular_velocity_rad_s, pane->angular_velocity_rad_s, sizeof info.angular_velocity_rad_s);
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
     virga_result result = catch_drops(scene, cmd, index, pane, &info);

@@ -36,7 +36,7 @@ virga_splash_def virga_default_splash_def(void)
                               .max_splashes = 65536,
                               .max_droplets = 131072,
                               .max_spawns = 65536,
-                              .max_returns = 131072,
+                              .max_returned_droplets = 131072,
                               .max_ticks_per_step = 16,
                               .tick_s = 1.0 / 60};
 }
@@ -47,27 +47,27 @@ virga_splash_settings virga_default_splash_settings(void)
                                       .cookie = SETTINGS_COOKIE,
                                       .mode = VIRGA_SPLASH_MODE_PHYSICAL,
                                       .style = VIRGA_SPLASH_STYLE_FILM,
-                                      .pile_s = 0.012f,
-                                      .pile_m = 0.008f,
+                                      .pile_max_s = 0.012f,
+                                      .pile_max_m = 0.008f,
                                       .bounce = 0.25f,
                                       .wind_share = 0.4f,
-                                      .droplets_m = 2.5f,
-                                      .dot_mm = 0.5f,
+                                      .droplet_range_m = 2.5f,
+                                      .dot_min_mm = 0.5f,
                                       .air_density = 1.204f,
                                       .lighting = virga_default_lighting(),
                                       .gain = 1,
                                       .light_gain = 1,
                                       .min_width_px = 1,
                                       .soft_m = 0.002f,
-                                      .near_m = 0.05f};
-    splash_default_rows(settings.rows);
+                                      .near_fade_m = 0.05f};
+    splash_default_rows(settings.rules);
     return settings;
 }
 
-static uint32_t power_of_two(uint32_t least)
+static uint32_t power_of_two(uint32_t min)
 {
     uint32_t power = 1;
-    while (power < least)
+    while (power < min)
         power *= 2;
     return power;
 }
@@ -87,8 +87,8 @@ static virga_result check_def(const virga_log *log, void *given)
         return VIRGA_ERROR_INVALID;
     def->max_splashes = power_of_two(def->max_splashes);
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
-    def->max_returns =
-        virga_clamp_setting_u32(log, "splash_def.max_returns", def->max_returns, def->max_spawns, 4194240, NULL);
+    def->max_returned_droplets = virga_clamp_setting_u32(log, "splash_def.max_returned_droplets",
+                                                         def->max_returned_droplets, def->max_spawns, 4194240, NULL);
     return VIRGA_OK;
 }
 
@@ -104,7 +104,7 @@ static VkDeviceSize index_count(const virga_splash_def *def)
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_splash_def *def = given;
-    const VkDeviceSize most = context->properties.limits.maxStorageBufferRange;
+    const VkDeviceSize max = context->properties.limits.maxStorageBufferRange;
     /* Both are wider than a droplet; what they have beside that for each is a block's, which is left out below. */
     const VkDeviceSize indices = index_count(def) * sizeof(uint32_t) / def->max_droplets;
     const VkDeviceSize widest = indices > SPLASH_SPRITE_BYTES ? indices : SPLASH_SPRITE_BYTES;
@@ -112,17 +112,17 @@ static virga_result fit_device(const virga_context *context, void *given)
     const VkDeviceSize grouped =
         (VkDeviceSize)context->properties.limits.maxComputeWorkGroupCount[0] * VIRGA_SPLASH_GROUP;
     const VkDeviceSize counted = indexed < grouped ? indexed : grouped;
-    const VkDeviceSize fits = most / widest < counted ? most / widest : counted;
-    const uint32_t asked = def->max_droplets, blocks = (uint32_t)(fits / VIRGA_SPLASH_BLOCK) - 1;
+    const VkDeviceSize fits = max / widest < counted ? max / widest : counted;
+    const uint32_t requested = def->max_droplets, blocks = (uint32_t)(fits / VIRGA_SPLASH_BLOCK) - 1;
     if (def->max_droplets > blocks * VIRGA_SPLASH_BLOCK)
         def->max_droplets = blocks * VIRGA_SPLASH_BLOCK;
-    if (asked != def->max_droplets)
-        virga_log_say(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                      "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
-                      def->max_droplets, (unsigned long long)most);
-    while (sizeof(virga_impacts_gpu) + def->max_returns * sizeof(virga_impact_gpu) > most)
-        def->max_returns /= 2;
-    return asked != def->max_droplets ? VIRGA_DEGRADED : VIRGA_OK;
+    if (requested != def->max_droplets)
+        virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                        "splash_def.max_droplets: %u, as storage buffers of this device hold no more than %llu bytes",
+                        def->max_droplets, (unsigned long long)max);
+    while (sizeof(virga_impacts_gpu) + def->max_returned_droplets * sizeof(virga_impact_gpu) > max)
+        def->max_returned_droplets /= 2;
+    return requested != def->max_droplets ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 enum {
@@ -145,7 +145,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_MARK_WORDS] = def->max_droplets / 32;
     counts[COUNT_SPLASHES] = def->max_splashes;
     counts[COUNT_SPAWNS] = def->max_spawns;
-    counts[COUNT_RETURNS] = def->max_returns;
+    counts[COUNT_RETURNS] = def->max_returned_droplets;
     /* Of droplets as lines, as quads and for their piles, and of splashes for sprites and for sheets. */
     counts[COUNT_PICK_BYTES] =
         VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
@@ -168,8 +168,8 @@ static const virga_effect_buffer buffers[] = {
     {"splash.droplets1", AT(droplet_buffers[1]), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_droplet_gpu),
      .count = COUNT_DROPLETS, .first = FILL},
     {"splash.marks", AT(marks), VIRGA_USE_STORAGE, DEVICE, .entry = 16, .count = COUNT_MARK_WORDS, .first = FILL},
-    {"splash.places", AT(places), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
-    {"splash.returns", AT(returns), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
+    {"splash.places", AT(spawn_offsets), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
+    {"splash.returns", AT(returned_droplets), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
      .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
     {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
     {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
@@ -213,8 +213,8 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(splashes)},                                 /* 5 */
     [BIND_DROPLETS] = {STORAGE, COMPUTE | VERTEX},                                                  /* 6 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(marks)},                                             /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(places)},                                            /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returns)},                                           /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawn_offsets)},                                     /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returned_droplets)},                                 /* 9 */
     {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picks)},                                    /* 10 */
     {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 11 */
     [BIND_KEPT] = {STORAGE, COMPUTE},                              /* 12 droplets that stay after the tick */
@@ -334,9 +334,18 @@ void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint 
     }
 
 static const virga_setting_row settings_rows[] = {
-    NUMBER(pile_s, 0.001, 0.2),  NUMBER(pile_m, 0.001, 0.2),   NUMBER(bounce, 0, 1),        NUMBER(wind_share, 0, 2),
-    NUMBER(droplets_m, 0, 1000), NUMBER(dot_mm, 0.05, 5),      NUMBER(air_density, 0.3, 2), NUMBER(gain, 0, 100),
-    NUMBER(light_gain, 0, 100),  NUMBER(min_width_px, 0.5, 4), NUMBER(soft_m, 0, 1),        NUMBER(near_m, 0, 5),
+    NUMBER(pile_max_s, 0.001, 0.2),
+    NUMBER(pile_max_m, 0.001, 0.2),
+    NUMBER(bounce, 0, 1),
+    NUMBER(wind_share, 0, 2),
+    NUMBER(droplet_range_m, 0, 1000),
+    NUMBER(dot_min_mm, 0.05, 5),
+    NUMBER(air_density, 0.3, 2),
+    NUMBER(gain, 0, 100),
+    NUMBER(light_gain, 0, 100),
+    NUMBER(min_width_px, 0.5, 4),
+    NUMBER(soft_m, 0, 1),
+    NUMBER(near_fade_m, 0, 5),
 };
 
 virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings)
@@ -353,7 +362,7 @@ virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings 
         return virga_wrong_argument(log, "splash_settings: there is no mode %d or style %d", (int)next.mode,
                                     (int)next.style);
     if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), &next, &changed) ||
-        splash_check_rows(log, next.rows, &changed) ||
+        splash_check_rows(log, next.rules, &changed) ||
         virga_lighting_check(log, "splash_settings", &next.lighting, &changed) < 0)
         return VIRGA_ERROR_INVALID;
     splash->settings = next;
@@ -386,11 +395,12 @@ void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
         (virga_splash_buffer){splash->rules_ring.buffer->buffer, splash->rules_offset, sizeof(virga_splash_rules_gpu)};
 }
 
-void virga_splash_returns(const virga_splash *splash, virga_splash_buffer *returns)
+void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buffer *returned_droplets)
 {
-    if (returns)
-        *returns = splash && splash->ticks ? (virga_splash_buffer){splash->returns->buffer, 0, splash->returns->size}
-                                           : (virga_splash_buffer){0};
+    if (returned_droplets)
+        *returned_droplets = splash && splash->ticks ? (virga_splash_buffer){splash->returned_droplets->buffer, 0,
+                                                                             splash->returned_droplets->size}
+                                                     : (virga_splash_buffer){0};
 }
 
 void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,

@@ -51,7 +51,7 @@ static float handedness(const float clip_from_rel[16])
 }
 
 /* VIRGA_SPLASH_FORM_... of the passes of a prepare. */
-static uint32_t form_wanted(const virga_splash *splash)
+static uint32_t choose_form(const virga_splash *splash)
 {
     const virga_splash_settings *settings = &splash->settings;
     const bool full = settings->lighting.light_count || virga_effect_wants_motion(&splash->base);
@@ -66,7 +66,7 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
     out->view.light_gain = settings->light_gain;
     out->view.min_width_px = settings->min_width_px;
     out->view.soft_m = settings->soft_m;
-    out->view.near_m = settings->near_m;
+    out->view.near_fade_m = settings->near_fade_m;
     out->look = (virga_splash_look_gpu){.tick = splash->last_tick,
                                         .tick_s = (float)splash->def.tick_s,
                                         .style = (uint32_t)settings->style,
@@ -149,12 +149,12 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     fill_view(splash, view, time_s, &block);
     splash->view_offset = virga_ring_push(context, &splash->view_ring, &block, sizeof block);
     const VkDescriptorSet set = splash_write_set(splash, index, splash_current(splash), view);
-    record_prepare(splash, cmd, set, form_wanted(splash));
+    record_prepare(splash, cmd, set, choose_form(splash));
     virga_effect_set_view(&splash->base, set, view->viewport);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
     splash->prepared_line_px = splash->settings.min_width_px + 1; /* as corners would be, see sprite_corner.glsl */
     splash->prepared_style = splash->settings.style;
-    return virga_uploaded(context);
+    return virga_check_uploads(context);
 }
 
 /* ---- draw */
@@ -213,16 +213,16 @@ virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const 
     if (result)
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "splash.draw");
-    virga_draw_area(context, cmd, splash->base.view.viewport);
+    virga_set_draw_area(context, cmd, splash->base.view.viewport);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, splash->base.view.set);
     context->vk.CmdBindIndexBuffer(cmd, splash->index_buffer->buffer, 0, VK_INDEX_TYPE_UINT32);
     draw(splash, cmd, used[0], offsetof(virga_splash_prepared_gpu, crowns));
-    draw(splash, cmd, used[1], offsetof(virga_splash_prepared_gpu, wide));
+    draw(splash, cmd, used[1], offsetof(virga_splash_prepared_gpu, wide_quads));
     if (has_lines) {
         context->vk.CmdSetLineWidth(cmd, splash->prepared_line_px);
         draw(splash, cmd, used[4], offsetof(virga_splash_prepared_gpu, lines));
     }
-    draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin));
+    draw(splash, cmd, used[2], offsetof(virga_splash_prepared_gpu, thin_quads));
     draw(splash, cmd, used[3], offsetof(virga_splash_prepared_gpu, puffs));
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;

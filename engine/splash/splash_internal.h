@@ -17,9 +17,9 @@
 #include <virga/splash.h>
 
 /* ---- splash_table.c */
-void splash_default_rows(virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES]);
-virga_result splash_check_rows(const virga_log *log, virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES],
-                               bool *changed);
+void splash_default_rows(virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES]);
+virga_result splash_check_rows(const virga_log *log,
+                               virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES], bool *changed);
 void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules);
 
 /* ---- the object */
@@ -69,8 +69,8 @@ struct virga_splash {
     uint32_t last_tick;
 
     virga_buffer *droplet_buffers[2], *droplets; /* the last: that of the two which is current */
-    virga_buffer *state, *splashes, *marks, *places, *returns, *picks, *lists, *sprites, *prepared_buffer,
-        *index_buffer;
+    virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *lists, *sprites,
+        *prepared_buffer, *index_buffer;
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* for what a view has not */
@@ -98,8 +98,8 @@ static inline uint32_t splash_max_sprites(const virga_splash_def *def)
 static inline uint32_t splash_max_crowns(const virga_splash_def *def)
 {
     /* As pyramids they share the indices of sprites. */
-    const uint32_t most = def->max_droplets / VIRGA_CROWN_PYRAMIDS;
-    return def->max_splashes < most ? def->max_splashes : most;
+    const uint32_t max = def->max_droplets / VIRGA_CROWN_PYRAMIDS;
+    return def->max_splashes < max ? def->max_splashes : max;
 }
 
 /* ---- splash.c */

@@ -29,7 +29,7 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->fallen = count_of(state, VIRGA_SPLASH_FALLEN);
     stats->flown_nl = count_of(state, VIRGA_SPLASH_FLOWN);
     stats->returned_nl = count_of(state, VIRGA_SPLASH_RETURNED);
-    stats->crowded = count_of(state, VIRGA_SPLASH_CROWDED);
+    stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
     stats->splashes_alive = state->end_splash - state->first_splash;
     stats->droplets_alive = state->staying;
 }
@@ -45,8 +45,8 @@ void splash_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
         read_state(stats, frame, &read.state);
     if (parts & 1u << SPLASH_PART_PREPARE) {
         stats->sprites = read.prepared.sprites;
-        stats->sprites_cut = read.prepared.cut[0];
-        stats->sheets_cut = read.prepared.cut[1];
+        stats->sprites_dropped = read.prepared.cut[0];
+        stats->sheets_dropped = read.prepared.cut[1];
     }
 }
 
@@ -61,11 +61,11 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
                                  .tick_s = (float)splash->def.tick_s,
                                  .air_density = settings->air_density,
                                  .bounce = settings->bounce,
-                                 .pile_s = settings->pile_s,
-                                 .pile_m = settings->pile_m,
+                                 .pile_max_s = settings->pile_max_s,
+                                 .pile_max_m = settings->pile_max_m,
                                  .max_splashes = splash->def.max_splashes,
                                  .max_droplets = splash->def.max_droplets,
-                                 .max_returns = splash->def.max_returns,
+                                 .max_returned_droplets = splash->def.max_returned_droplets,
                                  .max_spawns = splash->def.max_spawns};
     for (int axis = 0; axis < 3; axis++) {
         out.anchor[axis] = (float)splash->anchor_m[axis];
@@ -116,12 +116,12 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
         splash->anchor_m[axis] = anchor;
     }
     if (splash->anchored) {
-        const uint32_t most =
+        const uint32_t max =
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
         push_tick(splash, info, 0, shift);
         splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
         virga_dispatch_and_barrier(splash->base.context, cmd, splash->rebase,
-                                   (most + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
+                                   (max + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
     }
     splash->anchored = true;
 }
@@ -151,8 +151,8 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
     const virga_tick_range ticks = {info->first_tick, info->ticks, splash->def.max_ticks_per_step};
     if (virga_effect_check_ticks(&splash->base, "virga_splash_step", &ticks,
                                  splash->ticks ? &splash->last_tick : NULL) ||
-        virga_settings_places(log, "step_info.camera_m", info->camera_m, 3) ||
-        virga_settings_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
+        virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
+        virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
         virga_host_list_check(splash->base.context, "step_info.spawns", info->spawns_offset, info->spawns_size,
                               sizeof(virga_spawns_gpu)))
         return VIRGA_ERROR_INVALID;
@@ -167,7 +167,7 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     bool changed = false;
     virga_splash_step_info next = *given;
     const virga_splash_step_info *info = &next;
-    virga_clamp_vector(&splash->base.context->log, "step_info.wind_m_s", next.wind_m_s, VIRGA_FASTEST_M_S, &changed);
+    virga_clamp_vector(&splash->base.context->log, "step_info.wind_m_s", next.wind_m_s, VIRGA_MAX_SPEED_M_S, &changed);
     virga_context *context = splash->base.context;
     virga_timers_reset(context, cmd);
     virga_effect_read_statistics(&splash->base);
@@ -197,6 +197,6 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
         run_tick(splash, cmd, info, i);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_STEP, splash->state, 0,
                                  offsetof(splash_readback, state), sizeof(virga_splash_state_gpu));
-    const virga_result uploaded = virga_uploaded(context);
+    const virga_result uploaded = virga_check_uploads(context);
     return uploaded ? uploaded : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }

@@ -16,66 +16,66 @@
 
 /* ---- rows by state */
 
-#define LEAST_MM \
+#define MIN_MM \
     0.8f /* smaller drops hardly splash: between 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
                        * where Bai, Rusche and Gosman's droplets begin on a wet wall */
 
-static const virga_splash_row none = {.model = VIRGA_SPLASH_NONE};
+static const virga_splash_rule none = {.model = VIRGA_SPLASH_NONE};
 
-static const virga_splash_row disk = {.model = VIRGA_SPLASH_DISK, .least_diameter_mm = LEAST_MM};
+static const virga_splash_rule disk = {.model = VIRGA_SPLASH_DISK, .min_diameter_mm = MIN_MM};
 
-static const virga_splash_row wet = {.model = VIRGA_SPLASH_SCATTERING,
-                                     .least_diameter_mm = LEAST_MM,
-                                     .share = {0.03f, 0.10f},
-                                     .count = {1, 5},
-                                     .angle_deg = {1, 30},
-                                     .speed_m_s = {0.1f, 1.0f},
-                                     .strength = 0.7f,
-                                     .circle = 1.0f};
+static const virga_splash_rule wet = {.model = VIRGA_SPLASH_SCATTERING,
+                                      .min_diameter_mm = MIN_MM,
+                                      .share = {0.03f, 0.10f},
+                                      .count = {1, 5},
+                                      .angle_deg = {1, 30},
+                                      .speed_m_s = {0.1f, 1.0f},
+                                      .strength = 0.7f,
+                                      .circle_radius = 1.0f};
 
-static const virga_splash_row puddle_3 = {.model = VIRGA_SPLASH_SCATTERING,
-                                          .least_diameter_mm = LEAST_MM,
-                                          .share = {0.05f, 0.16f},
-                                          .count = {4, 14},
-                                          .angle_deg = {1, 60},
-                                          .speed_m_s = {0.15f, 1.5f},
-                                          .strength = 1.0f,
-                                          .circle = 1.3f};
+static const virga_splash_rule puddle_3 = {.model = VIRGA_SPLASH_SCATTERING,
+                                           .min_diameter_mm = MIN_MM,
+                                           .share = {0.05f, 0.16f},
+                                           .count = {4, 14},
+                                           .angle_deg = {1, 60},
+                                           .speed_m_s = {0.15f, 1.5f},
+                                           .strength = 1.0f,
+                                           .circle_radius = 1.3f};
 
-static const virga_splash_row puddle_5 = {.model = VIRGA_SPLASH_SCATTERING,
-                                          .least_diameter_mm = LEAST_MM,
-                                          .share = {0.08f, 0.22f},
-                                          .count = {12, 22},
-                                          .angle_deg = {1, 90},
-                                          .speed_m_s = {0.2f, 2.0f},
-                                          .strength = 1.0f,
-                                          .circle = 1.6f};
+static const virga_splash_rule puddle_5 = {.model = VIRGA_SPLASH_SCATTERING,
+                                           .min_diameter_mm = MIN_MM,
+                                           .share = {0.08f, 0.22f},
+                                           .count = {12, 22},
+                                           .angle_deg = {1, 90},
+                                           .speed_m_s = {0.2f, 2.0f},
+                                           .strength = 1.0f,
+                                           .circle_radius = 1.6f};
 
 /* The angle is that of the cone's droplet; a crown's own piles, where it lets any go, rise at 50 to 80 degrees. */
-static const virga_splash_row puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
-                                           .least_diameter_mm = LEAST_MM,
-                                           .share = {0.03f, 0.10f},
-                                           .count = {1, 1},
-                                           .angle_deg = {90, 90},
-                                           .speed_m_s = {0.1f, 2.0f},
-                                           .strength = 1.0f,
-                                           .circle = 2.0f};
+static const virga_splash_rule puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
+                                            .min_diameter_mm = MIN_MM,
+                                            .share = {0.03f, 0.10f},
+                                            .count = {1, 1},
+                                            .angle_deg = {90, 90},
+                                            .speed_m_s = {0.1f, 2.0f},
+                                            .strength = 1.0f,
+                                            .circle_radius = 2.0f};
 
 /* ---- materials: how much of asphalt's splash each makes */
 
-typedef struct splash_nature {
+typedef struct splash_surface {
     float count, speed, angle; /* times those of asphalt */
     float wet_depth_mm;        /* of film that a wet surface needs */
     bool dry_disk;
-} splash_nature;
+} splash_surface;
 
-static const splash_nature hard_rough = {1, 1, 1, 0, false};
-static const splash_nature hard_smooth = {0.6f, 0.75f, 0.8f, 0.5f, false};
-static const splash_nature sealed = {1, 1, 1, 0, true}; /* takes up nothing, so any water on it is a film */
-static const splash_nature soft = {0.5f, 0.8f, 1, 0, false};
-static const splash_nature yielding = {0.4f, 0.5f, 1, 0.5f, false};
+static const splash_surface hard_rough = {1, 1, 1, 0, false};
+static const splash_surface hard_smooth = {0.6f, 0.75f, 0.8f, 0.5f, false};
+static const splash_surface smooth = {1, 1, 1, 0, true}; /* takes up nothing, so any water on it is a film */
+static const splash_surface soft = {0.5f, 0.8f, 1, 0, false};
+static const splash_surface yielding = {0.4f, 0.5f, 1, 0.5f, false};
 
-static const splash_nature *const natures[] = {
+static const splash_surface *const surfaces[] = {
     [VIRGA_MATERIAL_DEFAULT] = &hard_smooth,
     [VIRGA_MATERIAL_ASPHALT] = &hard_rough,
     [VIRGA_MATERIAL_CONCRETE] = &hard_smooth,
@@ -85,44 +85,44 @@ static const splash_nature *const natures[] = {
     [VIRGA_MATERIAL_SAND] = &soft,
     [VIRGA_MATERIAL_SOIL] = &soft,
     [VIRGA_MATERIAL_WOOD] = &hard_smooth,
-    [VIRGA_MATERIAL_STEEL] = &sealed,
-    [VIRGA_MATERIAL_GLASS] = &sealed,
-    [VIRGA_MATERIAL_WATER] = &sealed,
+    [VIRGA_MATERIAL_STEEL] = &smooth,
+    [VIRGA_MATERIAL_GLASS] = &smooth,
+    [VIRGA_MATERIAL_WATER] = &smooth,
     [VIRGA_MATERIAL_LEAVES] = &yielding,
     [VIRGA_MATERIAL_CLOTH] = &yielding,
-    [VIRGA_MATERIAL_PLASTIC] = &sealed,
-    [VIRGA_MATERIAL_TILE] = &sealed,
+    [VIRGA_MATERIAL_PLASTIC] = &smooth,
+    [VIRGA_MATERIAL_TILE] = &smooth,
     [VIRGA_MATERIAL_DRAIN] = &hard_rough,
 };
 
-static virga_splash_row natural(virga_splash_row row, const splash_nature *nature)
+static virga_splash_rule adapt_rule(virga_splash_rule row, const splash_surface *surface)
 {
-    row.count[0] = fmaxf(floorf(row.count[0] * nature->count), 1);
-    row.count[1] = fmaxf(floorf(row.count[1] * nature->count), 1);
+    row.count[0] = fmaxf(floorf(row.count[0] * surface->count), 1);
+    row.count[1] = fmaxf(floorf(row.count[1] * surface->count), 1);
     for (int i = 0; i < 2; i++)
-        row.speed_m_s[i] *= nature->speed;
-    row.angle_deg[1] *= nature->angle;
-    row.share[1] *= nature->count;
-    row.share[0] *= nature->count;
-    row.strength *= nature->count;
+        row.speed_m_s[i] *= surface->speed;
+    row.angle_deg[1] *= surface->angle;
+    row.share[1] *= surface->count;
+    row.share[0] *= surface->count;
+    row.strength *= surface->count;
     return row;
 }
 
-void splash_default_rows(virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES])
+void splash_default_rows(virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES])
 {
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
-        const uint32_t known = i < sizeof natures / sizeof natures[0] ? i : VIRGA_MATERIAL_DEFAULT;
-        const splash_nature *nature = natures[known];
-        virga_splash_row *row = rows[i];
-        row[VIRGA_GROUND_DRY] = nature->dry_disk ? disk : none;
-        row[VIRGA_GROUND_WET] = natural(wet, nature);
-        row[VIRGA_GROUND_WET].least_depth_mm = nature->wet_depth_mm;
-        row[VIRGA_GROUND_PUDDLE_3] = natural(puddle_3, nature);
-        row[VIRGA_GROUND_PUDDLE_5] = natural(puddle_5, nature);
+        const uint32_t known = i < sizeof surfaces / sizeof surfaces[0] ? i : VIRGA_MATERIAL_DEFAULT;
+        const splash_surface *surface = surfaces[known];
+        virga_splash_rule *row = rows[i];
+        row[VIRGA_GROUND_DRY] = surface->dry_disk ? disk : none;
+        row[VIRGA_GROUND_WET] = adapt_rule(wet, surface);
+        row[VIRGA_GROUND_WET].min_depth_mm = surface->wet_depth_mm;
+        row[VIRGA_GROUND_PUDDLE_3] = adapt_rule(puddle_3, surface);
+        row[VIRGA_GROUND_PUDDLE_5] = adapt_rule(puddle_5, surface);
         row[VIRGA_GROUND_PUDDLE_10] = puddle_10;
         /* What is not ground is taken to be wet: roofs, cars, walls. There is no film to be known there. */
         row[VIRGA_GROUND_NONE] = row[VIRGA_GROUND_WET];
-        row[VIRGA_GROUND_NONE].least_depth_mm = 0;
+        row[VIRGA_GROUND_NONE].min_depth_mm = 0;
     }
     for (uint32_t state = VIRGA_GROUND_NONE; state <= VIRGA_GROUND_PUDDLE_5; state++)
         rows[VIRGA_MATERIAL_WATER][state] = puddle_10; /* a pond is deep */
@@ -131,39 +131,40 @@ void splash_default_rows(virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GRO
 
 /* ---- checks */
 
-static void clamp_range(const virga_log *log, const char *name, float range[2], float most, bool *changed)
+static void clamp_range(const virga_log *log, const char *name, float range[2], float max, bool *changed)
 {
     for (int i = 0; i < 2; i++)
-        range[i] = virga_clamp_setting_float(log, name, range[i], i ? range[0] : 0, most, changed);
+        range[i] = virga_clamp_setting_float(log, name, range[i], i ? range[0] : 0, max, changed);
 }
 
-static virga_result check_row(const virga_log *log, virga_splash_row *row, bool *changed)
+static virga_result check_row(const virga_log *log, virga_splash_rule *row, bool *changed)
 {
-    if (virga_settings_finite(log, "splash_settings.rows.least_diameter_mm", &row->least_diameter_mm, 1) ||
-        virga_settings_finite(log, "splash_settings.rows.least_depth_mm", &row->least_depth_mm, 1) ||
-        virga_settings_finite(log, "splash_settings.rows.share", row->share, 2) ||
-        virga_settings_finite(log, "splash_settings.rows.count", row->count, 2) ||
-        virga_settings_finite(log, "splash_settings.rows.angle_deg", row->angle_deg, 2) ||
-        virga_settings_finite(log, "splash_settings.rows.speed_m_s", row->speed_m_s, 2) ||
-        virga_settings_finite(log, "splash_settings.rows.strength", &row->strength, 1) ||
-        virga_settings_finite(log, "splash_settings.rows.circle", &row->circle, 1))
+    if (virga_settings_check_finite(log, "splash_settings.rules.min_diameter_mm", &row->min_diameter_mm, 1) ||
+        virga_settings_check_finite(log, "splash_settings.rules.min_depth_mm", &row->min_depth_mm, 1) ||
+        virga_settings_check_finite(log, "splash_settings.rules.share", row->share, 2) ||
+        virga_settings_check_finite(log, "splash_settings.rules.count", row->count, 2) ||
+        virga_settings_check_finite(log, "splash_settings.rules.angle_deg", row->angle_deg, 2) ||
+        virga_settings_check_finite(log, "splash_settings.rules.speed_m_s", row->speed_m_s, 2) ||
+        virga_settings_check_finite(log, "splash_settings.rules.strength", &row->strength, 1) ||
+        virga_settings_check_finite(log, "splash_settings.rules.circle", &row->circle_radius, 1))
         return VIRGA_ERROR_INVALID;
-    row->model = virga_clamp_setting_u32(log, "splash_settings.rows.model", row->model, 0, VIRGA_SPLASH_DISK, changed);
-    row->least_diameter_mm = virga_clamp_setting_float(log, "splash_settings.rows.least_diameter_mm",
-                                                       row->least_diameter_mm, 0, 10, changed);
-    row->least_depth_mm =
-        virga_clamp_setting_float(log, "splash_settings.rows.least_depth_mm", row->least_depth_mm, 0, 100, changed);
-    clamp_range(log, "splash_settings.rows.share", row->share, 1, changed);
-    clamp_range(log, "splash_settings.rows.count", row->count, VIRGA_SPLASH_MOST_COUNT, changed);
-    clamp_range(log, "splash_settings.rows.angle_deg", row->angle_deg, 90, changed);
-    clamp_range(log, "splash_settings.rows.speed_m_s", row->speed_m_s, 10, changed);
-    row->strength = virga_clamp_setting_float(log, "splash_settings.rows.strength", row->strength, 0, 4, changed);
-    row->circle = virga_clamp_setting_float(log, "splash_settings.rows.circle", row->circle, 0, 10, changed);
+    row->model = virga_clamp_setting_u32(log, "splash_settings.rules.model", row->model, 0, VIRGA_SPLASH_DISK, changed);
+    row->min_diameter_mm =
+        virga_clamp_setting_float(log, "splash_settings.rules.min_diameter_mm", row->min_diameter_mm, 0, 10, changed);
+    row->min_depth_mm =
+        virga_clamp_setting_float(log, "splash_settings.rules.min_depth_mm", row->min_depth_mm, 0, 100, changed);
+    clamp_range(log, "splash_settings.rules.share", row->share, 1, changed);
+    clamp_range(log, "splash_settings.rules.count", row->count, VIRGA_SPLASH_MAX_COUNT, changed);
+    clamp_range(log, "splash_settings.rules.angle_deg", row->angle_deg, 90, changed);
+    clamp_range(log, "splash_settings.rules.speed_m_s", row->speed_m_s, 10, changed);
+    row->strength = virga_clamp_setting_float(log, "splash_settings.rules.strength", row->strength, 0, 4, changed);
+    row->circle_radius =
+        virga_clamp_setting_float(log, "splash_settings.rules.circle", row->circle_radius, 0, 10, changed);
     return VIRGA_OK;
 }
 
-virga_result splash_check_rows(const virga_log *log, virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES],
-                               bool *changed)
+virga_result splash_check_rows(const virga_log *log,
+                               virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES], bool *changed)
 {
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
         for (uint32_t state = 0; state < VIRGA_GROUND_STATES; state++)
@@ -181,16 +182,16 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
     /* Splashes last for about a tenth of a second (disks stay, on what is dry only); there are dots beside them. */
     rules->mode = (uint32_t)settings->mode;
     rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.25);
-    rules->droplets_m = fmaxf(settings->droplets_m, 1e-3f);
-    rules->dot_diameter_m = settings->dot_mm * 1e-3f;
+    rules->droplet_range_m = fmaxf(settings->droplet_range_m, 1e-3f);
+    rules->dot_min_m = settings->dot_min_mm * 1e-3f;
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS * VIRGA_GROUND_STATES; i++) {
-        const virga_splash_row *row = &settings->rows[i / VIRGA_GROUND_STATES][i % VIRGA_GROUND_STATES];
+        const virga_splash_rule *row = &settings->rules[i / VIRGA_GROUND_STATES][i % VIRGA_GROUND_STATES];
         virga_splash_rule_gpu *rule = &rules->rules[i];
         *rule = (virga_splash_rule_gpu){.model = row->model,
-                                        .least_diameter_m = row->least_diameter_mm * 1e-3f,
-                                        .least_depth_m = row->least_depth_mm * 1e-3f,
+                                        .min_diameter_m = row->min_diameter_mm * 1e-3f,
+                                        .min_depth_m = row->min_depth_mm * 1e-3f,
                                         .strength = row->strength,
-                                        .circle = row->circle};
+                                        .circle_radius = row->circle_radius};
         for (int end = 0; end < 2; end++) {
             rule->share[end] = row->share[end];
             rule->count[end] = row->count[end];

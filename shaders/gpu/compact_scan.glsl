@@ -49,7 +49,7 @@ uvec2 scan_picks(uint groups, uint capacity)
         list.second_kind = head.second_kind;
         list.count = head.count;
         list.group_count = head.group_count;
-        list.words = groups * GROUP_WORDS;
+        list.word_count = groups * GROUP_WORDS;
     }
     return total;
 }

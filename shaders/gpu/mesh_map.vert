@@ -17,6 +17,6 @@ void main()
         position[row] = dot(p, vec4(push.rel_from_mesh[row * 4], push.rel_from_mesh[row * 4 + 1],
                                  push.rel_from_mesh[row * 4 + 2], push.rel_from_mesh[row * 4 + 3]));
     const vec2 sheared = position.xz + vec2(push.slant[0], push.slant[1]) * position.y;
-    gl_Position = vec4((sheared - vec2(push.centre[0], push.centre[1])) * push.inv_half_m,
+    gl_Position = vec4((sheared - vec2(push.center[0], push.center[1])) * push.inv_half_m,
                        (push.top_m - position.y) * push.inv_height, 1.0);
 }

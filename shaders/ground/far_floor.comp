@@ -30,8 +30,8 @@ void main()
         const virga_soil_gpu soil = tick.soils[material];
         const ivec2 middle =
             (ivec2(tick.far_low[0], tick.far_low[1]) + texel) * VIRGA_GROUND_FAR_CELL + VIRGA_GROUND_FAR_CELL / 2;
-        const float open = (depth - top) * tick.survey_height_m > COVER_M ? 0.0 : 1.0;
-        const float height_m = tick.survey_top_m - depth * tick.survey_height_m;
+        const float open = (depth - top) * tick.height_map_depth_m > COVER_M ? 0.0 : 1.0;
+        const float height_m = tick.height_map_top_m - depth * tick.height_map_depth_m;
         made = virga_far_floor_gpu(int(round(height_m * 1e6)),
                                    far_traits(material, open, level_share(surface, soil), bumps_um(middle, soil)));
     }

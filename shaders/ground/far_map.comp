@@ -20,8 +20,8 @@ layout(set = 0, binding = 26, rgba16f) uniform writeonly image2DArray far_map;
 float stirred(float water_m, float open_share)
 {
     const float drops = tick.rain_per_m2_s * tick.cell_m * tick.cell_m * open_share; // drops per cell and second
-    const float kept = drops * crater_variance(crater_depth(tick.rain_drop_m, water_m)) * calm_time(water_m);
-    return min(kept, 0.1);
+    const float cached = drops * crater_variance(crater_depth(tick.rain_drop_m, water_m)) * calm_time(water_m);
+    return min(cached, 0.1);
 }
 
 // Wetness, depth (m), and 1 where the water is deep enough for waves.

@@ -137,7 +137,7 @@ void main()
     if (here > 0u)
         count_water(VIRGA_GROUND_LANDED, here);
     if (elsewhere > 0u)
-        count_water(VIRGA_GROUND_ELSEWHERE, elsewhere);
+        count_water(VIRGA_GROUND_OFF_GROUND, elsewhere);
     if (flown > 0u)
         count_water(VIRGA_GROUND_FLOWN, flown);
     if (head.is_return != 0u)

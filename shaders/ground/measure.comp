@@ -11,15 +11,15 @@
 #define CELLS_EACH (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 #define STATE_BITS 5 // bits per state in a word that counts up to CELLS_EACH cells of each state
 
-layout(constant_id = 0) const bool KEPT_TILES = false; // measures kept tiles instead of the window
+layout(constant_id = 0) const bool CACHED_TILES = false; // measures kept tiles instead of the window
 layout(local_size_x = VIRGA_GROUND_GROUP) in;
-layout(scalar, set = 0, binding = 8) readonly buffer Kept { virga_cell_gpu kept[]; };
+layout(scalar, set = 0, binding = 8) readonly buffer Cached { virga_cell_gpu cached[]; };
 
 // The sums of a tile in 64 bits, as two words of 16-bit halves: 4096 x 65535 fits into a word.
 #define FILM 0
 #define PUDDLES 1
 #define HELD 2
-#define KEPT 3
+#define CACHED 3
 shared uint low_sum[4], high_sum[4], states[VIRGA_GROUND_STATES];
 
 struct Sum {
@@ -79,15 +79,15 @@ void measure_window(uint first)
         atomicAdd(states[i], bitfieldExtract(sums.of_state, int(STATE_BITS * i), STATE_BITS));
 }
 
-void measure_kept(uint first)
+void measure_cached(uint first)
 {
     Sum sum = Sum(0u, 0u);
     for (uint i = 0u; i < CELLS_EACH; i++) {
-        const virga_cell_gpu cell = kept[first + i * VIRGA_GROUND_GROUP];
+        const virga_cell_gpu cell = cached[first + i * VIRGA_GROUND_GROUP];
         add(sum, cell.free_nl);
         add(sum, cell.held_nl);
     }
-    share_sum(KEPT, sum);
+    share_sum(CACHED, sum);
 }
 
 void main()
@@ -100,12 +100,12 @@ void main()
     if (lane < VIRGA_GROUND_STATES)
         states[lane] = 0u;
     barrier();
-    if (KEPT_TILES)
-        measure_kept(gl_WorkGroupID.x * VIRGA_GROUND_TILE_CELLS + lane);
+    if (CACHED_TILES)
+        measure_cached(gl_WorkGroupID.x * VIRGA_GROUND_TILE_CELLS + lane);
     else
         measure_window(gl_WorkGroupID.x * (VIRGA_GROUND_TILE_CELLS / 2) + lane);
     barrier();
-    if (KEPT_TILES ? lane == KEPT : lane < KEPT)
+    if (CACHED_TILES ? lane == CACHED : lane < CACHED)
         count_sum(VIRGA_GROUND_FIRST_MEASURED + lane, lane);
     if (lane < VIRGA_GROUND_STATES && states[lane] > 0u)
         count_water(VIRGA_GROUND_CELLS + lane, states[lane]);

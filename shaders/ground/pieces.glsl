@@ -30,7 +30,7 @@ float above_base(float height_m)
 }
 
 // Clamped to the buffer's size, because a host's buffer is not trusted.
-uint head_count() { return min(head.count, head.is_return != 0u ? tick.max_returns : tick.max_impacts); }
+uint head_count() { return min(head.count, head.is_return != 0u ? tick.max_returned_droplets : tick.max_impacts); }
 
 // Whether an impact belongs to this tick. Returns (water that splashes give back) belong to the tick in which they
 // come.
@@ -46,7 +46,7 @@ uint piece_count(virga_impact_gpu impact)
 {
     if (head.is_return != 0u)
         return 1u;
-    return uint(clamp(ceil(impact.weight - 1e-3), 1.0, float(VIRGA_GROUND_SCATTER)));
+    return uint(clamp(ceil(impact.weight - 1e-3), 1.0, float(VIRGA_GROUND_MAX_PIECES)));
 }
 
 #define FIRST_HASH 128u // first hash number for what a piece starts: its splash, its ring

@@ -24,7 +24,7 @@ layout(scalar, set = 0, binding = 10) readonly buffer Landings { virga_landing_g
 
 shared uint sums[VIRGA_GROUND_GROUP];
 shared uvec3 parts[VIRGA_GROUND_GROUP];
-shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_SCATTER + piece; in order
+shared uint new_rings[MAX_NEW_RINGS]; // impact * VIRGA_GROUND_MAX_PIECES + piece; in order
 
 float drops_of_piece(uint index) { return impacts[index].weight / float(piece_count(impacts[index])); }
 
@@ -46,13 +46,13 @@ bool on_water(uint index)
            max(at_m.x, at_m.y) < tick.ripple_side_m;
 }
 
-struct Census {
+struct RingCounts {
     float pieces, measure;
 };
 
 // Of the pieces on water with a weight below a bar: their number, and the sum of their weights. Integer sums, so that
 // the order of drops does not matter.
-Census census_below(float bar)
+RingCounts count_below(float bar)
 {
     const uint lane = gl_LocalInvocationIndex;
     uvec3 own = uvec3(0u);
@@ -71,7 +71,7 @@ Census census_below(float bar)
     barrier();
     const uvec3 all = parts[0];
     barrier();
-    return Census(float(all.x), float(all.y) + 1024.0 * float(all.z));
+    return RingCounts(float(all.x), float(all.y) + 1024.0 * float(all.z));
 }
 
 // The bar: a piece with at least this weight always gets a ring, one below with the probability weight / bar. The
@@ -79,12 +79,12 @@ Census census_below(float bar)
 float find_bar()
 {
     // So that living rings and those still to fall never exceed the ring slots.
-    const float quota = 0.95 * float(VIRGA_RINGS) * tick.tick_s / (VIRGA_RING_TIME_S + PIECES_DELAY_S);
-    const Census all = census_below(1e30);
+    const float quota = 0.95 * float(VIRGA_MAX_RINGS) * tick.tick_s / (VIRGA_RING_TIME_S + PIECES_DELAY_S);
+    const RingCounts all = count_below(1e30);
     if (all.pieces <= quota)
         return 0.0;
     // Pieces above the first bar leave a part of the quota to the others.
-    const Census low = census_below(all.measure / quota);
+    const RingCounts low = count_below(all.measure / quota);
     return low.measure / max(quota - (all.pieces - low.pieces), 1.0);
 }
 
@@ -120,7 +120,7 @@ uint list_new_rings(float bar)
         barrier();
         for (uint at = total + sums[lane] - bitCount(chosen); chosen != 0u; chosen &= chosen - 1u, at++)
             if (at < MAX_NEW_RINGS)
-                new_rings[at] = index * VIRGA_GROUND_SCATTER + uint(findLSB(chosen));
+                new_rings[at] = index * VIRGA_GROUND_MAX_PIECES + uint(findLSB(chosen));
         total += sums[VIRGA_GROUND_GROUP - 1];
         barrier();
     }
@@ -141,7 +141,7 @@ void start_ring(uint ring_index, uint index, uint i, float chance)
         water_m < MIN_WATER_M ? 0.0 : crater_depth(impact.diameter_m, water_m) * sqrt(drops_of_piece(index) / chance);
     ring.depth_m = water_m;
     ring.id = impact.id;
-    rings[ring_index % VIRGA_RINGS] = ring;
+    rings[ring_index % VIRGA_MAX_RINGS] = ring;
 }
 
 void main()
@@ -150,8 +150,8 @@ void main()
     const float bar = find_bar();
     const uint count = list_new_rings(bar), total = rings_head.total;
     for (uint i = lane; i < count; i += VIRGA_GROUND_GROUP) {
-        const uint index = new_rings[i] / VIRGA_GROUND_SCATTER;
-        start_ring(total + i, index, new_rings[i] % VIRGA_GROUND_SCATTER, chance_of(index, bar));
+        const uint index = new_rings[i] / VIRGA_GROUND_MAX_PIECES;
+        start_ring(total + i, index, new_rings[i] % VIRGA_GROUND_MAX_PIECES, chance_of(index, bar));
     }
     barrier();
     if (lane == 0u)

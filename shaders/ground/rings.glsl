@@ -9,7 +9,7 @@ layout(scalar, set = 0, binding = 5) RINGS_ACCESS buffer Stirs { uint stirs[]; }
 layout(scalar, set = 0, binding = 15) RINGS_ACCESS buffer Rings
 {
     virga_rings_gpu rings_head;
-    virga_ring_gpu rings[VIRGA_RINGS];
+    virga_ring_gpu rings[VIRGA_MAX_RINGS];
 };
 
 #define MIN_WATER_M 0.0008 // min depth of water that has waves

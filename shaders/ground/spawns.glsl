@@ -46,9 +46,9 @@ vec3 piece_position(virga_impact_gpu impact, Piece piece, uint i)
 uint model_of(virga_impact_gpu impact, virga_splash_rule_gpu rule, uint state, float depth_m)
 {
     if (head.is_return != 0u)
-        return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_diameter_m ? VIRGA_SPLASH_DOT
+        return state != VIRGA_GROUND_DRY && impact.diameter_m >= rules.dot_min_m ? VIRGA_SPLASH_DOT
                                                                                       : VIRGA_SPLASH_NONE;
-    const bool splashes = impact.diameter_m >= rule.least_diameter_m && depth_m >= rule.least_depth_m;
+    const bool splashes = impact.diameter_m >= rule.min_diameter_m && depth_m >= rule.min_depth_m;
     return splashes ? rule.model : VIRGA_SPLASH_NONE;
 }
 
@@ -102,7 +102,7 @@ Spawning plan_spawn(virga_impact_gpu impact, Piece piece, uint i)
     if (plan.model == VIRGA_SPLASH_NONE)
         plan.model = VIRGA_SPLASH_DOT; // a threshold was decided differently in this shader
     const uint chance = virga_hash1(plan.hash);
-    const float near = clamp(4.0 - 4.0 * sqrt(plan.distance2) / rules.droplets_m, 0.0, 1.0);
+    const float near = clamp(4.0 - 4.0 * sqrt(plan.distance2) / rules.droplet_range_m, 0.0, 1.0);
     // Droplets from a wall would fall past the surface that droplets are tracked to.
     const bool level = impact.normal[1] > 0.6;
     const bool flies = level && (plan.model == VIRGA_SPLASH_SCATTERING || plan.model == VIRGA_SPLASH_CROWN_CONE);

@@ -55,7 +55,7 @@ void main()
     virga_cell_gpu start = virga_cell_gpu(0u, 0u);
     uvec2 bits = uvec2(0u);
     if (depth < 1.0) {
-        const float height_m = tick.survey_top_m - depth * tick.survey_height_m; // above the base
+        const float height_m = tick.height_map_top_m - depth * tick.height_map_depth_m; // above the base
         const virga_soil_gpu soil = tick.soils[material];
         const float bump_um = bumps_um(cell, soil);
         made = virga_floor_gpu(int(round(height_m * 1e6 + bump_um)), material);

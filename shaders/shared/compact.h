@@ -15,7 +15,7 @@ struct virga_list_gpu {
     uint count;
     uint second_kind;    /* how many of them, at the front, are of the second kind */
     uint first;          /* free for the pass: where in its output the list's entries go */
-    uint words;          /* of picks that it is made from */
+    uint word_count;          /* of picks that it is made from */
     uint pad;
 };
 

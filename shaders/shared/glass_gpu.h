@@ -19,14 +19,14 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #endif
 
 #define VIRGA_GLASS_GROUP      256
-#define VIRGA_GLASS_FEW_GROUP  64 /* of passes over what happens to something in a tick, and over seeds */
+#define VIRGA_GLASS_SMALL_GROUP  64 /* of passes over what happens to something in a tick, and over seeds */
 #define VIRGA_GLASS_BLADES     8  /* the same as VIRGA_GLASS_MAX_WIPERS */
 #define VIRGA_GLASS_SIZES      64 /* bins of the sizes that land */
 #define VIRGA_GLASS_NODES      33 /* along each side of the grid that a pane's shape is given on */
 #define VIRGA_GLASS_BINS       64 /* along a blade, of the film that it gathers */
 #define VIRGA_GLASS_ROUNDS     8  /* cells that a drop may go in a tick; even */
-#define VIRGA_GLASS_MOST_PARTS 64 /* particles that one drop becomes */
-#define VIRGA_GLASS_MEASURED   8  /* blocks of cells that a workgroup measures */
+#define VIRGA_GLASS_MAX_PARTS 64 /* particles that one drop becomes */
+#define VIRGA_GLASS_BLOCKS_PER_GROUP   8  /* blocks of cells that a workgroup measures */
 #define VIRGA_GLASS_FILM_BLOCK 16 /* cells a side of the blocks that are told apart by whether they have film */
 
 /* The pane. */
@@ -36,7 +36,7 @@ struct virga_glass_pane_gpu {
     float cell_m;
     float width_m;
     float height_m;
-    uint max_drops;        /* places, whole workgroups */
+    uint max_drops;        /* slots, whole workgroups */
     uint seed;
     uint pad;
 };
@@ -72,8 +72,8 @@ struct virga_glass_tick_gpu {
     float tick_s;
     uint arrivals;         /* drops that may land in this tick, of the rate */
     uint impacts;          /* and of the host's list */
-    float most_pull;       /* m/s^2, that acts anywhere on the pane, at most; and of the air (m/s) */
-    float most_air;
+    float max_acceleration;       /* m/s^2, that acts anywhere on the pane, at most; and of the air (m/s) */
+    float max_air_m_s;
     float force[3];        /* m/s^2, gravity less the pane's own acceleration, at its origin */
     float drop_nl_of_m3;   /* cap: water (nl) of a drop whose base has a radius of 1 m: pi f(angle) 1e12 */
     float spin[3];         /* rad/s, the pane's turning */
@@ -84,15 +84,15 @@ struct virga_glass_tick_gpu {
     float fall[3];         /* direction that drops land in, unit length */
     float fall_cosine;     /* largest cosine between the way back and the pane's normals */
     float hold;            /* N per metre of radius: largest force that contact-angle hysteresis withstands */
-    float run_hold;        /* share of it that a running drop still feels */
+    float kinetic_hold;        /* share of it that a running drop still feels */
     float affinity_sigma;
     float meander;
     float path_ease;       /* share of hold that a wet path takes off */
-    float path_s;
-    float touch;           /* of the sum of both radii, at which drops flow together */
-    float tail_m;          /* way between drops left behind */
+    float path_dry_s;
+    float merge_distance;           /* of the sum of both radii, at which drops flow together */
+    float tail_spacing_m;          /* way between drops left behind */
     float tail_share;      /* of the runner's water that one gets, at most */
-    float tail_radius_m;   /* and its largest radius */
+    float tail_max_radius_m;   /* and its largest radius */
     float shrink_nl_s;     /* tails' loss, per square metre of their base */
     float film_m;          /* thickness of the trail's film */
     float evaporation_m_s;
@@ -129,48 +129,48 @@ struct virga_glass_count_gpu {
 #define VIRGA_GLASS_MERGED     5 /* drops */
 #define VIRGA_GLASS_TO_PARTS   6 /* drops that became particles */
 #define VIRGA_GLASS_TO_DROPS   7 /* particles that became drops */
-#define VIRGA_GLASS_CROWDED    8 /* drops that found no place: their water joined the film */
+#define VIRGA_GLASS_WITHOUT_SLOT    8 /* drops that found no slot: their water joined the film */
 #define VIRGA_GLASS_COUNTS     9
 
 struct virga_glass_state_gpu {
-    uint alive;            /* entries of the list of places in use */
-    uint free;             /* places free */
-    uint placed;           /* of those, taken in this tick */
+    uint alive;            /* entries of the list of live slots */
+    uint free;             /* free slots */
+    uint spawned;           /* of those, taken in this tick */
     uint drops;            /* on the pane, when last counted */
     uint particles;
-    uint held;
+    uint particles_waiting;
     uint alive_groups[3];  /* of a dispatch over the list */
     uint seed_groups[3];   /* of one over all seeds */
-    uint awake;           /* places that something happens to in this tick: particles, then drops that may move or meet
-                           * a blade */
-    uint awake_particles;
-    uint awake_groups[3]; /* of a dispatch over all of them, and over the particles */
+    /* Slots that something happens to in this tick: particles, then drops that may move or meet a blade. */
+    uint active_count;
+    uint active_particles;
+    uint active_groups[3]; /* of a dispatch over all of them, and over the particles */
     uint particle_groups[3];
-    uint settle_groups[3]; /* over whichever are more, seeds or places in use */
-    uint round_groups[24]; /* over the awake ones, for each round that some drop has way left for; else none */
-    uint most_rounds;      /* of any drop in this tick */
-    uint most_nl;          /* water of any drop as it begins */
+    uint settle_groups[3]; /* over whichever are more, seeds or live slots */
+    uint round_groups[24]; /* over the active ones, for each round that some drop has way left for; else none */
+    uint max_rounds;       /* of any drop in this tick */
+    uint max_nl;           /* water of any drop as it begins */
     uint impacts;          /* of the host's list in this step */
     virga_glass_count_gpu counts[VIRGA_GLASS_COUNTS];
     virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (blades' bins too) */
     uint bins_nl[512];     /* VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS: film gathered along each blade */
-    uint shown;            /* places from the list's first on that may hold drops at the tick's end */
+    uint shown;            /* slots from the list's first on that may hold drops at the tick's end */
     uint shown_groups[3];  /* of a dispatch over them */
     uint film_blocks;      /* blocks listed as they may have film */
     uint measure_groups[3]; /* of the pass that measures: over these, and over all that holds drops */
-    uint census_groups[3]; /* of the passes that list places: up to the last one in use as a tick begins */
-    uint free_listed;      /* places in the list after those in use; the free ones beyond follow in order */
+    uint live_list_groups[3]; /* of the passes that make the live list: up to the last live slot as a tick begins */
+    uint free_listed;      /* slots in the list after the live ones; the free ones beyond follow in order */
 };
 
-/* Water that wants a place at the tick's end: first the tick's arrivals, then one for each awake
- * place, then the blades' bins. 40 bytes. */
+/* Water that needs a slot at the tick's end: first the tick's arrivals, then one for each active slot, then the blades'
+ * bins. 40 bytes. */
 struct virga_glass_seed_gpu {
     float position[2];
     float velocity[2];
     uint water_nl;         /* of each; 0: nothing */
     uint count;            /* (particles) how many, the first `extra_nl` with 1 nl more */
     uint extra_nl;
-    uint cell;             /* (drop); VIRGA_GLASS_NOWHERE: particles */
+    uint cell;             /* (drop); VIRGA_GLASS_NONE: particles */
     uint id;
     uint kind;
 };

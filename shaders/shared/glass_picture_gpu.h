@@ -18,9 +18,10 @@ typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #define VIRGA_GLASS_MIST_BLOCK  16 /* texels a side of the mist's map that a workgroup makes; drawn as one */
 #define VIRGA_GLASS_BEAD_CELLS  0.33f /* largest radius of a bead in cells: none reaches beyond the next */
 #define VIRGA_GLASS_BEAD_SEEN   0.75f /* least radius in texels of one that has a shape */
-#define VIRGA_GLASS_MIST_MOST   8192 /* texels a side of it, at most */
-#define VIRGA_GLASS_FEW_STEPS   5  /* of compression: gathers are also made for no more than these, the usual number */
-#define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one place */
+#define VIRGA_GLASS_MAX_MIST_TEXELS   8192 /* texels a side of it, at most */
+#define VIRGA_GLASS_USUAL_STEPS   5  /* of compression: gathers are also made for no more than these, the usual number
+                                      * */
+#define VIRGA_GLASS_DROP_BALLS  4  /* at most, of one slot */
 #define VIRGA_GLASS_FILL_GROUP  64 /* balls of a workgroup that fills lists */
 #define VIRGA_GLASS_COPY        256 /* texels a side of the plate's largest copy; the others lie to its right */
 #define VIRGA_GLASS_COPY_WIDTH  392 /* 256 and 128 and 8 */
@@ -59,10 +60,10 @@ struct virga_glass_picture_gpu {
     float tint[3];
     uint opaque;
     float gain;
-    uint max_tiles;         /* tiles that the lists have places for */
+    uint max_tiles;         /* tiles that the lists have room for */
     uint max_entries;       /* of the tiles' lists, all together */
     uint written_columns;   /* tiles in a row of the list that says which ones the map holds anything of */
-    uint max_blocks;        /* of the mist's map that the list of those with film has places for */
+    uint max_blocks;        /* of the mist's map that the list of those with film has room for */
     uint mist_columns;      /* texels of the mist's map, of mist_cells x mist_cells cells each */
     uint mist_rows;
     uint mist_cells;
@@ -72,11 +73,11 @@ struct virga_glass_picture_gpu {
     uint whole_map;         /* the host wants the map: all of it */
     uint masked;            /* the pane has a mask */
     float previous_from_here[16]; /* to the previous frame's clip coordinates, from where something is relative to the
-                                   * camera that has kept its place on the pane */
-    float eye_before[3];    /* where the camera was then, likewise */
+                                   * camera that has kept its position on the pane */
+    float previous_eye[3];    /* where the camera was then, likewise */
     uint view_texel;        /* first of the view among the texels that all views' blocks are */
     float beside;           /* texels beside one with water that it may show in */
-    uint box_word;          /* (even) first of the boxes of tiles, two words each, behind all indices of corners */
+    uint bounds_offset;          /* (even) first of the boxes of tiles, two words each, behind all indices of corners */
 };
 
 /* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else

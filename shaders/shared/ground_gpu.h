@@ -73,8 +73,8 @@ struct virga_ground_tick_gpu {
     uint seed;
     float flow_s;       /* time that a flow pass stands for */
     float evaporation_nl_s;
-    float survey_top_m; /* height above the base of depth 0 in the survey, and metres to depth 1 */
-    float survey_height_m;
+    float height_map_top_m; /* height above the base of depth 0 in the survey, and metres to depth 1 */
+    float height_map_depth_m;
     float base_m;       /* height in the world that those of floors count from */
     float ripple_low_m[2];   /* low corner of the ripple map from the window's, and its side */
     float ripple_side_m;
@@ -83,7 +83,7 @@ struct virga_ground_tick_gpu {
     uint last_tick;          /* the newest tick */
     uint max_spawns;         /* 0: nothing splashes */
     uint max_impacts;        /* landings of returns lie behind so many */
-    uint max_returns;
+    uint max_returned_droplets;
     float camera[3];         /* in the world */
     uint tick_in_step;
     float material_scale[2]; /* from cells behind the window's low corner to the material map [0; 1) */
@@ -112,7 +112,7 @@ struct virga_ring_gpu {
 
 /* Head of the rings: a ring buffer in the other sense too. */
 struct virga_rings_gpu {
-    uint total;          /* that ever were; the newest lies at (total - 1) modulo VIRGA_RINGS */
+    uint total;          /* that ever were; the newest lies at (total - 1) modulo VIRGA_MAX_RINGS */
     uint pad[3];
 };
 
@@ -124,11 +124,11 @@ struct virga_ground_count_gpu {
 
 /* Indices into the counts. First those that only grow, then those that measure.comp makes anew. */
 #define VIRGA_GROUND_LANDED      0  /* and did not fly up again, or fell back */
-#define VIRGA_GROUND_ELSEWHERE   1  /* the same on what is not ground, or outside of the window */
+#define VIRGA_GROUND_OFF_GROUND   1  /* the same on what is not ground, or outside of the window */
 #define VIRGA_GROUND_INFILTRATED 2
 #define VIRGA_GROUND_RUN_OFF     3  /* into drains */
 #define VIRGA_GROUND_EVAPORATED  4
-#define VIRGA_GROUND_FORGOTTEN   5  /* with tiles that there was no room to keep */
+#define VIRGA_GROUND_EVICTED   5  /* with tiles that there was no room to keep */
 #define VIRGA_GROUND_STARTED     6  /* that cells came with */
 #define VIRGA_GROUND_FLOWN       7  /* up in splashes */
 #define VIRGA_GROUND_RETURNED    8  /* of that, fallen back */
@@ -136,7 +136,7 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_FILM        9  /* free water of wet and dry cells */
 #define VIRGA_GROUND_PUDDLES     10 /* free water of puddles */
 #define VIRGA_GROUND_HELD        11
-#define VIRGA_GROUND_KEPT        12 /* all water of tiles outside of the window */
+#define VIRGA_GROUND_CACHED        12 /* all water of tiles outside of the window */
 #define VIRGA_GROUND_CELLS       13 /* cells by state: VIRGA_GROUND_STATES counts */
 #define VIRGA_GROUND_COUNTS      19
 

@@ -10,9 +10,9 @@
 /* A spot's diameter over its drop's, on what is porous. On what is smooth a drop spreads to We^(1/4) of its own, 4 to 7
  * in rain (Clanet et al. 2004, Maximal deformation of an impacting drop). */
 #define VIRGA_GROUND_SPREAD     3.0
-#define VIRGA_GROUND_SCATTER    32   /* pieces at most that an impact which stands for many drops is scattered in, */
+#define VIRGA_GROUND_MAX_PIECES    32   /* pieces at most that an impact which stands for many drops is scattered in, */
 #define VIRGA_GROUND_SCATTER_M  2.0  /* within so far (m) of it at most: */
-#define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a place of this radius (m) */
+#define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a disk of this radius (m) */
 #define VIRGA_GROUND_CROWNS_M   2.0  /* crowns that one splash shows stand within so far (m) of it at most */
 
 /* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
@@ -24,7 +24,7 @@
 #define VIRGA_RING_RADII    256   /* from 0 to how far the waves have come: 6 a wave where one is 2 % of the highest */
 #define VIRGA_RING_START_M  0.02  /* that is START_M + FRONT_M_S t: five crater radii, and the group of the shortest */
 #define VIRGA_RING_FRONT_M_S 0.45
-#define VIRGA_RINGS         3072  /* live at once; of more that fall, some are taken by lot */
+#define VIRGA_MAX_RINGS         3072  /* live at once; of more that fall, some are taken by lot */
 
 /* The states of a cell, as section 2.1 and 4.6 of Mizukami et al. have them. */
 #define VIRGA_GROUND_NONE       0 /* no ground there */

@@ -13,7 +13,7 @@ typedef struct virga_landing_gpu virga_landing_gpu;
 /* The landing of the impact of the same index, 24 bytes; those of returns lie behind max_impacts of drops. What was
  * there before this tick's drops. */
 struct virga_landing_gpu {
-    uint cell;      /* its place in ground's buffers; 0xffffffff: not on the ground */
+    uint cell;      /* its index in the ground's buffers; 0xffffffff: not on the ground */
     uint state;     /* VIRGA_GROUND_NONE to VIRGA_GROUND_PUDDLE_10 */
     float depth_m;  /* of the water */
     uint material;  /* [0; 31] of the cell; of the impact where there is no ground */

@@ -12,7 +12,7 @@ typedef struct virga_map_push virga_map_push;
 /* Push constants of one mesh in one map, 96 bytes. */
 struct virga_map_push {
     float rel_from_mesh[12]; /* 3 x 4, relative to the map's origin */
-    float centre[2];
+    float center[2];
     float inv_half_m;
     float inv_height;
     float slant[2];

@@ -21,14 +21,14 @@ typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
 #endif
 
-/* A slot: its place in the lattice of its class, and which drops it stands for. Never changes. */
+/* A slot: its position in the lattice of its class, and which drops it stands for. Never changes. */
 struct virga_slot_gpu {
-    uint place[3];   /* fraction of the box's side, in units of 2^-32 */
+    uint lattice[3];   /* fraction of the box's side, in units of 2^-32 */
     uint class_rank; /* low 16 bits: class; high 16: where among the slots of its class, for thinning [0; 65535] */
 };
 
-/* How far a class's lattice has moved since the start of time, less the camera's place: 64-bit fixed point in units of
- * the widest box's side x 2^-32. All classes together fit the smallest uniform buffer that Vulkan allows. */
+/* How far a class's lattice has moved since the start of time, less the camera's position: 64-bit fixed point in units
+ * of the widest box's side x 2^-32. All classes together fit the smallest uniform buffer that Vulkan allows. */
 struct virga_travel_gpu {
     uint low[4];         /* x, y, z; the fourth is not used */
     uint high[4];
@@ -92,7 +92,7 @@ struct virga_map_gpu {
 struct virga_rain_look_gpu {
     float streak_gain;   /* multiplies coverage */
     float oscillation;   /* amplitude of shape oscillation, 1: physical */
-    float bodies_min_m;  /* smaller drops are haze */
+    float streak_min_m;  /* smaller drops are haze */
     float sky_m;         /* of haze before the sky */
     float glow;          /* multiplies the light of lamps in haze */
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
@@ -129,7 +129,7 @@ struct virga_streak_gpu {
     uint width_alpha;    /* drawn width (px); coverage at the middle line */
     uint body_wave;      /* length of the drop itself along the streak (px); relative amplitude of the wave in its
                           * light */
-    uint turns;          /* oscillations along the streak; where in a turn it is at the tail */
+    uint oscillations;          /* oscillations along the streak; where in a turn it is at the tail */
     uint order;          /* see shaders/rain/draw/order.glsl: bucket x VIRGA_RAIN_GROUP + rank there */
     uint light[3];       /* radiance at the middle line (rgb), then at the edge (rgb) */
     uint id;             /* of the drop */
@@ -155,9 +155,9 @@ struct virga_draw_gpu {
 /* What a prepare found: draws of wide streaks, which show what is in a drop, of thin ones and of those of these that
  * are lines; and counts, also of streaks that turned out to cover nothing. */
 struct virga_prepared_gpu {
-    virga_draw_gpu wide;
+    virga_draw_gpu wide_quads;
     virga_draw_gpu lines;
-    virga_draw_gpu thin;
+    virga_draw_gpu thin_quads;
     uint streaks;
     uint dropped;
 };

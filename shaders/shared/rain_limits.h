@@ -14,7 +14,7 @@
 #define VIRGA_RAIN_FORM(cascades, slants, sways) ((cascades) | (slants) << 3 | ((sways) ? 64 : 0))
 /* And what its pipelines of streaks are made for. */
 #define VIRGA_RAIN_STREAKS_DEPTH 1  /* the scene's depth is there to be read */
-#define VIRGA_RAIN_STREAKS_LINES 2  /* lines from end to end in place of two triangles around them */
+#define VIRGA_RAIN_STREAKS_LINES 2  /* lines from end to end instead of two triangles around them */
 #define VIRGA_RAIN_MAX_PANES 8      /* that drops are caught on in a frame */
 #define VIRGA_RAIN_MAX_HITS 8192    /* drops that meet one of them in a step */
 #define VIRGA_RAIN_MAX_VIEWS 16     /* prepares a frame */

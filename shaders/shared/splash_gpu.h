@@ -18,13 +18,14 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
 #define VIRGA_SPLASH_BLOCK      256 /* rings and buffers hold whole blocks of so many */
-/* A workgroup of a pass over places: small, so that few splashes keep all cores busy. */
+/* A workgroup of a pass over slots: small, so that few splashes keep all cores busy. */
 #define VIRGA_SPLASH_GROUP      64
 /* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes
  * through all that one does, and 256 cost it 50 us more. */
 #define VIRGA_SPLASH_LANES      64
-#define VIRGA_SPLASH_FEW        512 /* droplets, which one workgroup flies: more are worth a dispatch */
-#define VIRGA_SPLASH_MOST_COUNT 64 /* droplets of one splash */
+#define VIRGA_SPLASH_SINGLE_GROUP_DROPLETS        512 /* droplets, which one workgroup flies: more are worth a dispatch
+                                                       * */
+#define VIRGA_SPLASH_MAX_COUNT 64 /* droplets of one splash */
 #define VIRGA_SPLASH_MATERIALS  32
 
 /* Forms of a view's passes, their specialisation constant 0: software Vulkan runs every lane through what a branch
@@ -34,7 +35,7 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 
 /* And what pipelines of sprites are made for. */
 #define VIRGA_SPLASH_SPRITES_DEPTH 1 /* the scene's depth is there to be read */
-#define VIRGA_SPLASH_SPRITES_LINES 2 /* lines from end to end, of droplets, in place of two triangles around them */
+#define VIRGA_SPLASH_SPRITES_LINES 2 /* lines from end to end, of droplets, instead of two triangles around them */
 #define VIRGA_SPLASH_SPRITES_PUFFS 4 /* of puffs alone; without it, of all else */
 #define VIRGA_SPLASH_FORMS     4
 
@@ -49,11 +50,11 @@ struct virga_splash_tick_gpu {
     float shift[3];      /* (rebase) anchor before minus anchor now: added to positions */
     float bounce;
     float wind[3];       /* m/s */
-    float pile_s;
-    float pile_m;
+    float pile_max_s;
+    float pile_max_m;
     uint max_splashes;   /* a power of two */
     uint max_droplets;
-    uint max_returns;
+    uint max_returned_droplets;
 };
 
 /* A count of 64 bits. */
@@ -67,12 +68,12 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_FALLEN   1
 #define VIRGA_SPLASH_FLOWN    2 /* nl */
 #define VIRGA_SPLASH_RETURNED 3 /* nl */
-#define VIRGA_SPLASH_CROWDED  4
+#define VIRGA_SPLASH_WITHOUT_DROPLETS  4
 #define VIRGA_SPLASH_BY_MODEL 5
 #define VIRGA_SPLASH_COUNTS   165
 
-/* Splashes lie in a ring: places count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one behind
- * the other, the oldest first; a tick moves those that stay from one buffer into another. */
+/* Splashes lie in a ring: slot numbers count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one
+ * behind the other, the oldest first; a tick moves those that stay from one buffer into another. */
 struct virga_splash_state_gpu {
     uint end_droplet;       /* droplets of this tick, those that fall in it too */
     uint staying;           /* that are there after it */
@@ -80,13 +81,13 @@ struct virga_splash_state_gpu {
     uint end_splash;
     uint tick_droplet;      /* the first of this tick */
     uint tick_splash;
-    uint crowded_from;      /* rank among this tick's spawns from which on there is no room for droplets */
+    uint full_from;      /* rank among this tick's spawns from which on there is no room for droplets */
     uint returns;           /* of this step */
     uint returns_before;    /* of this tick's falls */
     uint droplet_groups[3]; /* of a dispatch over all droplets of this tick; 0 where they are few */
     uint splash_groups[3];
     uint pad;
-    uint spawn_groups[3];   /* of the passes that start splashes and place what falls; 0 where their scan has done so */
+    uint spawn_groups[3];   /* of the passes that start splashes and store what falls; 0 where their scan has done so */
     uint fall_groups[3];
     uint find_groups[3];    /* of the pass that finds what a view may see of few droplets and splashes */
     uint find_droplet_groups[3]; /* of those for many */
@@ -119,7 +120,7 @@ struct virga_sprite_gpu {
     float tail[2];
     float depth[2];      /* head, tail: in the buffer's terms */
     float distance[2];   /* head, tail: view depth (m) */
-    uint widths;         /* drawn (px): head, tail; (puff) in place of the tail's the sine of how far from above it is
+    uint widths;         /* drawn (px): head, tail; (puff) instead of the tail's the sine of how far from above it is
                           * seen */
     uint alpha_body;     /* coverage; length of the thing itself (px) */
     uint light[3];       /* radiance in the middle (rgb), then at the edge (rgb) */
@@ -146,9 +147,9 @@ struct virga_splash_draw_gpu {
 /* What a prepare found. */
 struct virga_splash_prepared_gpu {
     virga_splash_draw_gpu lines;    /* of those that show one colour droplets that are lines */
-    virga_splash_draw_gpu thin;     /* and other droplets and piles; */
+    virga_splash_draw_gpu thin_quads;     /* and other droplets and piles; */
     virga_splash_draw_gpu puffs;    /* splashes from afar */
-    virga_splash_draw_gpu wide;     /* sprites that show what is behind them; (paper) pyramids */
+    virga_splash_draw_gpu wide_quads;     /* sprites that show what is behind them; (paper) pyramids */
     virga_splash_draw_gpu crowns;   /* sheets; (paper) pyramids of crowns */
     uint sprites;
     uint list_groups[3];            /* of the pass that lists; 0 where the scan has done so */

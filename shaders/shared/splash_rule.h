@@ -27,22 +27,22 @@ typedef struct virga_splash_rules_gpu virga_splash_rules_gpu;
 /* A row of the table: a material in a state. */
 struct virga_splash_rule_gpu {
     uint model;
-    float least_diameter_m; /* smaller drops make none, nor do any on thinner water than */
-    float least_depth_m;
+    float min_diameter_m; /* smaller drops make none, nor do any on thinner water than */
+    float min_depth_m;
     float share[2];         /* lowest and highest, of the drop's water that flies up */
     float count[2];         /* droplets */
     float angle[2];         /* rad above the surface */
     float speed[2];         /* m/s */
     float strength;         /* (physical) factor of the count */
-    float circle;           /* radius of the circle that piles stand on, times the drop's diameter */
+    float circle_radius;           /* radius of the circle that piles stand on, times the drop's diameter */
 };
 
 /* The whole table. */
 struct virga_splash_rules_gpu {
     uint mode;              /* VIRGA_SPLASH_PAPER or _PHYSICAL */
     float quota;            /* splashes a tick that there is room for */
-    float droplets_m;       /* farther than this from the camera splashes have no droplets */
-    float dot_diameter_m;   /* droplets that are at least as large make a dot where they fall */
+    float droplet_range_m;       /* farther than this from the camera splashes have no droplets */
+    float dot_min_m;   /* droplets that are at least as large make a dot where they fall */
     virga_splash_rule_gpu rules[192]; /* material x VIRGA_GROUND_STATES + state */
 };
 

@@ -36,7 +36,7 @@ struct virga_view_gpu {
     float light_gain;             /* (look) multiplies light from lights */
     float min_width_px;           /* (look) what is narrower is drawn this wide with less coverage */
     float soft_m;                 /* (look) depth over which geometry is faded into */
-    float near_m;                 /* (look) what is nearer to the camera fades out */
+    float near_fade_m;                 /* (look) what is nearer to the camera fades out */
     float pixel_angle;            /* tangent of a pixel's angle at the centre */
     float far_depth;              /* value of the depth buffer where there is nothing */
     uint depth_given;
@@ -47,7 +47,7 @@ struct virga_view_gpu {
     float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
     virga_light_gpu lights[VIRGA_MAX_LIGHTS];
     float previous_clip_from_rel[16]; /* from the same positions, to where the camera of the previous frame saw them */
-    float ago_s;                  /* from then to the shutter's end */
+    float frame_interval_s;                  /* from then to the shutter's end */
     float motion_scale[2];
     float motion_coverage;        /* what covers less leaves the motion vector that is there */
     float reactive_gain;

@@ -60,7 +60,7 @@ static void line_arrives_whole(void **state)
     (void)state;
     captured line = {0};
     virga_log log = {capture, &line};
-    virga_log_say(&log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s is %d", "drops", 7);
+    virga_log_write(&log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED, "%s is %d", "drops", 7);
     assert_int_equal(line.lines, 1);
     assert_int_equal(line.level, VIRGA_LOG_WARNING);
     assert_int_equal(line.id, VIRGA_LOG_CLAMPED);
@@ -75,10 +75,10 @@ static void long_line_is_cut_visibly(void **state)
     text[sizeof text - 1] = '\0';
     captured line = {0};
     virga_log log = {capture, &line};
-    virga_log_say(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%s", text);
+    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%s", text);
     assert_int_equal(strlen(line.text), VIRGA_LOG_LINE - 1);
     assert_string_equal(line.text + VIRGA_LOG_LINE - 5, "x...");
-    virga_log_say(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%.511s", text); /* fits exactly */
+    virga_log_write(&log, VIRGA_LOG_INFO, VIRGA_LOG_CREATED, "%.511s", text); /* fits exactly */
     assert_string_equal(line.text + VIRGA_LOG_LINE - 5, "xxxx");
 }
 
@@ -86,8 +86,8 @@ static void no_callback_is_silent(void **state)
 {
     (void)state;
     virga_log log = {NULL, NULL};
-    virga_log_say(&log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "nobody hears %d", 1);
-    virga_log_say(NULL, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "nobody hears %d", 2);
+    virga_log_write(&log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "nobody hears %d", 1);
+    virga_log_write(NULL, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "nobody hears %d", 2);
 }
 
 int main(void)

@@ -71,9 +71,9 @@ static double solid_angle(int bin)
 /* The table read linearly between the middles of its bins. */
 static double lookup(const double table[BINS], double angle)
 {
-    double place = fmin(fmax(angle * BINS / pi - 0.5, 0.0), BINS - 1.0);
-    int bin = place >= BINS - 1 ? BINS - 2 : (int)place;
-    return table[bin] + (place - bin) * (table[bin + 1] - table[bin]);
+    double at = fmin(fmax(angle * BINS / pi - 0.5, 0.0), BINS - 1.0);
+    int bin = at >= BINS - 1 ? BINS - 2 : (int)at;
+    return table[bin] + (at - bin) * (table[bin + 1] - table[bin]);
 }
 
 /* Mean of the Legendre polynomial of that degree [0; 2] over the sphere, weighted by the table. */

@@ -83,16 +83,16 @@ static void not_finite_is_refused(void **state)
     captured line = {0};
     virga_log log = {capture, &line};
     float wind[3] = {1.0f, -2.0f, 3.0f};
-    assert_int_equal(virga_settings_finite(&log, "rain.wind_m_s", wind, 3), VIRGA_OK);
+    assert_int_equal(virga_settings_check_finite(&log, "rain.wind_m_s", wind, 3), VIRGA_OK);
     wind[2] = NAN;
-    assert_int_equal(virga_settings_finite(&log, "rain.wind_m_s", wind, 3), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check_finite(&log, "rain.wind_m_s", wind, 3), VIRGA_ERROR_INVALID);
     assert_int_equal(line.id, VIRGA_LOG_ARGUMENT);
     assert_non_null(strstr(line.text, "rain.wind_m_s[2]"));
     double dt = INFINITY;
-    assert_int_equal(virga_settings_finite_double(&log, "dt_s", &dt, 1), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check_finite_double(&log, "dt_s", &dt, 1), VIRGA_ERROR_INVALID);
     assert_string_equal(line.text, "dt_s: is inf, expected a finite number");
     dt = 1.0;
-    assert_int_equal(virga_settings_finite_double(&log, "dt_s", &dt, 1), VIRGA_OK);
+    assert_int_equal(virga_settings_check_finite_double(&log, "dt_s", &dt, 1), VIRGA_OK);
     assert_int_equal(line.lines, 2);
 }
 
@@ -226,12 +226,12 @@ static void places_end_where_floats_are_coarse(void **state)
     (void)state;
     captured line = {0};
     const virga_log log = {capture, &line};
-    const double edge[3] = {-VIRGA_FARTHEST_M, 0, VIRGA_FARTHEST_M}, beyond[3] = {0, 0, 1.0000001e9};
+    const double edge[3] = {-VIRGA_MAX_COORDINATE_M, 0, VIRGA_MAX_COORDINATE_M}, beyond[3] = {0, 0, 1.0000001e9};
     const double endless[3] = {0, (double)INFINITY, 0};
-    assert_int_equal(virga_settings_places(&log, "camera_m", edge, 3), VIRGA_OK);
+    assert_int_equal(virga_settings_check_positions(&log, "camera_m", edge, 3), VIRGA_OK);
     assert_int_equal(line.lines, 0);
-    assert_int_equal(virga_settings_places(&log, "camera_m", beyond, 3), VIRGA_ERROR_INVALID);
-    assert_int_equal(virga_settings_places(&log, "camera_m", endless, 3), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check_positions(&log, "camera_m", beyond, 3), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check_positions(&log, "camera_m", endless, 3), VIRGA_ERROR_INVALID);
     assert_int_equal(line.lines, 2);
 }
 
@@ -244,12 +244,12 @@ static void rotations_may_be_worn_but_not_bent(void **state)
     const float padded[12] = {1.005f, 0, 0, 9, 0, 1, 0.01f, 9, 0, 0, 1, 9};
     const float bent[9] = {1, 0, 0, 0.1f, 1, 0, 0, 0, 1}, long_[9] = {2, 0, 0, 0, 1, 0, 0, 0, 1};
     const float none[9] = {0}, nan_[9] = {1, 0, 0, 0, NAN, 0, 0, 0, 1};
-    assert_int_equal(virga_settings_rotation(&log, "m", turned, 3), VIRGA_OK);
-    assert_int_equal(virga_settings_rotation(&log, "m", padded, 4), VIRGA_OK);
+    assert_int_equal(virga_settings_check_rotation(&log, "m", turned, 3), VIRGA_OK);
+    assert_int_equal(virga_settings_check_rotation(&log, "m", padded, 4), VIRGA_OK);
     assert_int_equal(line.lines, 0);
     const float *const wrong[] = {bent, long_, none, nan_};
     for (int i = 0; i < 4; i++) {
-        assert_int_equal(virga_settings_rotation(&log, "m", wrong[i], 3), VIRGA_ERROR_INVALID);
+        assert_int_equal(virga_settings_check_rotation(&log, "m", wrong[i], 3), VIRGA_ERROR_INVALID);
         assert_int_equal(line.lines, i + 1);
     }
 }

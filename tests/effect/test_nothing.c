@@ -64,5 +64,5 @@ int main(void)
         gpu_test(a_scene_runs_an_effect_that_it_does_not_name),
         gpu_test(its_setting_is_checked_by_its_table),
     };
-    return cmocka_run_group_tests_name("nothing", tests, NULL, NULL);
+    return effect_fixture_close(cmocka_run_group_tests_name("nothing", tests, NULL, NULL));
 }

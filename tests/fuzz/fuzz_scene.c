@@ -21,7 +21,7 @@
         }                                                                         \
     } while (0)
 
-enum { FUZZ_MOST_FRAMES = 6 };
+enum { FUZZ_MAX_FRAMES = 6 };
 
 static host_instance instance;
 static host_device device;
@@ -73,7 +73,7 @@ typedef struct bytes {
     const uint8_t *at, *end;
 } bytes;
 
-static uint32_t take_uint(bytes *b)
+static uint32_t read_uint(bytes *b)
 {
     uint32_t value = 0;
     for (int i = 0; i < 2 && b->at < b->end; i++)
@@ -82,39 +82,39 @@ static uint32_t take_uint(bytes *b)
 }
 
 /* Mostly inside a range, sometimes a little or wildly outside of it, or no number at all. */
-static double take(bytes *b, double low, double high)
+static double read_number(bytes *b, double low, double high)
 {
     static const double wild[] = {
         (double)NAN, (double)INFINITY, -(double)INFINITY, 1e30, -1e30, 1e-40, 0, -1, 1e9, -1e9, 1e300, 3.4e38};
-    const uint32_t value = take_uint(b);
+    const uint32_t value = read_uint(b);
     if (value >= 0xff00)
         return wild[value % (sizeof wild / sizeof wild[0])];
     return low + (high - low) * ((value / 65279.0) * 1.02 - 0.01);
 }
 
-static float take_float(bytes *b, double low, double high)
+static float read_float(bytes *b, double low, double high)
 {
-    return (float)take(b, low, high);
+    return (float)read_number(b, low, high);
 }
 
-static void take_floats(bytes *b, float *values, uint32_t count, double low, double high)
+static void read_floats(bytes *b, float *values, uint32_t count, double low, double high)
 {
     for (uint32_t i = 0; i < count; i++)
-        values[i] = take_float(b, low, high);
+        values[i] = read_float(b, low, high);
 }
 
-static void take_lights(bytes *b, virga_lighting *lighting)
+static void read_lights(bytes *b, virga_lighting *lighting)
 {
-    lighting->light_count = take_uint(b) % 3;
+    lighting->light_count = read_uint(b) % 3;
     for (uint32_t i = 0; i < lighting->light_count; i++) {
         virga_light *light = &lighting->lights[i];
         for (int axis = 0; axis < 3; axis++)
-            light->position_m[axis] = take(b, -10, 10);
-        take_floats(b, light->intensity, 3, 0, 1000);
-        take_floats(b, light->direction, 3, -1, 1);
-        light->range_m = take_float(b, 0, 50);
-        light->cos_inner = take_float(b, -1, 1);
-        light->cos_outer = take_float(b, -1, 1);
+            light->position_m[axis] = read_number(b, -10, 10);
+        read_floats(b, light->intensity, 3, 0, 1000);
+        read_floats(b, light->direction, 3, -1, 1);
+        light->range_m = read_float(b, 0, 50);
+        light->cos_inner = read_float(b, -1, 1);
+        light->cos_outer = read_float(b, -1, 1);
     }
 }
 
@@ -124,26 +124,26 @@ static void set_rain(bytes *b, virga_scene *scene)
 {
     virga_rain_settings s = virga_default_rain_settings();
     double diameters[4], numbers[4];
-    s.rate_mm_h = take_float(b, 0, 200);
-    s.air_density = take_float(b, 0.3, 2);
-    s.transition_s = take_float(b, 0, 0.2);
-    take_floats(b, s.wind_m_s, 3, -60, 60);
-    s.gust_m_s = take_float(b, 0, 30);
-    s.gust_time_s = take_float(b, 0.1, 10);
-    s.streak_gain = take_float(b, 0, 100);
-    s.haze = take_float(b, 0, 4);
-    s.oscillation = take_float(b, 0, 4);
-    s.bodies_min_mm = take_float(b, 0.2, 2);
-    s.occlusion_turns = take_uint(b) % 20;
-    s.sizes.kind = (virga_sizes_kind)(take_uint(b) % 4);
+    s.rate_mm_h = read_float(b, 0, 200);
+    s.air_density = read_float(b, 0.3, 2);
+    s.transition_s = read_float(b, 0, 0.2);
+    read_floats(b, s.wind_m_s, 3, -60, 60);
+    s.gust_m_s = read_float(b, 0, 30);
+    s.gust_time_s = read_float(b, 0.1, 10);
+    s.streak_gain = read_float(b, 0, 100);
+    s.haze = read_float(b, 0, 4);
+    s.oscillation = read_float(b, 0, 4);
+    s.streak_min_mm = read_float(b, 0.2, 2);
+    s.occlusion_interval = read_uint(b) % 20;
+    s.sizes.kind = (virga_sizes_kind)(read_uint(b) % 4);
     s.sizes.table_diameter_m = diameters;
     s.sizes.table_number = numbers;
-    s.sizes.table_count = take_uint(b) % 5;
+    s.sizes.table_count = read_uint(b) % 5;
     for (int i = 0; i < 4; i++) {
-        diameters[i] = take(b, 0, 0.008);
-        numbers[i] = take(b, 0, 1000);
+        diameters[i] = read_number(b, 0, 0.008);
+        numbers[i] = read_number(b, 0, 1000);
     }
-    take_lights(b, &s.lighting);
+    read_lights(b, &s.lighting);
     virga_rain_set(virga_scene_rain(scene), &s);
 }
 
@@ -151,143 +151,143 @@ static void set_ground(bytes *b, virga_scene *scene)
 {
     virga_ground_settings s = virga_default_ground_settings();
     virga_ground_material *m = &s.materials[VIRGA_MATERIAL_ASPHALT];
-    m->capacity_mm = take_float(b, 0, 100);
-    m->retention_mm = take_float(b, 0, 50);
-    m->infiltration_mm_h = take_float(b, 0, 10000);
-    m->drying = take_float(b, 0, 10);
-    m->manning_n = take_float(b, 0.005, 1);
-    m->bumps_mm = take_float(b, 0, 50);
-    m->bump_m = take_float(b, 0.2, 50);
-    m->drain = take_uint(b) % 8 == 7;
-    s.evaporation_mm_h = take_float(b, 0, 100);
-    s.start_wetness = take_float(b, 0, 1);
-    s.start_water_mm = take_float(b, 0, 50);
+    m->capacity_mm = read_float(b, 0, 100);
+    m->retention_mm = read_float(b, 0, 50);
+    m->infiltration_mm_h = read_float(b, 0, 10000);
+    m->drying = read_float(b, 0, 10);
+    m->manning_n = read_float(b, 0.005, 1);
+    m->bump_height_mm = read_float(b, 0, 50);
+    m->bump_width_m = read_float(b, 0.2, 50);
+    m->drain = read_uint(b) % 8 == 7;
+    s.evaporation_mm_h = read_float(b, 0, 100);
+    s.start_wetness = read_float(b, 0, 1);
+    s.start_water_mm = read_float(b, 0, 50);
     virga_ground_set(virga_scene_ground(scene), &s);
 }
 
 static void set_splash(bytes *b, virga_scene *scene)
 {
     virga_splash_settings s = virga_default_splash_settings();
-    s.mode = (virga_splash_mode)(take_uint(b) % 3);
-    s.style = (virga_splash_style)(take_uint(b) % 3);
+    s.mode = (virga_splash_mode)(read_uint(b) % 3);
+    s.style = (virga_splash_style)(read_uint(b) % 3);
     for (uint32_t state = 0; state < VIRGA_GROUND_STATES; state++) {
-        virga_splash_row *row = &s.rows[VIRGA_MATERIAL_ASPHALT][state];
-        row->model = take_uint(b) % 5;
-        row->least_diameter_mm = take_float(b, 0, 1);
-        row->least_depth_mm = take_float(b, 0, 2);
-        take_floats(b, row->share, 2, 0, 1);
-        take_floats(b, row->count, 2, 0, 64);
-        take_floats(b, row->angle_deg, 2, 0, 90);
-        take_floats(b, row->speed_m_s, 2, 0, 10);
-        row->strength = take_float(b, 0, 4);
-        row->circle = take_float(b, 0, 10);
+        virga_splash_rule *row = &s.rules[VIRGA_MATERIAL_ASPHALT][state];
+        row->model = read_uint(b) % 5;
+        row->min_diameter_mm = read_float(b, 0, 1);
+        row->min_depth_mm = read_float(b, 0, 2);
+        read_floats(b, row->share, 2, 0, 1);
+        read_floats(b, row->count, 2, 0, 64);
+        read_floats(b, row->angle_deg, 2, 0, 90);
+        read_floats(b, row->speed_m_s, 2, 0, 10);
+        row->strength = read_float(b, 0, 4);
+        row->circle_radius = read_float(b, 0, 10);
     }
-    s.pile_s = take_float(b, 0.001, 0.2);
-    s.pile_m = take_float(b, 0.001, 0.2);
-    s.bounce = take_float(b, 0, 1);
-    s.wind_share = take_float(b, 0, 2);
-    s.droplets_m = take_float(b, 0, 10);
-    s.dot_mm = take_float(b, 0.05, 5);
-    s.air_density = take_float(b, 0.3, 2);
+    s.pile_max_s = read_float(b, 0.001, 0.2);
+    s.pile_max_m = read_float(b, 0.001, 0.2);
+    s.bounce = read_float(b, 0, 1);
+    s.wind_share = read_float(b, 0, 2);
+    s.droplet_range_m = read_float(b, 0, 10);
+    s.dot_min_mm = read_float(b, 0.05, 5);
+    s.air_density = read_float(b, 0.3, 2);
     virga_splash_set(virga_scene_splash(scene), &s);
 }
 
-static void take_wiper(bytes *b, virga_glass_wiper *w)
+static void read_wiper(bytes *b, virga_glass_wiper *w)
 {
-    take_floats(b, w->pivot_m, 2, -0.1, 0.3);
-    w->reach_m = take_float(b, 0.01, 0.3);
-    w->blade_m = take_float(b, 0.01, 0.3);
-    w->width_m = take_float(b, 0.001, 0.1);
-    w->low_deg = take_float(b, -720, 720);
-    w->high_deg = take_float(b, -720, 720);
-    w->blade_deg = take_float(b, -180, 180);
-    w->blade_turn = take_float(b, 0, 1);
-    w->drive = (virga_glass_drive)(take_uint(b) % 5);
-    w->sweep_s = take_float(b, 0.1, 2);
-    w->pause_s = take_float(b, 0, 1);
-    w->phase_s = take_float(b, 0, 3600);
-    w->host_deg = take_float(b, -7200, 7200);
-    w->film_mm = take_float(b, 0, 0.5);
-    w->wear = take_float(b, 0, 1);
+    read_floats(b, w->pivot_m, 2, -0.1, 0.3);
+    w->reach_m = read_float(b, 0.01, 0.3);
+    w->blade_m = read_float(b, 0.01, 0.3);
+    w->width_m = read_float(b, 0.001, 0.1);
+    w->low_deg = read_float(b, -720, 720);
+    w->high_deg = read_float(b, -720, 720);
+    w->blade_deg = read_float(b, -180, 180);
+    w->blade_hold_direction = read_float(b, 0, 1);
+    w->drive = (virga_glass_drive)(read_uint(b) % 5);
+    w->sweep_s = read_float(b, 0.1, 2);
+    w->pause_s = read_float(b, 0, 1);
+    w->phase_s = read_float(b, 0, 3600);
+    w->host_deg = read_float(b, -7200, 7200);
+    w->film_mm = read_float(b, 0, 0.5);
+    w->wear = read_float(b, 0, 1);
 }
 
 static void set_glass(bytes *b, virga_glass *glass)
 {
     virga_glass_settings s = virga_default_glass_settings();
-    s.advancing_deg = take_float(b, 5, 175);
-    s.receding_deg = take_float(b, 1, 175);
-    s.drag = take_float(b, 0.01, 100);
-    s.run_hold = take_float(b, 0, 1);
-    s.affinity = take_float(b, 0, 2);
-    s.meander = take_float(b, 0, 1);
-    s.path_ease = take_float(b, 0, 1);
-    s.path_s = take_float(b, 0.1, 600);
-    s.touch = take_float(b, 0, 2);
-    s.tail_m = take_float(b, 0.001, 1);
-    s.tail_mm = take_float(b, 0, 2);
-    s.tail_s = take_float(b, 0.1, 3600);
-    s.film_um = take_float(b, 0, 100);
-    s.film_break_s = take_float(b, 0, 60);
-    s.evaporation_mm_h = take_float(b, 0, 100);
-    s.mist_mm = take_float(b, 0, 1);
-    s.air_share = take_float(b, 0, 2);
-    s.particle_mm = take_float(b, 0.2, 5);
-    s.penalty = take_float(b, 0, 1);
-    s.band = take_float(b, 1, 16);
-    s.hold_back_mm = take_float(b, 0, 20);
-    s.hold_back_cells = take_uint(b) % 10;
-    s.density = (virga_glass_density)(take_uint(b) % 6);
-    s.blend = (virga_glass_blend)(take_uint(b) % 3);
-    s.style = (virga_glass_style)(take_uint(b) % 3);
-    s.wiper_count = take_uint(b) % 4;
+    s.advancing_deg = read_float(b, 5, 175);
+    s.receding_deg = read_float(b, 1, 175);
+    s.drag = read_float(b, 0.01, 100);
+    s.kinetic_hold = read_float(b, 0, 1);
+    s.affinity = read_float(b, 0, 2);
+    s.meander = read_float(b, 0, 1);
+    s.path_ease = read_float(b, 0, 1);
+    s.path_dry_s = read_float(b, 0.1, 600);
+    s.merge_distance = read_float(b, 0, 2);
+    s.tail_spacing_m = read_float(b, 0.001, 1);
+    s.tail_max_radius_mm = read_float(b, 0, 2);
+    s.tail_lifetime_s = read_float(b, 0.1, 3600);
+    s.film_um = read_float(b, 0, 100);
+    s.film_break_s = read_float(b, 0, 60);
+    s.evaporation_mm_h = read_float(b, 0, 100);
+    s.mist_max_mm = read_float(b, 0, 1);
+    s.air_share = read_float(b, 0, 2);
+    s.particle_radius_mm = read_float(b, 0.2, 5);
+    s.penalty = read_float(b, 0, 1);
+    s.particle_band = read_float(b, 1, 16);
+    s.hold_back_mm = read_float(b, 0, 20);
+    s.hold_back_cells = read_uint(b) % 10;
+    s.density = (virga_glass_density)(read_uint(b) % 6);
+    s.blend = (virga_glass_blend)(read_uint(b) % 3);
+    s.style = (virga_glass_style)(read_uint(b) % 3);
+    s.wiper_count = read_uint(b) % 4;
     for (uint32_t i = 0; i < s.wiper_count; i++)
-        take_wiper(b, &s.wipers[i]);
+        read_wiper(b, &s.wipers[i]);
     virga_glass_set(glass, &s);
 }
 
 /* ---- frames */
 
-static void take_pane(bytes *b, virga_scene_pane *pane)
+static void read_pane(bytes *b, virga_scene_pane *pane)
 {
-    const uint32_t kind = take_uint(b) % 8;
+    const uint32_t kind = read_uint(b) % 8;
     for (int axis = 0; axis < 3; axis++)
-        pane->pose.position_m[axis] = take(b, -2, 2);
+        pane->pose.position_m[axis] = read_number(b, -2, 2);
     if (kind == 6)
-        take_floats(b, pane->pose.world_from_pane, 9, -1, 1);
+        read_floats(b, pane->pose.world_from_pane, 9, -1, 1);
     if (kind == 7)
         memset(pane->pose.world_from_pane, 0, sizeof pane->pose.world_from_pane);
-    take_floats(b, pane->velocity_m_s, 3, -50, 50);
-    take_floats(b, pane->acceleration_m_s2, 3, -30, 30);
-    take_floats(b, pane->turn_rad_s, 3, -3, 3);
-    pane->shelter = kind & 1 ? take_float(b, 0, 1) : 0;
+    read_floats(b, pane->velocity_m_s, 3, -50, 50);
+    read_floats(b, pane->acceleration_m_s2, 3, -30, 30);
+    read_floats(b, pane->angular_velocity_rad_s, 3, -3, 3);
+    pane->shelter = kind & 1 ? read_float(b, 0, 1) : 0;
 }
 
-static void take_view(bytes *b, virga_view *view)
+static void read_view(bytes *b, virga_view *view)
 {
     static const float level[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     *view = virga_default_view();
     const float lens[16] = {
-        take_float(b, 0.1, 10), 0, 0, 0, 0, -take_float(b, 0.1, 10), 0, 0, 0, 0, -1.001f, -1, 0, 0, -0.1001f, 0};
+        read_float(b, 0.1, 10), 0, 0, 0, 0, -read_float(b, 0.1, 10), 0, 0, 0, 0, -1.001f, -1, 0, 0, -0.1001f, 0};
     memcpy(view->view_from_world, level, sizeof level);
     memcpy(view->open_view_from_world, level, sizeof level);
     memcpy(view->clip_from_view, lens, sizeof lens);
     memcpy(view->open_clip_from_view, lens, sizeof lens);
     for (int axis = 0; axis < 3; axis++) {
-        view->position_m[axis] = take(b, -2, 2);
-        view->open_position_m[axis] = take(b, -2, 2);
+        view->position_m[axis] = read_number(b, -2, 2);
+        view->open_position_m[axis] = read_number(b, -2, 2);
     }
-    view->shutter_s = take(b, 0, 0.1);
-    view->viewport[2] = take_float(b, 0, 64);
-    view->viewport[3] = take_float(b, 0, 64);
+    view->shutter_s = read_number(b, 0, 0.1);
+    view->viewport[2] = read_float(b, 0, 64);
+    view->viewport[3] = read_float(b, 0, 64);
 }
 
 /* Mostly a step or two, and a jump now and then. */
-static void take_camera(bytes *b, double camera_m[3])
+static void read_camera(bytes *b, double camera_m[3])
 {
-    const uint32_t kind = take_uint(b) % 16;
+    const uint32_t kind = read_uint(b) % 16;
     const double far = kind == 15 ? 1.2e9 : kind == 14 ? 1e4 : kind > 10 ? 20 : 1;
     for (int axis = 0; axis < 3; axis++)
-        camera_m[axis] += take(b, -far, far);
+        camera_m[axis] += read_number(b, -far, far);
 }
 
 static void run_frame(bytes *b, virga_context *context, virga_scene *scene, small_state *state, double camera_m[3])
@@ -295,17 +295,17 @@ static void run_frame(bytes *b, virga_context *context, virga_scene *scene, smal
     virga_scene_pane panes[SMALL_PANES];
     virga_view view;
     const virga_occluder mesh = small_occluder(vertices.buffer, indices.buffer);
-    virga_scene_frame frame = {.dt_s = take(b, 0, 0.08), .view = &view, .panes = panes};
+    virga_scene_frame frame = {.dt_s = read_number(b, 0, 0.08), .view = &view, .panes = panes};
     double there[3] = {camera_m[0], camera_m[1], camera_m[2]};
     VkCommandBuffer cmd;
     small_panes_lay(panes);
     for (int i = 0; i < SMALL_PANES; i++)
-        take_pane(b, &panes[i]);
-    take_view(b, &view);
-    take_camera(b, there);
+        read_pane(b, &panes[i]);
+    read_view(b, &view);
+    read_camera(b, there);
     memcpy(frame.camera_m, there, sizeof there);
-    memcpy(frame.focus_m, there, sizeof there);
-    if (take_uint(b) % 4) {
+    memcpy(frame.ripple_center_m, there, sizeof there);
+    if (read_uint(b) % 4) {
         frame.occluders = &mesh;
         frame.occluder_count = 1;
     }
@@ -330,11 +330,11 @@ static virga_scene *make_scene(bytes *b, virga_context *context)
     virga_glass_def panes[SMALL_PANES];
     virga_scene_def def = small_scene_def(panes);
     virga_scene *scene = NULL;
-    def.rain.seed = take_uint(b);
-    def.rain.tick_s = take(b, 1.0 / 240, 1.0 / 20);
-    panes[0].cell_m = take_float(b, 0.004, 0.01);
-    panes[0].width_m = take_float(b, 0.01, 0.3);
-    panes[0].height_m = take_float(b, 0.01, 0.3);
+    def.rain.seed = read_uint(b);
+    def.rain.tick_s = read_number(b, 1.0 / 240, 1.0 / 20);
+    panes[0].cell_m = read_float(b, 0.004, 0.01);
+    panes[0].width_m = read_float(b, 0.01, 0.3);
+    panes[0].height_m = read_float(b, 0.01, 0.3);
     if (virga_scene_create(context, &def, &scene) < 0)
         return NULL;
     MUST(small_shape_set(virga_scene_glass(scene, 1), 1) == VIRGA_OK);
@@ -348,9 +348,9 @@ static void run_scene(bytes *b, virga_context *context, virga_scene *scene)
     small_state state;
     double camera_m[3] = {0, 1.7, 0};
     MUST(small_state_open(&state, &device, scene, error, sizeof error));
-    const uint32_t frames = 1 + take_uint(b) % FUZZ_MOST_FRAMES;
+    const uint32_t frames = 1 + read_uint(b) % FUZZ_MAX_FRAMES;
     for (uint32_t i = 0; i < frames; i++) {
-        const uint32_t sets = take_uint(b);
+        const uint32_t sets = read_uint(b);
         if (sets & 1)
             set_rain(b, scene);
         if (sets & 2)

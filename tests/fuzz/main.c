@@ -9,11 +9,11 @@
 
 #include "fuzz.h"
 
-enum { MOST_BYTES = 4096 };
+enum { MAX_BYTES = 4096 };
 
 static void run_file(const char *path)
 {
-    static uint8_t data[MOST_BYTES];
+    static uint8_t data[MAX_BYTES];
     FILE *file = fopen(path, "rb");
     if (!file) {
         fprintf(stderr, "%s: can not be read\n", path);
@@ -43,8 +43,8 @@ static void run_path(const char *path)
 
 static void run_seed(uint32_t seed)
 {
-    uint8_t data[MOST_BYTES];
-    const size_t size = virga_hash2(seed, 0) % MOST_BYTES;
+    uint8_t data[MAX_BYTES];
+    const size_t size = virga_hash2(seed, 0) % MAX_BYTES;
     for (size_t i = 0; i < size; i++)
         data[i] = (uint8_t)virga_hash3(seed, 1, (uint32_t)i);
     fprintf(stderr, "seed %u\n", seed);

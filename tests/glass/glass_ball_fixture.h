@@ -5,7 +5,7 @@
 
 #include "glass_picture_fixture.h"
 
-#define PLACES 60
+#define BALLS 60
 #define WATER  1.333
 
 enum { WIDTH = 240, HEIGHT = 160 };
@@ -31,7 +31,7 @@ static inline double random_in(uint32_t *state, double low, double high)
     return low + (high - low) * (double)virga_unit(*state);
 }
 
-static inline void put_balls(shot *s, ball balls[PLACES], int count)
+static inline void put_balls(shot *s, ball balls[BALLS], int count)
 {
     uint32_t random = 5;
     shot_forget(s);
@@ -56,7 +56,7 @@ static inline void put_film(shot *s, uint32_t nl)
 }
 
 /* Where the plate's colours are places, they tell what was looked up: right and down as shares of the picture. */
-static inline void put_places(shot *s)
+static inline void put_even_balls(shot *s)
 {
     float *pixels = malloc(16ull * WIDTH * HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {

@@ -21,10 +21,10 @@ static inline void open_even(const virga_glass_def *def)
 {
     glass_fixture_open(&f, def);
     f.settings.affinity = 0;
-    f.settings.tail_mm = 0;
+    f.settings.tail_max_radius_mm = 0;
     f.settings.film_um = 0;
     f.settings.evaporation_mm_h = 0;
-    f.settings.mist_mm = 0;
+    f.settings.mist_max_mm = 0;
 }
 
 #endif

@@ -144,7 +144,7 @@ static inline virga_glass_drop_gpu *shot_drop(shot *s, double u, double v, uint3
     REQUIRE(s->drop_count < s->glass->def.max_drops);
     virga_glass_drop_gpu *drop = &s->drops[s->drop_count];
     *drop = (virga_glass_drop_gpu){.position = {(float)u, (float)v},
-                                   .before = {(float)u, (float)v},
+                                   .previous_position = {(float)u, (float)v},
                                    .water_nl = water_nl,
                                    .kind = VIRGA_GLASS_DROP,
                                    .age_s = 100,
@@ -202,13 +202,13 @@ static inline void shot_put(shot *s, VkCommandBuffer cmd)
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->drops->buffer, 1, &drops);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->film->buffer, 1, &film);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->passed->buffer, 1, &passed);
-    uint32_t places[4096],
+    uint32_t slots[4096],
         shown[4] = {s->drop_count, (s->drop_count + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP, 1, 1};
     REQUIRE(g->def.max_drops <= 4096);
     for (uint32_t i = 0; i < g->def.max_drops; i++)
-        places[i] = i;
+        slots[i] = i;
     vkCmdFillBuffer(cmd, g->film_blocks->buffer, 0, VK_WHOLE_SIZE, 1);
-    vkCmdUpdateBuffer(cmd, g->list->buffer, sizeof(virga_list_gpu), g->def.max_drops * 4ull, places);
+    vkCmdUpdateBuffer(cmd, g->list->buffer, sizeof(virga_list_gpu), g->def.max_drops * 4ull, slots);
     vkCmdUpdateBuffer(cmd, g->state->buffer, offsetof(virga_glass_state_gpu, shown), sizeof shown, shown);
     shot_memory(cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,

@@ -24,7 +24,7 @@ static void opposed_wipers_mirror_each_other(void **unused)
         wiper->reach_m = 0.09f;
         wiper->blade_m = 0.07f;
         wiper->blade_deg = i ? -20 : 20;
-        wiper->blade_turn = 0.3f;
+        wiper->blade_hold_direction = 0.3f;
         wiper->low_deg = i ? 175 : 5;
         wiper->high_deg = i ? 80 : 100;
     }
@@ -52,7 +52,7 @@ static void a_blade_turns_on_its_arm(void **unused)
         wiper->low_deg = 10;
         wiper->high_deg = 130;
         wiper->blade_deg = 25;
-        wiper->blade_turn = 0.25f * (float)i;
+        wiper->blade_hold_direction = 0.25f * (float)i;
         REQUIRE(virga_glass_set(f.glass, &f.settings) == VIRGA_OK);
         for (double now = 0; now < 1.2; now += 0.05) {
             const double arm = virga_glass_wiper_deg(wiper, now);
@@ -70,14 +70,14 @@ static void a_blade_turns_on_its_arm(void **unused)
  * direction (up) while its middle goes along a circle about the pivot; looked at every 0.05 degrees. */
 static double from_swept(const virga_glass_wiper *wiper, const double at[2])
 {
-    double least = 1;
+    double min = 1;
     const double hub = (double)wiper->reach_m - 0.5 * (double)wiper->blade_m;
     for (double deg = (double)wiper->low_deg; deg <= (double)wiper->high_deg; deg += 0.05) {
         const double x = fabs(at[0] - (double)wiper->pivot_m[0] - hub * cos(deg * M_PI / 180));
         const double y = fabs(at[1] - (double)wiper->pivot_m[1] - hub * sin(deg * M_PI / 180));
-        least = fmin(least, fmax(x - 0.5 * (double)wiper->width_m, y - 0.5 * (double)wiper->blade_m));
+        min = fmin(min, fmax(x - 0.5 * (double)wiper->width_m, y - 0.5 * (double)wiper->blade_m));
     }
-    return least;
+    return min;
 }
 
 /* Drops of half a millimetre, too small for a particle: gone where the blade has been, and there where it has not; none
@@ -88,7 +88,7 @@ static void a_parallel_linkage_sweeps_what_its_upright_blade_passes_over(void **
     enum { COUNT = 15 * 11 };
     uint32_t ids[COUNT], swept = 0, kept = 0;
     glass_fixture_open(&f, NULL);
-    f.settings.mist_mm = 0;
+    f.settings.mist_max_mm = 0;
     f.settings.wiper_count = 1;
     virga_glass_wiper *wiper = &f.settings.wipers[0];
     *wiper = virga_default_glass_wiper();
@@ -96,7 +96,7 @@ static void a_parallel_linkage_sweeps_what_its_upright_blade_passes_over(void **
     wiper->pivot_m[1] = 0.02f;
     wiper->reach_m = 0.085f;
     wiper->blade_m = 0.05f;
-    wiper->blade_turn = 1;
+    wiper->blade_hold_direction = 1;
     wiper->low_deg = 30;
     wiper->blade_deg = 60; /* upright there, and so everywhere */
     wiper->high_deg = 150;

@@ -163,7 +163,7 @@ static void only_lenses_show_a_lamp_again(void **state)
     const double u = 0.5 * (double)s.glass->def.width_m, v = 0.5 * (double)s.glass->def.height_m, away = 5;
     s.settings.lighting.light_count = 1;
     s.settings.lighting.lights[0] = (virga_light){.position_m = {u, v, away}, .intensity = {1, 1, 1}};
-    double most[2] = {0};
+    double max[2] = {0};
     for (int drop = 0; drop < 2; drop++) {
         if (drop) {
             shot_forget(&s);
@@ -172,11 +172,11 @@ static void only_lenses_show_a_lamp_again(void **state)
             put_film(&s, 80); /* 20 um */
         const float *pixels = shot_draw(&s, false);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
-            most[drop] = fmax(most[drop], (double)pixels[4 * i]);
+            max[drop] = fmax(max[drop], (double)pixels[4 * i]);
     }
-    print_message("%g seen through a film, %g through a drop\n", most[0], most[1]);
-    assert_float_equal(most[0], 0, 1e-3);
-    REQUIRE(most[1] > 1);
+    print_message("%g seen through a film, %g through a drop\n", max[0], max[1]);
+    assert_float_equal(max[0], 0, 1e-3);
+    REQUIRE(max[1] > 1);
     shot_close(&s);
 }
 
@@ -284,10 +284,10 @@ static void the_picture_is_looked_up_where_the_vectors_say(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     int compared = 0, beyond = 0;
     open_small(&s);
-    put_places(&s);
+    put_even_balls(&s);
     put_balls(&s, balls, 20);
     shot_face(&s, -1, 30);
     s.settings.gain = 0;
@@ -309,9 +309,9 @@ static void the_scene_hides_what_is_behind_it(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     open_small(&s);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     s.give_depth = true;
     const double distance = fabs(s.camera.position_m[2]);
     const float *p = s.camera.clip_from_view;
@@ -345,7 +345,7 @@ static void drops_do_not_show_what_is_on_the_eyes_side(void **state)
     (void)state;
     const uint32_t post = WIDTH / 3;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     double light[2];
     open_before_black(&s);
     float *plate = calloc(4ull * WIDTH * HEIGHT, sizeof *plate);
@@ -354,7 +354,7 @@ static void drops_do_not_show_what_is_on_the_eyes_side(void **state)
             plate[4 * i + c] = i % WIDTH < post;
     shot_plate(&s, plate);
     free(plate);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     s.settings.gain = 0;
     s.give_depth = true;
     s.post_columns = post;
@@ -380,7 +380,7 @@ static void nothing_is_drawn_where_there_is_no_glass(void **state)
     (void)state;
     static const uint8_t half[2] = {0, 1};
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     open_small(&s);
     virga_glass_shape shape = virga_default_glass_shape();
     shape.mask = half;
@@ -388,7 +388,7 @@ static void nothing_is_drawn_where_there_is_no_glass(void **state)
     shape.mask_rows = 1;
     REQUIRE(virga_glass_shape_set(s.glass, &shape) == VIRGA_OK);
     shot_step(&s, 1);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     for (int style = 0; style < 2; style++) {
         s.settings.style = style ? VIRGA_GLASS_STYLE_PAPER : VIRGA_GLASS_STYLE_PHYSICAL;
         const float *pixels = shot_draw(&s, false);

@@ -75,7 +75,7 @@ static void a_turning_pane_throws_drops_outwards(void **unused)
     REQUIRE(at > 0.07 && at < 0.12);
     f.info.world_from_pane[0] = f.info.world_from_pane[7] = 1;
     f.info.world_from_pane[5] = -1;
-    f.info.turn_rad_s[1] = (float)w;
+    f.info.angular_velocity_rad_s[1] = (float)w;
     const uint32_t held = glass_fixture_land(&f, 0.97 * at * 0.6, 0.97 * at * 0.8, water_of(radius))->id;
     const uint32_t thrown = glass_fixture_land(&f, 1.03 * at * 0.8, 1.03 * at * 0.6, water_of(radius))->id;
     glass_fixture_step(&f, 20, true);
@@ -128,7 +128,7 @@ static void drops_on_a_windshields_side_run_outwards(void **unused)
     static float positions[POINTS * POINTS * 3];
     const double rake = 50 * M_PI / 180, bend = 0.12;
     virga_glass_shape shape = virga_default_glass_shape();
-    virga_glass_windshield(0.16f, 0.12f, 50, (float)bend, POINTS, POINTS, positions);
+    virga_glass_fill_windshield(0.16f, 0.12f, 50, (float)bend, POINTS, POINTS, positions);
     shape.positions = positions;
     shape.columns = shape.rows = POINTS;
     open_creeping(&shape);
@@ -185,7 +185,7 @@ static void drops_on_a_mesh_run_along_its_own_axes(void **unused)
     float grid[9 * 9 * 3];
     uint8_t mask[9 * 9];
     virga_glass_shape shape = virga_default_glass_shape();
-    REQUIRE(virga_glass_from_mesh(at[0], uvs[0], 4, indices, 6, w, h, 9, 9, grid, mask) == VIRGA_OK);
+    REQUIRE(virga_glass_fill_from_mesh(at[0], uvs[0], 4, indices, 6, w, h, 9, 9, grid, mask) == VIRGA_OK);
     shape.positions = grid;
     shape.columns = shape.rows = shape.mask_columns = shape.mask_rows = 9;
     shape.mask = mask;
@@ -260,7 +260,7 @@ static void low_places_have_more_affinity(void **unused)
     for (uint32_t column = 0; column < 80; column++)
         even[column] = (uint8_t)cell_word(column, 7);
     virga_glass_shape shape = bumpy(heights, size);
-    shape.bump_pull = (float)pull;
+    shape.bump_affinity = (float)pull;
     REQUIRE(virga_glass_shape_set(f.glass, &shape) == VIRGA_OK);
     for (uint32_t column = 0; column < 80; column++) {
         /* The deviation of a sine is its amplitude over the root of 2; bytes are 1/32, and end at 0 and 255. */
@@ -280,7 +280,7 @@ static void a_slope_of_the_bump_map_turns_the_force(void **unused)
     for (int i = 0; i < BUMPS * BUMPS; i++)
         heights[i] = (float)(k * size / BUMPS * (i % BUMPS + i / BUMPS));
     virga_glass_shape shape = bumpy(heights, size);
-    shape.bump_pull = 0;
+    shape.bump_affinity = 0;
     open_creeping(&shape);
     const uint32_t id = glass_fixture_land(&f, 0.08, 0.06, water_of(4e-3))->id;
     glass_fixture_step(&f, 30, true);
@@ -298,12 +298,12 @@ static double mean_way_from_groove(float pull)
     for (int i = 0; i < BUMPS * BUMPS; i++) /* grooves in the middle of each 40 mm */
         heights[i] = (float)(2e-5 * cos(2 * M_PI * (i % BUMPS) / BUMPS));
     virga_glass_shape shape = bumpy(heights, 0.04);
-    shape.bump_pull = pull;
+    shape.bump_affinity = pull;
     open_creeping(&shape);
     f.settings.affinity = 0.5f;
     f.settings.meander = 1;
     f.settings.path_ease = 0;
-    f.settings.touch = 0; /* those that come together stay two */
+    f.settings.merge_distance = 0; /* those that come together stay two */
     f.settings.drag = 4;
     for (int i = 0; i < 12; i++)
         ids[i] = glass_fixture_land(&f, 0.02 + 0.04 * (i % 4) + (i % 2 ? 0.007 : -0.007),

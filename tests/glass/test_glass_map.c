@@ -126,16 +126,16 @@ static void the_map_is_that_of_the_reference(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     open_small(&s);
     for (int i = 0; i < 2 * DENSITIES; i++) {
         s.settings.density = (virga_glass_density)(i / 2);
         s.settings.blend = (virga_glass_blend)(i % 2);
         s.settings.compress = i % 3 != 0;
-        put_balls(&s, balls, PLACES);
+        put_balls(&s, balls, BALLS);
         shot_draw(&s, false);
         REQUIRE(s.columns == 192 && s.rows == 128);
-        compare_map(&s, balls, PLACES);
+        compare_map(&s, balls, BALLS);
     }
     shot_close(&s);
 }
@@ -227,9 +227,9 @@ static void slopes_are_differences_of_heights(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     open_small(&s);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     shot_draw(&s, false);
     const double texel_m[2] = {0.096 / s.columns, 0.064 / s.rows};
     for (uint32_t row = 1; row + 1 < s.rows; row++)
@@ -251,12 +251,12 @@ static void what_no_view_has_written_is_zero(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     VkCommandBuffer cmd;
     setenv("LVP_POISON_MEMORY", "true", 1); /* software Vulkan's memory is not zero then */
     open_small(&s);
     shot_aim(&s, (const double[3]){0.048, 0.032, 1}, (const double[3]){0.048, 0.032, 0}, 30);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     shot_draw(&s, false);
     const struct glass_picture *picture = &s.glass->picture;
     const VkBufferImageCopy all = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
@@ -311,10 +311,10 @@ static void a_film_ends_on_the_glass_beside_drops(void **state)
 {
     (void)state;
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     uint32_t ends = 0;
     open_small(&s);
-    put_balls(&s, balls, PLACES);
+    put_balls(&s, balls, BALLS);
     for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
         s.film[i] = i % s.glass->columns % 6 < 3 ? 20 : 0; /* in stripes, so that many end near drops */
         s.passed[i] = s.glass->last_tick;

@@ -46,10 +46,10 @@ static void a_leaning_pane_holds_larger_drops(void **unused)
 static double critical_water(virga_glass_kind kind, double *speed_m_s)
 {
     virga_glass_settings s = virga_default_glass_settings();
-    virga_glass_settings_of(kind, &s);
+    virga_glass_apply_kind(kind, &s);
     const double cap = glass_cap_volume(glass_rest_deg(&s)), weight = VIRGA_WATER_DENSITY * VIRGA_GRAVITY * cap;
     const double radius = sqrt(glass_hold(&s) / weight), twice = radius * cbrt(2);
-    const double pulled = weight * twice * twice * twice - (double)s.run_hold * glass_hold(&s) * twice;
+    const double pulled = weight * twice * twice * twice - (double)s.kinetic_hold * glass_hold(&s) * twice;
     *speed_m_s = pulled / (glass_drag(&s) * twice);
     return cap * radius * radius * radius;
 }
@@ -86,7 +86,8 @@ static void a_running_drop_reaches_its_terminal_speed(void **unused)
     f.settings.meander = 0;
     f.settings.path_ease = 0;
     const double radius = 2.4e-3, mass = water_of(radius) * 0.9982e-9;
-    const double pulled = mass * VIRGA_GRAVITY, held = (double)f.settings.run_hold * glass_hold(&f.settings) * radius;
+    const double pulled = mass * VIRGA_GRAVITY,
+                 held = (double)f.settings.kinetic_hold * glass_hold(&f.settings) * radius;
     const double expected = (pulled - held) / (glass_drag(&f.settings) * radius);
     glass_fixture_land(&f, 0.08, 0.58, water_of(radius));
     glass_fixture_step(&f, 60, true);
@@ -212,7 +213,7 @@ static double overlap(float path_ease)
     for (uint32_t seed = 0; seed < 5; seed++) {
         open_tall(seed, 0.6f);
         f.settings.path_ease = path_ease;
-        f.settings.path_s = 30;
+        f.settings.path_dry_s = 30;
         uint32_t first = 0;
         for (int drop = 0; drop < 2; drop++) {
             first = f.tick;
@@ -264,16 +265,16 @@ static void drops_at_rest_become_one_where_their_bases_meet(void **unused)
     const virga_glass_drop_gpu *drop;
     const double radius = 1.8e-3;
     open_even(NULL);
-    f.settings.touch = 1;
+    f.settings.merge_distance = 1;
     assert_int_equal(land_two(radius, 2.02 * radius, 1, &drop), 2);
     glass_fixture_close(&f);
     open_even(NULL);
-    f.settings.touch = 1;
+    f.settings.merge_distance = 1;
     assert_int_equal(land_two(radius, 1.98 * radius, 1, &drop), 1);
     assert_int_equal(drop->water_nl, 2 * water_of(radius));
     glass_fixture_close(&f);
     open_even(NULL);
-    f.settings.touch = 0; /* as Goto et al. */
+    f.settings.merge_distance = 0; /* as Goto et al. */
     assert_int_equal(land_two(radius, 1.98 * radius, 1, &drop), 2);
     glass_fixture_close(&f);
 }
@@ -291,7 +292,7 @@ static void drops_that_become_one_lie_in_the_middle_of_their_water(void **unused
     assert_true(fabs((double)drop->position[0] - (0.0805 + apart * share / (1 + share))) < 1e-5);
     assert_true(fabs((double)drop->position[1] - 0.0611) < 1e-5);
     assert_true(drop->velocity[0] == 0 && drop->velocity[1] == 0);
-    assert_true(drop->before[0] == drop->position[0]); /* it was there a tick before, too */
+    assert_true(drop->previous_position[0] == drop->position[0]); /* it was there a tick before, too */
     glass_fixture_close(&f);
 }
 
@@ -314,16 +315,16 @@ static void a_stopped_drop_with_way_left_stays(void **unused)
     memcpy(f.info.world_from_pane, flat, sizeof flat);
     glass_fixture_land(&f, 0.0805, 0.0611, water_of(1e-3));
     glass_fixture_step(&f, 1, true);
-    const uint32_t place = (uint32_t)(only_drop() - f.drops), cell = only_drop()->cell;
+    const uint32_t slot = (uint32_t)(only_drop() - f.drops), cell = only_drop()->cell;
     virga_glass_drop_gpu *given = f.upload.mapped;
     memcpy(given, f.drops, f.glass->drops->size);
-    given[place].ahead_m = 3 * f.glass->def.cell_m;
-    given[place].kind |= VIRGA_GLASS_RUNNING;
+    given[slot].progress_m = 3 * f.glass->def.cell_m;
+    given[slot].kind |= VIRGA_GLASS_RUNNING;
     put_drops();
     glass_fixture_step(&f, 1, true);
-    assert_int_equal(f.drops[place].cell, cell);
-    assert_true(f.drops[place].ahead_m == 0);
-    assert_true(f.drops[place].velocity[0] == 0 && f.drops[place].velocity[1] == 0);
+    assert_int_equal(f.drops[slot].cell, cell);
+    assert_true(f.drops[slot].progress_m == 0);
+    assert_true(f.drops[slot].velocity[0] == 0 && f.drops[slot].velocity[1] == 0);
     glass_fixture_close(&f);
 }
 
@@ -381,7 +382,7 @@ static void a_drop_whose_captor_is_gone_looks_again(void **unused)
     double x = 0.0505;
     uint32_t count = 0;
     open_even(NULL);
-    f.settings.touch = 1;
+    f.settings.merge_distance = 1;
     for (int i = 0; i < 4; i++) {
         x += i ? 0.95 * (radii[i - 1] + radii[i]) : 0;
         glass_fixture_land(&f, x, 0.0611, water_of(radii[i]));
@@ -419,7 +420,8 @@ static void drops_at_rest_do_not_touch(void **unused)
                 hypot((double)a->position[0] - (double)b->position[0], (double)a->position[1] - (double)b->position[1]);
             const double cap = glass_cap_volume(glass_rest_deg(&f.settings)) * NL_OF_M3;
             if (b->kind == VIRGA_GLASS_DROP)
-                REQUIRE(apart > 0.999 * (double)f.settings.touch * (cbrt(a->water_nl / cap) + cbrt(b->water_nl / cap)));
+                REQUIRE(apart > 0.999 * (double)f.settings.merge_distance *
+                                    (cbrt(a->water_nl / cap) + cbrt(b->water_nl / cap)));
         }
     }
     print_message("%u drops at rest of 720\n", resting);

@@ -4,7 +4,7 @@
 /* Water of a particle, nl: a hemisphere. */
 static uint32_t particle_water(void)
 {
-    return (uint32_t)(2 * M_PI / 3 * pow((double)f.settings.particle_mm * 1e-3, 3) * NL_OF_M3);
+    return (uint32_t)(2 * M_PI / 3 * pow((double)f.settings.particle_radius_mm * 1e-3, 3) * NL_OF_M3);
 }
 
 /* One blade across a pane that is 0.16 m wide, which the host turns. */
@@ -40,7 +40,7 @@ static uint32_t count_of(uint32_t kind)
 static double deepest_overlap(void)
 {
     double deepest = 0;
-    const double radius = (double)f.settings.particle_mm * 1e-3;
+    const double radius = (double)f.settings.particle_radius_mm * 1e-3;
     for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
         for (uint32_t k = 0; k < i; k++) {
             const virga_glass_drop_gpu *a = &f.drops[i], *b = &f.drops[k];
@@ -65,13 +65,13 @@ static void a_drop_becomes_as_many_particles_as_its_water_gives(void **unused)
     turn_to(120, 20);
     assert_int_equal(count_of(VIRGA_GLASS_PARTICLE), 3);
     assert_int_equal(count_of(VIRGA_GLASS_DROP), 0);
-    uint32_t least = UINT32_MAX, most = 0;
+    uint32_t min = UINT32_MAX, max = 0;
     for (uint32_t i = 0; i < f.glass->def.max_drops; i++)
         if (glass_fixture_kind(&f.drops[i]) == VIRGA_GLASS_PARTICLE) {
-            least = f.drops[i].water_nl < least ? f.drops[i].water_nl : least;
-            most = f.drops[i].water_nl > most ? f.drops[i].water_nl : most;
+            min = f.drops[i].water_nl < min ? f.drops[i].water_nl : min;
+            max = f.drops[i].water_nl > max ? f.drops[i].water_nl : max;
         }
-    assert_true(most - least <= 1);
+    assert_true(max - min <= 1);
     glass_fixture_close(&f);
 }
 

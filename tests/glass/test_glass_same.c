@@ -14,13 +14,13 @@ static void crowd(shot *s)
 static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
 {
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     setenv("LP_NUM_THREADS", threads, 1);
     open_small(&s);
     if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
-        REQUIRE(glass_picture_take_lanes(s.glass, lanes) == VIRGA_OK);
-    put_places(&s);
-    put_balls(&s, balls, PLACES);
+        REQUIRE(glass_picture_use_lanes(s.glass, lanes) == VIRGA_OK);
+    put_even_balls(&s);
+    put_balls(&s, balls, BALLS);
     crowd(&s);
     for (uint32_t i = 0; i < s.glass->columns * s.glass->rows; i++) {
         s.film[i] = i % 5 * 20;
@@ -41,14 +41,14 @@ static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
 static float *paper_frame(bool height_map, virga_glass_blend blend, uint32_t compress_steps, uint32_t lanes)
 {
     shot s;
-    ball balls[PLACES];
+    ball balls[BALLS];
     virga_glass_def def = shot_def();
     def.height_map = height_map;
     shot_open(&s, &def, WIDTH, HEIGHT, false);
     if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
-        REQUIRE(glass_picture_take_lanes(s.glass, lanes) == VIRGA_OK);
+        REQUIRE(glass_picture_use_lanes(s.glass, lanes) == VIRGA_OK);
     shot_face(&s, -1, 30);
-    put_places(&s);
+    put_even_balls(&s);
     put_balls(&s, balls, 20);
     s.settings.style = VIRGA_GLASS_STYLE_PAPER;
     s.settings.blend = blend;

@@ -62,7 +62,7 @@ static void a_drop_on_a_panel_moves_with_it(void **state)
     (void)state;
     pane p;
     host_camera before;
-    uint32_t taken = 0;
+    uint32_t used = 0;
     open_pane(&p);
     p.s.settings.opaque = true;
     put_drop(&p, 0.048, 0.032, 8e-3);
@@ -72,8 +72,8 @@ static void a_drop_on_a_panel_moves_with_it(void **state)
     const double angle = 0.05, away[3] = {0.004, -0.003, 0.001};
     const float turned[9] = {
         (float)cos(angle), (float)sin(angle), 0, (float)-sin(angle), (float)cos(angle), 0, 0, 0, 1};
-    memcpy(p.s.pose.before_position_m, away, sizeof away);
-    memcpy(p.s.pose.before_world_from_pane, turned, sizeof turned);
+    memcpy(p.s.pose.previous_position_m, away, sizeof away);
+    memcpy(p.s.pose.previous_world_from_pane, turned, sizeof turned);
     p.view = shot_view(&p.s);
     memcpy(p.view.temporal.position_m, before.position_m, sizeof before.position_m);
     memcpy(p.view.temporal.view_from_world, before.view_from_world, sizeof before.view_from_world);
@@ -93,9 +93,9 @@ static void a_drop_on_a_panel_moves_with_it(void **state)
         camera_pixel(&before, then, was);
         assert_true(fabs((double)p.picture.motion[2 * i] - (was[0] - x)) < 0.05);
         assert_true(fabs((double)p.picture.motion[2 * i + 1] - (was[1] - y)) < 0.05);
-        taken++;
+        used++;
     }
-    assert_true(taken > 200);
+    assert_true(used > 200);
     close_pane(&p);
 }
 
@@ -126,10 +126,10 @@ static void give_motion(pane *p, float x, float y)
 }
 
 /* The place of the picture that a pixel shows, as virga_glass_draw_refraction has it. */
-static void shown_at(const float *refraction, size_t pixel, double place[2])
+static void shown_at(const float *refraction, size_t pixel, double position[2])
 {
-    place[0] = (double)(pixel % WIDTH) + 0.5 + (double)refraction[4 * pixel];
-    place[1] = (double)(pixel / WIDTH) + 0.5 + (double)refraction[4 * pixel + 1];
+    position[0] = (double)(pixel % WIDTH) + 0.5 + (double)refraction[4 * pixel];
+    position[1] = (double)(pixel / WIDTH) + 0.5 + (double)refraction[4 * pixel + 1];
 }
 
 /* Camera and pane rest, the scene moves by M. Then to where its vector leads from a pixel, the drop shows what is M
@@ -140,7 +140,7 @@ static void what_a_drop_shows_moves_as_much_as_the_drop_shrinks_it(void **state)
     (void)state;
     const double scene[2] = {6, -4};
     pane p;
-    uint32_t taken = 0;
+    uint32_t used = 0;
     open_pane(&p);
     put_drop(&p, 0.048, 0.032, 12e-3);
     shot_face(&p.s, -1, 40);
@@ -166,9 +166,9 @@ static void what_a_drop_shows_moves_as_much_as_the_drop_shrinks_it(void **state)
                     fail_msg("pixel %d, %d moves by %g, %g and the scene in it by %g, expected %g", x, y, m[0], m[1],
                              moved, scene[axis]);
             }
-            taken++;
+            used++;
         }
-    assert_int_equal(taken, 128);
+    assert_int_equal(used, 128);
     free(vectors);
     close_pane(&p);
 }
@@ -215,7 +215,7 @@ static void advance(resolve_scene *scene, uint32_t frame)
     car_scene *c = (car_scene *)scene;
     c->frame = frame;
     pose_of(frame + 1, c->pane->s.pose.position_m, c->pane->s.pose.world_from_pane);
-    pose_of(frame, c->pane->s.pose.before_position_m, c->pane->s.pose.before_world_from_pane);
+    pose_of(frame, c->pane->s.pose.previous_position_m, c->pane->s.pose.previous_world_from_pane);
 }
 
 static void draw(resolve_scene *scene, const float jitter_px[2])
@@ -240,7 +240,7 @@ static void draw(resolve_scene *scene, const float jitter_px[2])
 /* Drops of 1 to 5 mm where they do not touch. */
 static void put_drops(pane *p, uint32_t count)
 {
-    double places[64][3];
+    double positions[64][3];
     uint32_t put = 0;
     for (uint32_t k = 0; put < count; k++) {
         const double u = 0.096 * (double)virga_unit(virga_hash2(k, 0)),
@@ -248,12 +248,12 @@ static void put_drops(pane *p, uint32_t count)
         const double radius = 1e-3 + 4e-3 * pow((double)virga_unit(virga_hash2(k, 2)), 2);
         bool room = true;
         for (uint32_t i = 0; i < put; i++)
-            room = room && hypot(u - places[i][0], v - places[i][1]) > 1.6 * (radius + places[i][2]);
+            room = room && hypot(u - positions[i][0], v - positions[i][1]) > 1.6 * (radius + positions[i][2]);
         if (!room)
             continue;
-        places[put][0] = u;
-        places[put][1] = v;
-        places[put++][2] = radius;
+        positions[put][0] = u;
+        positions[put][1] = v;
+        positions[put++][2] = radius;
         put_drop(p, u, v, radius);
     }
 }

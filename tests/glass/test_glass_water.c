@@ -9,9 +9,10 @@ static glass_fixture f;
 
 /* ---- what must hold after each step */
 
-static void blade_local(const virga_glass_blade_gpu *blade, const float place[2], double out[2])
+static void blade_local(const virga_glass_blade_gpu *blade, const float position[2], double out[2])
 {
-    const double off[2] = {(double)place[0] - (double)blade->middle[0], (double)place[1] - (double)blade->middle[1]};
+    const double off[2] = {(double)position[0] - (double)blade->middle[0],
+                           (double)position[1] - (double)blade->middle[1]};
     out[0] = -off[0] * (double)blade->along[1] + off[1] * (double)blade->along[0];
     out[1] = off[0] * (double)blade->along[0] + off[1] * (double)blade->along[1];
 }
@@ -22,11 +23,11 @@ static void cell_middle(uint32_t cell, float out[2])
     out[1] = fminf(((float)(cell / f.glass->columns) + 0.5f) * f.glass->def.cell_m, f.glass->def.height_m);
 }
 
-static bool under_blade(const virga_glass_tick_gpu *tick, const float place[2], double by)
+static bool under_blade(const virga_glass_tick_gpu *tick, const float position[2], double by)
 {
     for (uint32_t i = 0; i < tick->blade_count; i++) {
         double local[2];
-        blade_local(&tick->blades[i], place, local);
+        blade_local(&tick->blades[i], position, local);
         if (fabs(local[0]) < (double)tick->blades[i].half_width_m + by &&
             fabs(local[1]) < (double)tick->blades[i].half_length_m + by)
             return true;
@@ -48,7 +49,7 @@ static void assert_cells(void)
     }
     for (uint32_t i = 0; i < cells; i++) {
         occupied += f.occupants[i] != 0;
-        REQUIRE(f.claims[i] == VIRGA_GLASS_NOWHERE && f.claims[cells + i] == VIRGA_GLASS_NOWHERE);
+        REQUIRE(f.claims[i] == VIRGA_GLASS_NONE && f.claims[cells + i] == VIRGA_GLASS_NONE);
     }
     assert_int_equal(drops, occupied);
 }
@@ -123,7 +124,7 @@ static bool may_leave(const virga_glass_tick_gpu *tick, const virga_glass_drop_g
     const int reach = (int)tick->hold_back_cells;
     const int cell[2] = {(int)(drop->position[0] / f.glass->def.cell_m),
                          (int)(drop->position[1] / f.glass->def.cell_m)};
-    if (glass_fixture_kind(drop) != VIRGA_GLASS_PARTICLE || !(drop->kind & VIRGA_GLASS_HELD))
+    if (glass_fixture_kind(drop) != VIRGA_GLASS_PARTICLE || !(drop->kind & VIRGA_GLASS_WAITING))
         return false;
     for (int y = cell[1] - reach; y <= cell[1] + reach; y++)
         for (int x = cell[0] - reach; x <= cell[0] + reach; x++) {
@@ -187,7 +188,7 @@ static void budget_and_cells_hold_over_10000_ticks(void **unused)
     (void)unused;
     static uint8_t looks[1024];
     static uint32_t ids[1024];
-    uint32_t hash = 7, most_held = 0;
+    uint32_t hash = 7, max_waiting = 0;
     glass_fixture_open(&f, NULL);
     two_wipers(&f.settings);
     f.settings.film_um = 10;
@@ -205,17 +206,17 @@ static void budget_and_cells_hold_over_10000_ticks(void **unused)
         assert_blades(&f.glass->blades);
         assert_on_pane(NULL, 0);
         assert_let_go(&f.glass->blades, looks, ids);
-        most_held = f.state->held > most_held ? f.state->held : most_held;
+        max_waiting = f.state->particles_waiting > max_waiting ? f.state->particles_waiting : max_waiting;
     }
-    REQUIRE(most_held > 0);
+    REQUIRE(max_waiting > 0);
     virga_glass_stats stats;
     virga_glass_stats_get(f.glass, &stats);
     printf("landed %.1f ml, run off %.1f, wiped %.1f, evaporated %.1f; %u drops, %u particles, %u held; merged %llu, "
            "to particles %llu, to drops %llu, crowded %llu\n",
            (double)stats.landed_nl * 1e-6, (double)stats.run_off_nl * 1e-6, (double)stats.wiped_nl * 1e-6,
-           (double)stats.evaporated_nl * 1e-6, stats.drops, stats.particles, stats.held,
+           (double)stats.evaporated_nl * 1e-6, stats.drops, stats.particles, stats.particles_waiting,
            (unsigned long long)stats.merged, (unsigned long long)stats.to_particles, (unsigned long long)stats.to_drops,
-           (unsigned long long)stats.crowded);
+           (unsigned long long)stats.drops_without_slot);
     glass_fixture_close(&f);
 }
 
@@ -233,7 +234,7 @@ static void opposed_wipers(virga_glass_settings *settings)
         wiper->sweep_s = 0.6f;
         wiper->low_deg = i ? 185 : -5;
         wiper->high_deg = i ? 85 : 95;
-        wiper->blade_turn = 0.5f;
+        wiper->blade_hold_direction = 0.5f;
     }
 }
 
@@ -246,7 +247,7 @@ static void open_odd(const uint8_t *mask)
     def.height_m = 0.1207f;
     glass_fixture_open(&f, &def);
     virga_glass_shape shape = virga_default_glass_shape();
-    virga_glass_windshield(def.width_m, def.height_m, 30, 0.2f, 17, 3, positions);
+    virga_glass_fill_windshield(def.width_m, def.height_m, 30, 0.2f, 17, 3, positions);
     shape.positions = positions;
     shape.columns = 17;
     shape.rows = 3;
@@ -263,7 +264,7 @@ static void nothing_leaves_an_odd_pane_under_opposed_blades(void **unused)
     uint32_t hash = 11;
     open_odd(mask);
     opposed_wipers(&f.settings);
-    f.settings.tail_m = 0.004f;
+    f.settings.tail_spacing_m = 0.004f;
     for (uint32_t done = 0; done < 2000; done += 8) {
         hash = virga_hash1(hash);
         f.info.rate_mm_h = 100;

@@ -43,7 +43,7 @@ typedef struct field {
             (uint32_t)(sizeof FIELD_MEMBER(type, member) / FIELD_BYTES(FIELD_MEMBER(type, member))), rule, low, high \
     }
 
-enum { FIELD_MOST_BYTES = 131072 };
+enum { FIELD_MAX_BYTES = 131072 };
 
 /* A struct, and a call that takes it. */
 typedef struct field_table {
@@ -94,20 +94,20 @@ static inline double field_beside(const field *f, double value, double towards)
 /* What a field is tried with. */
 static inline uint32_t field_values(const field *f, double values[16])
 {
-    const double most = f->kind == FIELD_FLOAT ? (double)FLT_MAX : DBL_MAX;
+    const double max = f->kind == FIELD_FLOAT ? (double)FLT_MAX : DBL_MAX;
     const double low = field_end(f, f->low);
     const double high = field_end(f, f->high);
     const double floats[] = {low,
                              high,
-                             field_beside(f, low, -most),
-                             field_beside(f, high, most),
+                             field_beside(f, low, -max),
+                             field_beside(f, high, max),
                              (double)NAN,
                              (double)INFINITY,
                              -(double)INFINITY,
                              -1,
                              0,
-                             most,
-                             -most,
+                             max,
+                             -max,
                              f->kind == FIELD_FLOAT ? 1e-42 : 1e-310,
                              1e30};
     const double uints[] = {low,         high,      low > 0 ? low - 1 : 0, fmin(high + 1, UINT32_MAX), 0, 1, 0x7fffffff,
@@ -145,7 +145,7 @@ static inline uint32_t field_lines(const gpu_fixture *f)
 static inline void field_try(gpu_fixture *fixture, const field_table *table, const field *f, uint32_t index,
                              double value)
 {
-    static _Alignas(16) char changed[FIELD_MOST_BYTES], in_force[FIELD_MOST_BYTES];
+    static _Alignas(16) char changed[FIELD_MAX_BYTES], in_force[FIELD_MAX_BYTES];
     uint32_t expected_lines;
     REQUIRE(table->size <= sizeof changed);
     memcpy(changed, table->good, table->size);

@@ -164,9 +164,9 @@ static inline void gpu_record(VkCommandBuffer cmd, virga_rain *rain, const gpu_p
     uint32_t count;
     double origin[3];
     view.position_m[1] = view.open_position_m[1] = camera[1];
-    REQUIRE(virga_rain_occlusion(rain, cmd, camera, NULL, 0) == VIRGA_OK);
+    REQUIRE(virga_rain_draw_occlusion(rain, cmd, camera, NULL, 0) == VIRGA_OK);
     REQUIRE(virga_rain_step(rain, cmd, &step) == VIRGA_OK);
-    REQUIRE(virga_rain_points(rain, cmd, &points, &count, origin) == VIRGA_OK);
+    REQUIRE(virga_rain_write_points(rain, cmd, &points, &count, origin) == VIRGA_OK);
     REQUIRE(virga_rain_prepare(rain, cmd, &view, virga_rain_time(rain)) == VIRGA_OK);
     host_target_begin_layer(&picture->images, cmd);
     REQUIRE(virga_rain_draw(rain, cmd, picture->target) == VIRGA_OK);

@@ -30,11 +30,11 @@ static inline virga_ground_def small_ground_def(void)
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
-    def.kept_tiles = 0; /* raised to what the window needs */
+    def.cached_tiles = 0; /* raised to what the window needs */
     def.ripple_texels = 64;
     def.max_impacts = 1024;
     def.max_spawns = 256;
-    def.max_returns = 256;
+    def.max_returned_droplets = 256;
     def.max_ticks_per_step = 4;
     return def;
 }
@@ -45,7 +45,7 @@ static inline virga_splash_def small_splash_def(void)
     def.max_splashes = 256;
     def.max_droplets = 256;
     def.max_spawns = 256;
-    def.max_returns = 256;
+    def.max_returned_droplets = 256;
     def.max_ticks_per_step = 4;
     return def;
 }
@@ -90,11 +90,11 @@ static inline virga_result small_shape_set(virga_glass *glass, uint32_t index)
     virga_glass_shape shape = virga_default_glass_shape();
     shape.columns = shape.rows = SIDE;
     if (index == 1) {
-        virga_glass_windshield(0.2f, 0.1f, 30, 1, SIDE, SIDE, positions);
+        virga_glass_fill_windshield(0.2f, 0.1f, 30, 1, SIDE, SIDE, positions);
         shape.positions = positions;
     } else if (index == 2) {
         const virga_result result =
-            virga_glass_from_mesh(flat, uvs, 4, corners, 6, 0.2f, 0.1f, SIDE, SIDE, positions, mask);
+            virga_glass_fill_from_mesh(flat, uvs, 4, corners, 6, 0.2f, 0.1f, SIDE, SIDE, positions, mask);
         if (result)
             return result;
         mask[SIDE] = 0; /* a hole at the left */

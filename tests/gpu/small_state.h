@@ -13,7 +13,7 @@
 #include <virga/shared/drop.h>
 #include <virga/virga.h>
 
-enum { SMALL_MOST_PARTS = 8 };
+enum { SMALL_MAX_PARTS = 8 };
 
 typedef struct small_part {
     const char *name;
@@ -23,7 +23,7 @@ typedef struct small_part {
 } small_part;
 
 typedef struct small_state {
-    small_part parts[SMALL_MOST_PARTS];
+    small_part parts[SMALL_MAX_PARTS];
     uint32_t part_count;
     host_buffer copy;
     uint64_t rained_nl, dropped; /* of all steps so far */
@@ -46,7 +46,7 @@ static inline void small_state_list(small_state *s, virga_scene *scene)
 {
     virga_rain_buffer impacts, drops;
     virga_splash_buffer droplets;
-    small_part parts[SMALL_MOST_PARTS] = {
+    small_part parts[SMALL_MAX_PARTS] = {
         {.name = "impacts"}, {.name = "drops"}, {.name = "spawns"}, {.name = "droplets"}};
     uint32_t count = 4;
     virga_rain_impacts(virga_scene_rain(scene), &impacts);
@@ -59,7 +59,7 @@ static inline void small_state_list(small_state *s, virga_scene *scene)
     virga_splash_droplets(virga_scene_splash(scene), &droplets, &parts[3].count, NULL);
     parts[3].buffer = droplets.buffer;
     parts[3].size = droplets.size;
-    for (; count < SMALL_MOST_PARTS && virga_scene_glass(scene, count - 4); count++) {
+    for (; count < SMALL_MAX_PARTS && virga_scene_glass(scene, count - 4); count++) {
         virga_glass_buffer glass;
         parts[count].name = "pane";
         virga_glass_drops(virga_scene_glass(scene, count - 4), &glass, &parts[count].count);
@@ -163,7 +163,7 @@ static inline void small_state_pane(small_state *s, const small_part *part)
         if ((drops[i].kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_FREE)
             continue;
         small_state_finite(s, "drop on a pane", i, drops[i].position, 6);
-        small_state_finite(s, "way on a pane", i, &drops[i].ahead_m, 3);
+        small_state_finite(s, "way on a pane", i, &drops[i].progress_m, 3);
     }
 }
 
@@ -173,12 +173,12 @@ static inline void small_state_ground(small_state *s, virga_scene *scene)
     virga_ground_stats g;
     virga_ground_stats_get(virga_scene_ground(scene), &g);
     const uint64_t came = g.start_nl + g.landed_nl;
-    const uint64_t is = g.film_nl + g.puddles_nl + g.held_nl + g.kept_nl + g.infiltrated_nl + g.run_off_nl +
-                        g.evaporated_nl + g.forgotten_nl;
+    const uint64_t is = g.film_nl + g.puddles_nl + g.held_nl + g.cached_nl + g.infiltrated_nl + g.run_off_nl +
+                        g.evaporated_nl + g.evicted_nl;
     if (came != is)
         small_state_wrong(s, "%llu nl came to the ground, %llu nl are there or went", (unsigned long long)came,
                           (unsigned long long)is);
-    const uint64_t met = g.landed_nl + g.elsewhere_nl + g.flown_nl - g.returned_nl;
+    const uint64_t met = g.landed_nl + g.off_ground_nl + g.flown_nl - g.returned_nl;
     if (s->dropped ? met > s->rained_nl : met != s->rained_nl)
         small_state_wrong(s, "%llu nl rained, %llu nl met something", (unsigned long long)s->rained_nl,
                           (unsigned long long)met);
@@ -192,14 +192,14 @@ static inline void small_state_ground(small_state *s, virga_scene *scene)
 
 static inline void small_state_glass(small_state *s, const virga_glass *pane, const virga_glass_stats *g)
 {
-    uint32_t places;
-    virga_glass_drops(pane, NULL, &places);
+    uint32_t slots;
+    virga_glass_drops(pane, NULL, &slots);
     const uint64_t is = g->drops_nl + g->particles_nl + g->film_nl + g->run_off_nl + g->wiped_nl + g->evaporated_nl;
     if (g->landed_nl != is)
         small_state_wrong(s, "%llu nl landed on a pane, %llu nl are there or went", (unsigned long long)g->landed_nl,
                           (unsigned long long)is);
-    if ((uint64_t)g->drops + g->particles > places)
-        small_state_wrong(s, "%u drops and %u particles in %u places of a pane", g->drops, g->particles, places);
+    if ((uint64_t)g->drops + g->particles > slots)
+        small_state_wrong(s, "%u drops and %u particles in %u places of a pane", g->drops, g->particles, slots);
 }
 
 /* Once the frame has completed, and once for each that was stepped. Returns false with `wrong` filled where something

@@ -5,21 +5,21 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
-enum { MOST_JOBS = 256 };
+enum { MAX_JOBS = 256 };
 
 /* A host's job system that does nothing until it is told to. */
 typedef struct job_list {
     struct {
         void (*job)(void *data);
         void *data;
-    } jobs[MOST_JOBS];
+    } jobs[MAX_JOBS];
     uint32_t count;
 } job_list;
 
-static void take_job(void *user, void (*job)(void *data), void *data)
+static void store_job(void *user, void (*job)(void *data), void *data)
 {
     job_list *list = user;
-    REQUIRE(list->count < MOST_JOBS);
+    REQUIRE(list->count < MAX_JOBS);
     list->jobs[list->count].job = job;
     list->jobs[list->count++].data = data;
 }
@@ -33,13 +33,13 @@ static void *run_jobs(void *user)
     return NULL;
 }
 
-static virga_context *make_context(gpu_fixture *f, virga_pipelines_when when, job_list *jobs)
+static virga_context *make_context(gpu_fixture *f, virga_pipeline_build_mode when, job_list *jobs)
 {
     virga_context_def def = gpu_context_def(f);
     virga_context *context = NULL;
-    def.pipelines = when;
+    def.pipeline_build_mode = when;
     if (jobs)
-        def.pipeline_jobs = (virga_pipeline_jobs){jobs, take_job};
+        def.pipeline_jobs = (virga_pipeline_jobs){jobs, store_job};
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
     return context;
 }
@@ -58,7 +58,7 @@ static virga_result try_step(gpu_fixture *f, virga_context *context, virga_rain 
 static void steps_build_as_many_as_they_are_told(void **state)
 {
     gpu_fixture *f = *state;
-    virga_context *context = make_context(f, VIRGA_PIPELINES_IN_STEPS, NULL);
+    virga_context *context = make_context(f, VIRGA_PIPELINES_DEFERRED, NULL);
     virga_rain *rain = gpu_rain(context);
     uint32_t before, left;
     assert_int_equal(watch.made[WATCH_Pipeline], 0);
@@ -82,7 +82,7 @@ static void steps_build_as_many_as_they_are_told(void **state)
 static void draws_wait_for_their_target(void **state)
 {
     gpu_fixture *f = *state;
-    virga_context *context = make_context(f, VIRGA_PIPELINES_IN_STEPS, NULL);
+    virga_context *context = make_context(f, VIRGA_PIPELINES_DEFERRED, NULL);
     virga_rain *rain = gpu_rain(context);
     gpu_picture picture;
     const virga_rain_step_info step = {.dt_s = 1.0 / 30, .camera_m = {0, 1.7, 0}};
@@ -190,7 +190,7 @@ static void layouts_outlive_a_running_job(void **state)
 static void failure_stays_with_its_effect(void **state)
 {
     gpu_fixture *f = *state;
-    virga_context *context = make_context(f, VIRGA_PIPELINES_IN_STEPS, NULL);
+    virga_context *context = make_context(f, VIRGA_PIPELINES_DEFERRED, NULL);
     virga_rain *broken = gpu_rain(context);
     gpu_forget_log(f);
     watch_fail(4, VK_ERROR_INITIALIZATION_FAILED);
@@ -213,11 +213,11 @@ static void definitions_are_checked(void **state)
     gpu_fixture *f = *state;
     virga_context_def def = gpu_context_def(f);
     virga_context *context = (virga_context *)f;
-    def.pipelines = (virga_pipelines_when)3;
+    def.pipeline_build_mode = (virga_pipeline_build_mode)3;
     gpu_forget_log(f);
     assert_int_equal(virga_context_create(&def, &context), VIRGA_ERROR_INVALID);
     assert_one_error(f, VIRGA_LOG_ARGUMENT);
-    def.pipelines = VIRGA_PIPELINES_AS_JOBS;
+    def.pipeline_build_mode = VIRGA_PIPELINES_AS_JOBS;
     gpu_forget_log(f);
     assert_int_equal(virga_context_create(&def, &context), VIRGA_ERROR_INVALID);
     assert_one_error(f, VIRGA_LOG_ARGUMENT);

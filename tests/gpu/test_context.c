@@ -123,7 +123,7 @@ static void lost_device_is_sticky_and_said_once(void **state)
     watch_fail(0, VK_SUCCESS);
     assert_int_equal(virga_rain_create(context, &def, &other), VIRGA_ERROR_DEVICE_LOST);
     assert_int_equal(virga_target_create(context, &target_def, &target), VIRGA_ERROR_DEVICE_LOST);
-    assert_int_equal(virga_rain_occlusion(rain, cmd, camera, NULL, 0), VIRGA_ERROR_DEVICE_LOST);
+    assert_int_equal(virga_rain_draw_occlusion(rain, cmd, camera, NULL, 0), VIRGA_ERROR_DEVICE_LOST);
     assert_int_equal(virga_rain_step(rain, cmd, &step), VIRGA_ERROR_DEVICE_LOST);
     assert_int_equal(virga_rain_prepare(rain, cmd, &view, 0), VIRGA_ERROR_DEVICE_LOST);
     assert_int_equal(virga_frame_begin(context, 100, 99), VIRGA_ERROR_DEVICE_LOST);

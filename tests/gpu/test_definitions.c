@@ -11,7 +11,7 @@ typedef struct defined {
 #define SIZE(table) (sizeof(table) / sizeof(table)[0])
 
 /* A definition that got as far as the device was taken; where it was changed before, it said so. */
-static virga_result taken(gpu_fixture *f, virga_result result)
+static virga_result checked(gpu_fixture *f, virga_result result)
 {
     const bool refused_by_device = result == VIRGA_ERROR_DEVICE_MEMORY || result == VIRGA_ERROR_UNSUPPORTED;
     if (!refused_by_device)
@@ -31,7 +31,7 @@ static virga_result taken(gpu_fixture *f, virga_result result)
         assert_null(made);                                                           \
         if (result == VIRGA_ERROR_INVALID)                                           \
             assert_true(virga_##effect##_estimate(def) == 0);                        \
-        return taken(d->f, result);                                                  \
+        return checked(d->f, result);                                                \
     }
 CALL(rain)
 CALL(ground)
@@ -73,12 +73,18 @@ static void rain_def_fields(void **state)
 static void ground_def_fields(void **state)
 {
     static const field fields[] = {
-        F(cells, CLAMPED, 128, 4096),          F(cell_m, CLAMPED, 0.01, 0.1),
-        F(kept_tiles, CLAMPED, 0, 60000),      F(far_cells, CLAMPED, 0, 2048),
-        F(ripple_texels, CLAMPED, 64, 4096),   F(ripple_texel_m, CLAMPED, 0.002, 0.05),
-        F(tick_s, CLAMPED, 1e-3, 0.05),        F(flow_ticks, CLAMPED, 1, 60),
-        F(max_impacts, CLAMPED, 256, 4194240), F(max_spawns, CLAMPED, 0, 1048576),
-        F(max_returns, CLAMPED, 0, 4194240),   F(max_ticks_per_step, CLAMPED, 1, 64),
+        F(cells, CLAMPED, 128, 4096),
+        F(cell_m, CLAMPED, 0.01, 0.1),
+        F(cached_tiles, CLAMPED, 0, 60000),
+        F(far_cells, CLAMPED, 0, 2048),
+        F(ripple_texels, CLAMPED, 64, 4096),
+        F(ripple_texel_m, CLAMPED, 0.002, 0.05),
+        F(tick_s, CLAMPED, 1e-3, 0.05),
+        F(flow_ticks, CLAMPED, 1, 60),
+        F(max_impacts, CLAMPED, 256, 4194240),
+        F(max_spawns, CLAMPED, 0, 1048576),
+        F(max_returned_droplets, CLAMPED, 0, 4194240),
+        F(max_ticks_per_step, CLAMPED, 1, 64),
     };
     const virga_ground_def good = small_ground_def();
     check(state, "ground_def", &good, sizeof good, fields, SIZE(fields), create_ground);
@@ -89,15 +95,17 @@ static void ground_def_fields(void **state)
 static void splash_def_fields(void **state)
 {
     static const field fields[] = {
-        F(max_splashes, CLAMPED, 256, 1048576), F(max_spawns, CLAMPED, 256, 1048576),
-        F(max_returns, CLAMPED, 256, 4194240),  F(max_ticks_per_step, CLAMPED, 1, 64),
+        F(max_splashes, CLAMPED, 256, 1048576),
+        F(max_spawns, CLAMPED, 256, 1048576),
+        F(max_returned_droplets, CLAMPED, 256, 4194240),
+        F(max_ticks_per_step, CLAMPED, 1, 64),
         F(tick_s, CLAMPED, 1e-3, 0.05),
     };
     virga_splash_def good = small_splash_def();
     check(state, "splash_def", &good, sizeof good, fields, 1, create_splash);
-    good.max_returns = 1048576; /* no less than spawns */
+    good.max_returned_droplets = 1048576; /* no less than spawns */
     check(state, "splash_def", &good, sizeof good, fields + 1, 1, create_splash);
-    good.max_returns = 256;
+    good.max_returned_droplets = 256;
     check(state, "splash_def", &good, sizeof good, fields + 2, SIZE(fields) - 2, create_splash);
 }
 #undef F
@@ -106,9 +114,14 @@ static void splash_def_fields(void **state)
 static void glass_def_fields(void **state)
 {
     static const field fields[] = {
-        F(width_m, CLAMPED, 0.01, 10),         F(height_m, CLAMPED, 0.01, 10),      F(cell_m, CLAMPED, 0.0005, 0.01),
-        F(max_drops, CLAMPED, 256, 262144),    F(affinity_m, CLAMPED, 0.0005, 0.1), F(max_texels, CLAMPED, 64, 4096),
-        F(max_ticks_per_step, CLAMPED, 1, 64), F(tick_s, CLAMPED, 1e-3, 0.05),
+        F(width_m, CLAMPED, 0.01, 10),
+        F(height_m, CLAMPED, 0.01, 10),
+        F(cell_m, CLAMPED, 0.0005, 0.01),
+        F(max_drops, CLAMPED, 256, 262144),
+        F(affinity_size_m, CLAMPED, 0.0005, 0.1),
+        F(max_texels, CLAMPED, 64, 4096),
+        F(max_ticks_per_step, CLAMPED, 1, 64),
+        F(tick_s, CLAMPED, 1e-3, 0.05),
     };
     const virga_glass_def good = small_glass_def();
     check(state, "glass_def", &good, sizeof good, fields, SIZE(fields), create_glass);

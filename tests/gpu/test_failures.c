@@ -151,11 +151,11 @@ static uint32_t fail_each_call(build *b, build_fn build_it, VkResult failure, vi
 }
 
 /* In each of the three ways in which Vulkan says that it can not. */
-static void fail_in_each_way(build *b, build_fn build_it, uint32_t least_calls)
+static void fail_in_each_way(build *b, build_fn build_it, uint32_t min_calls)
 {
     const uint32_t calls = fail_each_call(b, build_it, VK_ERROR_OUT_OF_DEVICE_MEMORY, VIRGA_ERROR_DEVICE_MEMORY);
-    if (calls < least_calls)
-        fail_msg("%u calls that can fail, expected at least %u", calls, least_calls);
+    if (calls < min_calls)
+        fail_msg("%u calls that can fail, expected at least %u", calls, min_calls);
     fail_each_call(b, build_it, VK_ERROR_OUT_OF_HOST_MEMORY, VIRGA_ERROR_HOST_MEMORY);
     fail_each_call(b, build_it, VK_ERROR_TOO_MANY_OBJECTS, VIRGA_ERROR_VULKAN);
 }
@@ -366,7 +366,7 @@ static void every_block_of_an_attach_or_a_shape_may_be_refused(void **state)
 {
     static const build_fn builds[] = {build_target,     build_rain_attach, build_splash_attach, build_glass_attach,
                                       build_flat_shape, build_windshield,  build_shape_of_mesh};
-    static const uint32_t least[] = {1, 5, 10, 12, 2, 2, 2};
+    static const uint32_t min[] = {1, 5, 10, 12, 2, 2, 2};
     small_heap heap = {0};
     gpu_picture picture;
     build b = {.f = *state, .picture = &picture};
@@ -376,7 +376,7 @@ static void every_block_of_an_attach_or_a_shape_may_be_refused(void **state)
     open_scene(&b);
     open_target(&b, false);
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_block(&b, builds[i], &heap, &of_host_memory) >= least[i]);
+        assert_true(fail_each_block(&b, builds[i], &heap, &of_host_memory) >= min[i]);
     virga_scene_destroy(&b.scene);
     virga_target_destroy(&b.target);
     gpu_picture_close(b.f, &picture);

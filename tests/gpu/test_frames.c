@@ -29,7 +29,7 @@ static void occlusion_before_the_first_frame_is_refused(void **state)
     VkCommandBuffer cmd;
     REQUIRE(host_begin_frame(&f->gpu.device, &cmd, f->gpu.error, sizeof f->gpu.error));
     gpu_forget_log(f);
-    assert_int_equal(virga_rain_occlusion(rain, cmd, camera, NULL, 0), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_rain_draw_occlusion(rain, cmd, camera, NULL, 0), VIRGA_ERROR_INVALID);
     assert_one_error(f, VIRGA_LOG_ARGUMENT);
     gpu_submit(f);
     gpu_wait(f);

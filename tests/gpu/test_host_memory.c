@@ -1,19 +1,19 @@
 /* test_host_memory.c - memory by a host's callbacks: asked for with sense, given back, never while recording. */
 #include "small_stage.h"
 
-enum { MOST_BLOCKS = 64 };
+enum { MAX_BLOCKS = 64 };
 
 typedef struct host_allocator {
     const gpu_fixture *f;
-    virga_memory_block blocks[MOST_BLOCKS]; /* alive where host_handle is not NULL */
+    virga_memory_block blocks[MAX_BLOCKS]; /* alive where host_handle is not NULL */
     uint32_t calls, live, fail_at;
     bool wrong; /* something was asked for or given back that should not be */
     bool recording;
 } host_allocator;
 
 /* Not at the start of its memory, as a host that suballocates would have it. */
-static VkResult take(host_allocator *a, const VkMemoryRequirements *need, uint32_t type, bool mapped,
-                     virga_memory_block *block)
+static VkResult allocate(host_allocator *a, const VkMemoryRequirements *need, uint32_t type, bool mapped,
+                         virga_memory_block *block)
 {
     const VkDevice device = a->f->gpu.device.device;
     const VkDeviceSize offset = need->alignment * 3;
@@ -40,9 +40,9 @@ static VkResult allocator_alloc(void *user, const VkMemoryRequirements *need, ui
                (mapped && !(memory->memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT));
     if (++a->calls == a->fail_at)
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    for (uint32_t i = 0; i < MOST_BLOCKS; i++)
+    for (uint32_t i = 0; i < MAX_BLOCKS; i++)
         if (!a->blocks[i].host_handle) {
-            const VkResult result = take(a, need, type, mapped, block);
+            const VkResult result = allocate(a, need, type, mapped, block);
             block->host_handle = &a->blocks[i];
             a->blocks[i] = *block;
             a->live++;
@@ -55,7 +55,7 @@ static void allocator_free(void *user, const virga_memory_block *block)
 {
     host_allocator *a = user;
     virga_memory_block *kept = block->host_handle;
-    const bool same = kept >= a->blocks && kept < a->blocks + MOST_BLOCKS && kept->memory == block->memory &&
+    const bool same = kept >= a->blocks && kept < a->blocks + MAX_BLOCKS && kept->memory == block->memory &&
                       kept->offset == block->offset && kept->mapped == block->mapped && kept->host_handle == kept;
     a->wrong = a->wrong || a->recording || !same;
     if (!same)

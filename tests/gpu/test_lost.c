@@ -82,7 +82,7 @@ static virga_result frame(life *l)
     small_panes_lay(panes);
     begin(l);
     STEP(virga_frame_begin(l->context, device->frame, device->completed));
-    STEP(virga_rain_occlusion(virga_scene_rain(l->scene), l->cmd, camera, NULL, 0));
+    STEP(virga_rain_draw_occlusion(virga_scene_rain(l->scene), l->cmd, camera, NULL, 0));
     STEP(virga_scene_record(l->scene, l->cmd, &info));
     host_target_begin_layer(&l->picture.images, l->cmd);
     const virga_result drawn = virga_scene_draw(l->scene, l->cmd, l->target);
@@ -119,12 +119,12 @@ static void rain_is_lost(life *l, const virga_view *view)
     uint32_t count;
     double origin[3];
     LOST(virga_rain_set(rain, &settings));
-    LOST(virga_rain_occlusion(rain, l->cmd, camera, NULL, 0));
-    LOST(virga_rain_occlusion_import(rain, l->cmd, &image));
-    assert_int_equal(virga_rain_occlusion_views(rain, camera, views), 0);
+    LOST(virga_rain_draw_occlusion(rain, l->cmd, camera, NULL, 0));
+    LOST(virga_rain_import_occlusion(rain, l->cmd, &image));
+    assert_int_equal(virga_rain_plan_occlusion(rain, camera, views), 0);
     LOST(virga_rain_step(rain, l->cmd, &step));
-    LOST(virga_rain_hits(rain, l->cmd, &pane, &buffer));
-    LOST(virga_rain_points(rain, l->cmd, &buffer, &count, origin));
+    LOST(virga_rain_find_hits(rain, l->cmd, &pane, &buffer));
+    LOST(virga_rain_write_points(rain, l->cmd, &buffer, &count, origin));
     LOST(virga_rain_prepare(rain, l->cmd, view, 0));
     LOST(virga_rain_attach(rain, l->target));
     LOST(virga_rain_draw(rain, l->cmd, l->target));

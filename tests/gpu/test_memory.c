@@ -119,7 +119,7 @@ static void memory_is_used_again(void **state)
         virga_rain_destroy(&rain);
     }
     assert_int_equal(watch.bytes, bytes);
-    assert_int_equal(watch.most_bytes, bytes);
+    assert_int_equal(watch.max_bytes, bytes);
     virga_rain_destroy(&kept);
     virga_context_destroy(&context);
 }

@@ -6,7 +6,7 @@ typedef struct blob {
     size_t size;
 } blob;
 
-static blob take_blob(virga_context *context)
+static blob read_blob(virga_context *context)
 {
     blob b = {NULL, 0};
     assert_int_equal(virga_pipeline_cache_get(context, &b.size, NULL), VIRGA_OK);
@@ -22,14 +22,14 @@ static blob used_blob(gpu_fixture *f)
 {
     virga_context *context = gpu_context(f);
     virga_rain *rain = gpu_rain(context);
-    const blob b = take_blob(context);
+    const blob b = read_blob(context);
     virga_rain_destroy(&rain);
     virga_context_destroy(&context);
     return b;
 }
 
 /* A context from a blob, which is overwritten once the call has returned. Tells how many bytes reached the driver. */
-static size_t bytes_taken(gpu_fixture *f, const void *bytes, size_t size, virga_context **context)
+static size_t bytes_accepted(gpu_fixture *f, const void *bytes, size_t size, virga_context **context)
 {
     virga_context_def def = gpu_context_def(f);
     unsigned char *copy = malloc(size + 1);
@@ -49,9 +49,9 @@ static void blob_comes_out_and_goes_in(void **state)
     gpu_fixture *f = *state;
     virga_context *context = NULL;
     const blob b = used_blob(f);
-    const size_t taken = bytes_taken(f, b.bytes, b.size, &context);
-    assert_true(taken >= sizeof(VkPipelineCacheHeaderVersionOne));
-    assert_true(taken <= b.size);
+    const size_t accepted = bytes_accepted(f, b.bytes, b.size, &context);
+    assert_true(accepted >= sizeof(VkPipelineCacheHeaderVersionOne));
+    assert_true(accepted <= b.size);
     assert_int_equal(f->lines[VIRGA_LOG_PIPELINE_CACHE], 0);
     virga_rain *rain = gpu_rain(context);
     virga_rain_destroy(&rain);
@@ -64,10 +64,10 @@ static void blob_goes_through_two_contexts(void **state)
     gpu_fixture *f = *state;
     virga_context *context = NULL;
     const blob first = used_blob(f);
-    bytes_taken(f, first.bytes, first.size, &context);
-    const blob second = take_blob(context);
+    bytes_accepted(f, first.bytes, first.size, &context);
+    const blob second = read_blob(context);
     virga_context_destroy(&context);
-    assert_true(bytes_taken(f, second.bytes, second.size, &context) > 0);
+    assert_true(bytes_accepted(f, second.bytes, second.size, &context) > 0);
     virga_context_destroy(&context);
     free(first.bytes);
     free(second.bytes);
@@ -77,10 +77,10 @@ static void blob_goes_through_two_contexts(void **state)
 static void check_ignored(gpu_fixture *f, const void *bytes, size_t size, const char *what, size_t which)
 {
     virga_context *context = NULL;
-    const size_t taken = bytes_taken(f, bytes, size, &context);
+    const size_t accepted = bytes_accepted(f, bytes, size, &context);
     virga_context_destroy(&context);
-    if (taken != 0)
-        fail_msg("%s (%zu): %zu bytes reached the driver", what, which, taken);
+    if (accepted != 0)
+        fail_msg("%s (%zu): %zu bytes reached the driver", what, which, accepted);
     if (f->lines[VIRGA_LOG_PIPELINE_CACHE] != 1 || f->errors)
         fail_msg("%s (%zu): %u lines about the cache, %u errors", what, which, f->lines[VIRGA_LOG_PIPELINE_CACHE],
                  f->errors);

@@ -158,7 +158,7 @@ static void spoil_view(virga_view *view, uint32_t how)
     if (how < 6)
         *numbers[how] = wrong[how];
     else if (how == 6)
-        t->ago_s = -1;
+        t->frame_interval_s = -1;
     else
         t->position_m[1] = NAN;
 }

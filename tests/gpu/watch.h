@@ -43,16 +43,16 @@ static const char *const watch_names[WATCH_KINDS] = {
 #undef WATCH_NAME
 };
 
-enum { WATCH_MOST_MEMORIES = 4096 };
+enum { WATCH_MAX_MEMORIES = 4096 };
 
 /* All zero: nothing has been counted, nothing fails, nothing is lied about. */
 static struct watch {
     uint32_t live[WATCH_KINDS], made[WATCH_KINDS], destroyed[WATCH_KINDS];
-    VkDeviceSize bytes, most_bytes; /* of device memory, now and at most */
+    VkDeviceSize bytes, max_bytes; /* of device memory, now and at most */
     struct {
         VkDeviceMemory memory;
         VkDeviceSize size;
-    } memories[WATCH_MOST_MEMORIES];
+    } memories[WATCH_MAX_MEMORIES];
 
     uint32_t calls;   /* that can fail, since watch_fail */
     uint32_t fail_at; /* the call to fail, from 1; 0: none */
@@ -248,8 +248,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_AllocateMemory(VkDevice device, cons
     if (result != VK_SUCCESS)
         return result;
     watch.bytes += info->allocationSize;
-    watch.most_bytes = watch.bytes > watch.most_bytes ? watch.bytes : watch.most_bytes;
-    for (uint32_t i = 0; i < WATCH_MOST_MEMORIES; i++)
+    watch.max_bytes = watch.bytes > watch.max_bytes ? watch.bytes : watch.max_bytes;
+    for (uint32_t i = 0; i < WATCH_MAX_MEMORIES; i++)
         if (!watch.memories[i].memory) {
             watch.memories[i].memory = *memory;
             watch.memories[i].size = info->allocationSize;
@@ -262,7 +262,7 @@ static VKAPI_ATTR void VKAPI_CALL watch_FreeMemory(VkDevice device, VkDeviceMemo
                                                    const VkAllocationCallbacks *allocator)
 {
     watch_uncount(WATCH_Memory, memory != VK_NULL_HANDLE);
-    for (uint32_t i = 0; memory && i < WATCH_MOST_MEMORIES; i++)
+    for (uint32_t i = 0; memory && i < WATCH_MAX_MEMORIES; i++)
         if (watch.memories[i].memory == memory) {
             watch.bytes -= watch.memories[i].size;
             watch.memories[i].memory = VK_NULL_HANDLE;

@@ -9,7 +9,7 @@
 
 #include <virga/virga.h>
 
-#define MOST_DROPS 16384
+#define MAX_DROPS 16384
 
 typedef struct ground_fixture {
     fixture gpu;
@@ -18,13 +18,13 @@ typedef struct ground_fixture {
     virga_ground_settings settings;
     virga_splash *splash; /* NULL: nothing splashes */
     bool flying;          /* its droplets do fly, and their water comes back */
-    VkBuffer returns;     /* instead of what it gives back */
+    VkBuffer returned_droplets;     /* instead of what it gives back */
     host_buffer vertices, indices, impacts, upload, download;
     virga_occluder meshes[8];
     uint32_t mesh_count;
     virga_ground_material_map materials; /* over those of meshes */
     char logged[512];                    /* the last error */
-    virga_impact_gpu drops[MOST_DROPS];  /* of the next step */
+    virga_impact_gpu drops[MAX_DROPS];  /* of the next step */
     uint32_t drop_count;
     float origin[3];          /* of their positions, in the world */
     VkDeviceSize list_offset; /* of them in their buffer, with their exact size then */
@@ -76,7 +76,7 @@ static inline void ground_fixture_quads(ground_fixture *f, const float (*corners
                                         .index_type = VK_INDEX_TYPE_UINT32,
                                         .index_count = 6,
                                         .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
-                                        .material = materials ? materials[i] : VIRGA_MATERIAL_OWN,
+                                        .material = materials ? materials[i] : VIRGA_MATERIAL_CUSTOM,
                                         .ground = true};
 }
 
@@ -87,20 +87,20 @@ static inline void ground_fixture_floor(ground_fixture *f, uint32_t material)
     ground_fixture_quads(f, quad, &material, 1);
 }
 
-/* 128 x 128 cells of 5 cm around the origin. VIRGA_MATERIAL_OWN is smooth and takes up nothing, nothing dries. */
+/* 128 x 128 cells of 5 cm around the origin. VIRGA_MATERIAL_CUSTOM is smooth and takes up nothing, nothing dries. */
 static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_def *given)
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
     def.far_cells = 0;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     if (given)
         def = *given;
     REQUIRE(virga_ground_create(f->context, &def, &f->ground) == VIRGA_OK);
     f->settings = virga_default_ground_settings();
     f->settings.evaporation_mm_h = 0;
-    f->settings.materials[VIRGA_MATERIAL_OWN] = (virga_ground_material){.manning_n = 0.013f, .bump_m = 1};
+    f->settings.materials[VIRGA_MATERIAL_CUSTOM] = (virga_ground_material){.manning_n = 0.013f, .bump_width_m = 1};
     REQUIRE(virga_ground_set(f->ground, &f->settings) == VIRGA_OK);
     const size_t cells = (size_t)def.cells * def.cells;
     char *error = f->gpu.error;
@@ -114,7 +114,8 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
     REQUIRE(host_buffer_create(
         &f->gpu.device,
         cells * (sizeof(virga_cell_gpu) + sizeof(virga_floor_gpu)) +
-            ((VkDeviceSize)def.max_impacts + def.max_returns) * sizeof(virga_landing_gpu) + f->ground->spawns->size,
+            ((VkDeviceSize)def.max_impacts + def.max_returned_droplets) * sizeof(virga_landing_gpu) +
+            f->ground->spawns->size,
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "cells down", &f->download, error, size));
 }
 
@@ -124,10 +125,10 @@ static inline void ground_fixture_splash(ground_fixture *f, bool flying)
     virga_splash_def def = virga_default_splash_def();
     virga_splash_settings settings = virga_default_splash_settings();
     settings.mode = VIRGA_SPLASH_MODE_PAPER;
-    settings.droplets_m = 12;
-    settings.dot_mm = 0.3f;
+    settings.droplet_range_m = 12;
+    settings.dot_min_mm = 0.3f;
     def.max_spawns = f->ground->def.max_spawns > 256 ? f->ground->def.max_spawns : 256;
-    def.max_returns = f->ground->def.max_returns;
+    def.max_returned_droplets = f->ground->def.max_returned_droplets;
     REQUIRE(virga_splash_create(f->context, &def, &f->splash) == VIRGA_OK);
     REQUIRE(virga_splash_set(f->splash, &settings) == VIRGA_OK);
     f->flying = flying;
@@ -136,7 +137,7 @@ static inline void ground_fixture_splash(ground_fixture *f, bool flying)
 /* A drop on the middle of a cell (numbers of the world), falling straight. */
 static inline virga_impact_gpu *ground_fixture_drop(ground_fixture *f, int x, int z, double height_m, uint32_t water_nl)
 {
-    REQUIRE(f->drop_count < MOST_DROPS);
+    REQUIRE(f->drop_count < MAX_DROPS);
     virga_impact_gpu *drop = &f->drops[f->drop_count];
     const double cell = (double)f->ground->def.cell_m;
     *drop = (virga_impact_gpu){.position = {(float)((x + 0.5) * cell), (float)height_m, (float)((z + 0.5) * cell)},
@@ -181,15 +182,15 @@ static inline void ground_fixture_read(ground_fixture *f, VkCommandBuffer cmd)
 
 static inline void ground_fixture_ask_splash(ground_fixture *f, virga_ground_step_info *info)
 {
-    virga_splash_buffer rules = {0}, returns = {0};
+    virga_splash_buffer rules = {0}, returned_droplets = {0};
     if (f->splash) {
         virga_splash_rules(f->splash, &rules);
-        virga_splash_returns(f->splash, &returns);
+        virga_splash_returned_droplets(f->splash, &returned_droplets);
     }
     info->splash_rules = rules.buffer;
     info->splash_rules_offset = rules.offset;
-    info->returns = f->returns ? f->returns : returns.buffer;
-    info->returns_offset = f->returns ? 0 : returns.offset;
+    info->returned_droplets = f->returned_droplets ? f->returned_droplets : returned_droplets.buffer;
+    info->returned_droplets_offset = f->returned_droplets ? 0 : returned_droplets.offset;
 }
 
 static inline void ground_fixture_fly(ground_fixture *f, VkCommandBuffer cmd, uint32_t ticks)
@@ -246,7 +247,7 @@ static inline void ground_fixture_put(ground_fixture *f)
 }
 
 /* Place of a cell of the world in the buffers of a window of `tiles`. */
-static inline uint32_t ground_fixture_place(const ground_fixture *f, int x, int z)
+static inline uint32_t ground_fixture_index(const ground_fixture *f, int x, int z)
 {
     const uint32_t mask = f->ground->window.tiles - 1;
     const uint32_t tile = (((uint32_t)z >> 6) & mask) * f->ground->window.tiles + (((uint32_t)x >> 6) & mask);
@@ -255,7 +256,7 @@ static inline uint32_t ground_fixture_place(const ground_fixture *f, int x, int 
 
 static inline uint32_t ground_fixture_free(const ground_fixture *f, int x, int z)
 {
-    return f->cells[ground_fixture_place(f, x, z)].free_nl;
+    return f->cells[ground_fixture_index(f, x, z)].free_nl;
 }
 
 /* All water of the window. */

@@ -25,14 +25,14 @@ static void begin(uint32_t material)
     virga_ground_def def = virga_default_ground_def();
     def.cells = 256;
     def.far_cells = 256;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     ground_fixture_open(&f);
     ground_fixture_quads(&f, floor_and_roof, materials, 2);
     f.meshes[1].ground = false;
     ground_fixture_ground(&f, &def);
     f.settings.materials[ROUGH] = (virga_ground_material){
-        .capacity_mm = 0.1f, .retention_mm = 0.3f, .manning_n = 0.013f, .bumps_mm = 0, .bump_m = 1};
+        .capacity_mm = 0.1f, .retention_mm = 0.3f, .manning_n = 0.013f, .bump_height_mm = 0, .bump_width_m = 1};
     REQUIRE(virga_ground_set(f.ground, &f.settings) == VIRGA_OK);
     REQUIRE(host_buffer_create(&f.gpu.device, 256 * 257 * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
                                "far map", &picture, f.gpu.error, sizeof f.gpu.error));
@@ -66,15 +66,15 @@ static void go(double x)
 
 static virga_cell_gpu cell_at(int x, int z)
 {
-    return f.cells[ground_fixture_place(&f, x, z)];
+    return f.cells[ground_fixture_index(&f, x, z)];
 }
 
 static virga_ground_stats check_budget(void)
 {
     virga_ground_stats s;
     virga_ground_stats_get(f.ground, &s);
-    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl +
-                                                   s.run_off_nl + s.evaporated_nl + s.forgotten_nl);
+    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.cached_nl + s.infiltrated_nl +
+                                                   s.run_off_nl + s.evaporated_nl + s.evicted_nl);
     return s;
 }
 
@@ -130,7 +130,7 @@ static void test_what_moves_leaves_no_dry_place(void **state)
 {
     (void)state;
     begin(ROUGH);
-    f.meshes[1].moves = true;
+    f.meshes[1].is_dynamic = true;
     rain(STEPS, 16);
     go(19.5);
     assert_int_equal(cell_at(410, 0).held_nl, 0.1 * MM);
@@ -141,7 +141,7 @@ static void test_what_moves_leaves_no_dry_place(void **state)
 static void test_what_falls_beside_a_roof_stays_out(void **state)
 {
     (void)state;
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     go(19.5);
     ground_fixture_drop(&f, 390, 0, 0, 3200 * 4189)->weight = 3200;
     ground_fixture_step(&f, 1);
@@ -179,8 +179,8 @@ static void test_hollows_come_in_with_what_fell(void **state)
     (void)state;
     begin(ROUGH);
     f.settings.materials[ROUGH].retention_mm = 0;
-    f.settings.materials[ROUGH].bumps_mm = 2;
-    f.settings.materials[ROUGH].bump_m = 0.4f;
+    f.settings.materials[ROUGH].bump_height_mm = 2;
+    f.settings.materials[ROUGH].bump_width_m = 0.4f;
     set();
     rain(STEPS, 16);
     go(-9.5); /* three tiles again */
@@ -362,8 +362,8 @@ static void test_the_least_window_has_no_reach(void **state)
     virga_ground_maps maps;
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     const uint32_t material = ROUGH;
     ground_fixture_open(&f);
     ground_fixture_quads(&f, floor_and_roof, &material, 1);
@@ -412,7 +412,7 @@ static void test_without_a_far_map_there_are_materials(void **state)
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
     def.far_cells = 0;
-    def.max_impacts = MOST_DROPS;
+    def.max_impacts = MAX_DROPS;
     ground_fixture_open(&f);
     ground_fixture_floor(&f, VIRGA_MATERIAL_ASPHALT);
     ground_fixture_ground(&f, &def);
@@ -421,7 +421,7 @@ static void test_without_a_far_map_there_are_materials(void **state)
     assert_true(cell_at(200, 0).held_nl > 0);
     virga_ground_maps maps;
     virga_ground_maps_get(f.ground, &maps);
-    assert_true(maps.far_wet != VK_NULL_HANDLE && maps.far_cells == 0);
+    assert_true(maps.far_wetness != VK_NULL_HANDLE && maps.far_cells == 0);
     ground_fixture_close(&f);
 }
 

@@ -21,17 +21,17 @@ static void check_budget(void)
     virga_ground_stats s;
     virga_ground_stats_get(f.ground, &s);
     assert_true(s.landed_nl > 0);
-    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl + s.infiltrated_nl +
-                                                   s.run_off_nl + s.evaporated_nl + s.forgotten_nl);
+    assert_int_equal(s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.cached_nl + s.infiltrated_nl +
+                                                   s.run_off_nl + s.evaporated_nl + s.evicted_nl);
 }
 
-static void drops_at_random(uint32_t seed, uint32_t count, int reach, uint32_t most_nl)
+static void drops_at_random(uint32_t seed, uint32_t count, int reach, uint32_t max_nl)
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t h = virga_hash2(seed, i);
         const int x = (int)floor(f.camera[0] / 0.05) + (int)(virga_hash2(h, 1) % (2 * (uint32_t)reach)) - reach;
         const int z = (int)floor(f.camera[2] / 0.05) + (int)(virga_hash2(h, 2) % (2 * (uint32_t)reach)) - reach;
-        ground_fixture_drop(&f, x, z, 0, 1 + virga_hash2(h, 3) % most_nl);
+        ground_fixture_drop(&f, x, z, 0, 1 + virga_hash2(h, 3) % max_nl);
     }
 }
 
@@ -45,8 +45,8 @@ static void test_water_at_rest_ends_level(void **state)
     (void)state;
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     def.flow_ticks = 1;
     def.max_ticks_per_step = 64;
     begin(basin, NULL, 2, &def);
@@ -59,10 +59,10 @@ static void test_water_at_rest_ends_level(void **state)
     double low = 1e9, high = -1e9;
     for (int x = -11; x < 11; x++)
         for (int z = -11; z < 11; z++) {
-            const uint32_t place = ground_fixture_place(&f, x, z);
-            if (f.floors[place].material == 0xff || f.cells[place].free_nl < 25000) /* 0.01 mm */
+            const uint32_t cell_index = ground_fixture_index(&f, x, z);
+            if (f.floors[cell_index].material == 0xff || f.cells[cell_index].free_nl < 25000) /* 0.01 mm */
                 continue;
-            const double surface_mm = f.floors[place].height_um * 1e-3 + f.cells[place].free_nl / 2.5e6;
+            const double surface_mm = f.floors[cell_index].height_um * 1e-3 + f.cells[cell_index].free_nl / 2.5e6;
             low = fmin(low, surface_mm);
             high = fmax(high, surface_mm);
         }
@@ -78,7 +78,7 @@ static void test_water_runs_down_a_slope_into_the_drain(void **state)
     /* 2 m of road, falling 4 cm to a gutter that is a drain. */
     static const float road[2][4][3] = {{{-1, 0.04f, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0.04f, 1}},
                                         {{1, -0.01f, -1}, {1.2f, -0.01f, -1}, {1.2f, -0.01f, 1}, {1, -0.01f, 1}}};
-    static const uint32_t materials[2] = {VIRGA_MATERIAL_OWN, VIRGA_MATERIAL_DRAIN};
+    static const uint32_t materials[2] = {VIRGA_MATERIAL_CUSTOM, VIRGA_MATERIAL_DRAIN};
     begin(road, materials, 2, NULL);
     for (int i = 0; i < 200; i++)
         ground_fixture_drop(&f, -18 + i % 36, -18 + i / 6, 0.02, 8000000);
@@ -109,7 +109,7 @@ static void sheet_flows_at_mannings_speed(uint32_t flow_ticks)
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
-    def.max_impacts = MOST_DROPS;
+    def.max_impacts = MAX_DROPS;
     def.flow_ticks = flow_ticks;
     begin(slope, NULL, 1, &def);
     fill_two_mm();
@@ -141,17 +141,17 @@ static void test_a_sheet_flows_as_fast_in_rounds_of_four_ticks(void **state)
 /* What cells beside each other along x differ by in what they hold, less `swings` um, as a share of 2 mm. */
 static double unevenness(const uint32_t *swings)
 {
-    double most = 0;
+    double max = 0;
     for (int x = -10; x < 10; x++) {
         double nl[3];
         for (int i = 0; i < 3; i++) {
-            const uint32_t place = ground_fixture_place(&f, x + i - 1, 5);
-            const int um = swings ? (int16_t)(swings[place] & 0xffff) + (int16_t)(swings[place] >> 16) : 0;
-            nl[i] = f.cells[place].free_nl - 2500.0 * um;
+            const uint32_t cell_index = ground_fixture_index(&f, x + i - 1, 5);
+            const int um = swings ? (int16_t)(swings[cell_index] & 0xffff) + (int16_t)(swings[cell_index] >> 16) : 0;
+            nl[i] = f.cells[cell_index].free_nl - 2500.0 * um;
         }
-        most = fmax(most, fabs(nl[1] - (nl[0] + nl[2]) / 2) / 5e6);
+        max = fmax(max, fabs(nl[1] - (nl[0] + nl[2]) / 2) / 5e6);
     }
-    return most;
+    return max;
 }
 
 /* Pairs swing in a sheet that flows evenly, by 16 % of its depth here; what is shown of it does not. */
@@ -210,8 +210,8 @@ static void test_each_pass_moves_what_the_reference_does(void **state)
             for (int x = -50; x < 50; x++) {
                 if (((along_z ? z : x) & 1) != odd)
                     continue;
-                const uint32_t low = ground_fixture_place(&f, x, z);
-                const uint32_t high = ground_fixture_place(&f, x + !along_z, z + along_z);
+                const uint32_t low = ground_fixture_index(&f, x, z);
+                const uint32_t high = ground_fixture_index(&f, x + !along_z, z + along_z);
                 const double moved =
                     flow_between(f.floors[low], before[low].free_nl, f.floors[high], before[high].free_nl, 4.0 / 60);
                 const double found = (double)before[low].free_nl - f.cells[low].free_nl;
@@ -229,8 +229,8 @@ static void test_water_sinks_and_dries_at_the_rates_asked_for(void **state)
     (void)state;
     static const float quad[1][4][3] = {{{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}}};
     begin(quad, NULL, 1, NULL);
-    f.settings.materials[VIRGA_MATERIAL_OWN].infiltration_mm_h = 36;
-    f.settings.materials[VIRGA_MATERIAL_OWN].drying = 2;
+    f.settings.materials[VIRGA_MATERIAL_CUSTOM].infiltration_mm_h = 36;
+    f.settings.materials[VIRGA_MATERIAL_CUSTOM].drying = 2;
     f.settings.evaporation_mm_h = 9;
     virga_ground_set(f.ground, &f.settings);
     fill_two_mm();
@@ -262,7 +262,7 @@ static void test_the_budget_closes_while_the_window_moves(void **state)
     }
     virga_ground_stats s;
     virga_ground_stats_get(f.ground, &s);
-    assert_true(s.forgotten_nl > 0 && s.kept_nl > 0 && s.elsewhere_nl > 0);
+    assert_true(s.evicted_nl > 0 && s.cached_nl > 0 && s.off_ground_nl > 0);
     ground_fixture_close(&f);
 }
 
@@ -290,18 +290,18 @@ static void test_floors_are_where_the_meshes_are(void **state)
     (void)state;
     static const float quads[2][4][3] = {{{-2, 1, -2}, {2, 1.4f, -2}, {2, 1.4f, 2}, {-2, 1, 2}},
                                          {{0.5f, 3, 0.5f}, {1, 3, 0.5f}, {1, 3, 1}, {0.5f, 3, 1}}};
-    static const uint32_t materials[2] = {VIRGA_MATERIAL_OWN, VIRGA_MATERIAL_OWN + 1};
+    static const uint32_t materials[2] = {VIRGA_MATERIAL_CUSTOM, VIRGA_MATERIAL_CUSTOM + 1};
     begin(quads, materials, 2, NULL);
-    f.settings.materials[VIRGA_MATERIAL_OWN + 1].bumps_mm = 0;
+    f.settings.materials[VIRGA_MATERIAL_CUSTOM + 1].bump_height_mm = 0;
     virga_ground_set(f.ground, &f.settings);
     ground_fixture_step(&f, 0);
-    assert_int_equal(f.floors[ground_fixture_place(&f, 50, 0)].material, 0xff);
-    const virga_floor_gpu slope = f.floors[ground_fixture_place(&f, -10, 5)];
-    assert_int_equal(slope.material, VIRGA_MATERIAL_OWN);
+    assert_int_equal(f.floors[ground_fixture_index(&f, 50, 0)].material, 0xff);
+    const virga_floor_gpu slope = f.floors[ground_fixture_index(&f, -10, 5)];
+    assert_int_equal(slope.material, VIRGA_MATERIAL_CUSTOM);
     assert_in_range(slope.height_um, 1152500 - 100,
                     1152500 + 100); /* 1.2 - 0.475 x 0.1; the survey's depth has 31 um */
-    const virga_floor_gpu roof = f.floors[ground_fixture_place(&f, 15, 15)];
-    assert_int_equal(roof.material, VIRGA_MATERIAL_OWN + 1);
+    const virga_floor_gpu roof = f.floors[ground_fixture_index(&f, 15, 15)];
+    assert_int_equal(roof.material, VIRGA_MATERIAL_CUSTOM + 1);
     assert_in_range(roof.height_um, 3000000 - 100, 3000000 + 100);
     ground_fixture_close(&f);
 }

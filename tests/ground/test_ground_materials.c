@@ -15,8 +15,8 @@ static void begin_with(double x, double z, uint32_t cells)
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = cells;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     memset(&picture, 0, sizeof picture); /* a test that failed has left its own behind */
     ground_fixture_open(&f);
     ground_fixture_floor(&f, MESH);
@@ -67,7 +67,7 @@ static void put_corners(double low_x, double low_z, double high_x, double high_z
 
 static uint32_t material_at(int x, int z)
 {
-    return f.floors[ground_fixture_place(&f, x, z)].material;
+    return f.floors[ground_fixture_index(&f, x, z)].material;
 }
 
 /* What the header says of a place. */
@@ -152,7 +152,7 @@ static void test_a_wide_picture_is_as_exact(void **state)
     for (int side = -1; side <= 1; side += 2) {
         const double low_m = middle - 7800 * cell + side * 0.00033;
         put_corners(low_m, -1, low_m + WIDE * cell, 1);
-        virga_ground_survey(f.ground);
+        virga_ground_refresh_heights(f.ground);
         ground_fixture_step(&f, 0);
         assert_int_equal(check_all(same, WIDE, 1), 128 * 40);
     }
@@ -200,11 +200,11 @@ static void test_a_map_is_looked_at_where_the_window_moves(void **state)
 static void test_a_survey_looks_at_it_again_and_water_stays(void **state)
 {
     (void)state;
-    static const uint8_t before = VIRGA_MATERIAL_TILE, after = VIRGA_MATERIAL_OWN + 3;
+    static const uint8_t before = VIRGA_MATERIAL_TILE, after = VIRGA_MATERIAL_CUSTOM + 3;
     begin(0, 0);
     put_picture(VK_FORMAT_R8_UINT, 1, 1, &before, 1);
     put_corners(-1, -1, 1, 1);
-    f.settings.materials[before].bumps_mm = 0;
+    f.settings.materials[before].bump_height_mm = 0;
     REQUIRE(virga_ground_set(f.ground, &f.settings) == VIRGA_OK);
     ground_fixture_step(&f, 0);
     ground_fixture_drop(&f, 3, 3, 0, 9000);
@@ -214,12 +214,12 @@ static void test_a_survey_looks_at_it_again_and_water_stays(void **state)
     put_picture(VK_FORMAT_R8_UINT, 1, 1, &after, 1);
     ground_fixture_step(&f, 0);
     assert_int_equal(material_at(3, 3), before);
-    virga_ground_survey(f.ground);
+    virga_ground_refresh_heights(f.ground);
     ground_fixture_step(&f, 0);
     assert_int_equal(material_at(3, 3), after);
     assert_int_equal(material_at(20, 3), MESH);
     f.materials.image.view = VK_NULL_HANDLE;
-    virga_ground_survey(f.ground);
+    virga_ground_refresh_heights(f.ground);
     ground_fixture_step(&f, 0);
     assert_int_equal(material_at(3, 3), MESH);
     assert_int_equal(ground_fixture_sum(&f), water);
@@ -253,7 +253,7 @@ static void test_a_map_without_a_place_is_none(void **state)
     put_picture(VK_FORMAT_R8_UINT, 1, 1, &grass, 1);
     for (size_t i = 0; i < sizeof corners / sizeof corners[0]; i++) {
         put_corners(corners[i][0], corners[i][1], corners[i][2], corners[i][3]);
-        virga_ground_survey(f.ground);
+        virga_ground_refresh_heights(f.ground);
         ground_fixture_step(&f, 0);
         for (int cell = -64; cell < 64; cell++)
             if (material_at(cell, cell) != MESH || material_at(cell, 0) != MESH || material_at(0, cell) != MESH)
@@ -318,7 +318,7 @@ static void test_a_host_finds_cells_where_the_header_says(void **state)
     const int tile_x = (int)floor(x / 64.0), tile_z = (int)floor(z / 64.0);
     const int column = ((tile_x % 2) + 2) % 2, row = ((tile_z % 2) + 2) % 2;
     assert_int_equal((row * 2 + column) * 4096 + (z - 64 * tile_z) * 64 + x - 64 * tile_x,
-                     ground_fixture_place(&f, x, z));
+                     ground_fixture_index(&f, x, z));
     virga_ground_cells_get(NULL, &cells);
     assert_int_equal(cells.size, 0);
     end();

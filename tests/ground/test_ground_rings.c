@@ -15,12 +15,12 @@ static void begin(double mm)
 {
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
     def.ripple_texels = 256;
     def.ripple_texel_m = 0.004f;
     ground_fixture_open(&f);
-    ground_fixture_floor(&f, VIRGA_MATERIAL_OWN);
+    ground_fixture_floor(&f, VIRGA_MATERIAL_CUSTOM);
     ground_fixture_ground(&f, &def);
     ground_fixture_step(&f, 0);
     virga_cell_gpu *cells = f.upload.mapped;
@@ -180,12 +180,13 @@ static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state
     const virga_rings_gpu *head = records.mapped;
     const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
     const double in_a_life = head->total * (VIRGA_RING_TIME_S * 60) / 60;
-    assert_true(in_a_life <= VIRGA_RINGS && in_a_life > 0.75 * VIRGA_RINGS);
+    assert_true(in_a_life <= VIRGA_MAX_RINGS && in_a_life > 0.75 * VIRGA_MAX_RINGS);
     /* There is room for pieces that begin a tenth of a second later, too. */
     /* In the order of time: the place after the newest holds the oldest. */
-    for (uint32_t i = 1; i < head->total && i < VIRGA_RINGS; i++)
-        assert_true(rings[(head->total - i) % VIRGA_RINGS].tick >= rings[(head->total - i - 1) % VIRGA_RINGS].tick ||
-                    head->total < VIRGA_RINGS);
+    for (uint32_t i = 1; i < head->total && i < VIRGA_MAX_RINGS; i++)
+        assert_true(rings[(head->total - i) % VIRGA_MAX_RINGS].tick >=
+                        rings[(head->total - i - 1) % VIRGA_MAX_RINGS].tick ||
+                    head->total < VIRGA_MAX_RINGS);
     end();
 }
 
@@ -213,7 +214,7 @@ static void test_rings_that_are_drawn_bring_the_waves_of_all_drops(void **state)
     const virga_rings_gpu *head = records.mapped;
     const virga_ring_gpu *rings = (const virga_ring_gpu *)(head + 1);
     double drawn = 0;
-    assert_true(head->total <= VIRGA_RINGS);
+    assert_true(head->total <= VIRGA_MAX_RINGS);
     for (uint32_t i = 0; i < head->total; i++) {
         drawn += rings[i].crater_m * rings[i].crater_m;
         shown += rings[i].id & 1;

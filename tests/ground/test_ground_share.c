@@ -17,7 +17,7 @@ static void put_water(const water *list, uint32_t count)
     virga_cell_gpu *cells = f.upload.mapped;
     memset(cells, 0, f.upload.size);
     for (uint32_t i = 0; i < count; i++)
-        cells[ground_fixture_place(&f, list[i].x, list[i].z)].free_nl = list[i].nl;
+        cells[ground_fixture_index(&f, list[i].x, list[i].z)].free_nl = list[i].nl;
     ground_fixture_put(&f);
 }
 
@@ -27,7 +27,7 @@ static void begin_still(void)
     virga_ground_def def = virga_default_ground_def();
     def.cells = 128;
     def.flow_ticks = 60;
-    def.max_impacts = MOST_DROPS;
+    def.max_impacts = MAX_DROPS;
     ground_fixture_ground(&f, &def);
 }
 
@@ -36,7 +36,7 @@ static void begin(uint32_t material)
     ground_fixture_open(&f);
     ground_fixture_floor(&f, material);
     begin_still();
-    f.settings.materials[material].bumps_mm = 0;
+    f.settings.materials[material].bump_height_mm = 0;
     virga_ground_set(f.ground, &f.settings);
     ground_fixture_step(&f, 0); /* takes up the window */
 }
@@ -104,7 +104,7 @@ static void test_who_is_higher_than_the_level_gets_nothing(void **state)
 static void test_on_the_level_plane_each_of_five_gets_a_fifth(void **state)
 {
     (void)state;
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     ground_fixture_drop(&f, -5, 7, 0, 5003);
     ground_fixture_step(&f, 1);
     expect((water[]){{-5, 7, 1003}, {-6, 7, 1000}, {-4, 7, 1000}, {-5, 6, 1000}, {-5, 8, 1000}, {-6, 6, 0}}, 6);
@@ -114,7 +114,7 @@ static void test_on_the_level_plane_each_of_five_gets_a_fifth(void **state)
 static void test_on_a_hump_of_the_plane_each_neighbour_gets_a_quarter(void **state)
 {
     (void)state;
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     put_water((water[]){{0, 0, 9000}, {-1, 0, 10}, {1, 0, 20}, {0, -1, 30}, {0, 1, 40}}, 5);
     ground_fixture_drop(&f, 0, 0, 0, 4001);
     ground_fixture_step(&f, 1);
@@ -125,7 +125,7 @@ static void test_on_a_hump_of_the_plane_each_neighbour_gets_a_quarter(void **sta
 static void test_drops_of_a_tick_on_one_cell_count_as_one(void **state)
 {
     (void)state;
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     for (int i = 0; i < 5; i++)
         ground_fixture_drop(&f, 10, 10, 0, 1000);
     ground_fixture_step(&f, 1);
@@ -137,23 +137,23 @@ static void test_a_dry_cell_keeps_the_drop_until_it_is_saturated(void **state)
 {
     (void)state;
     begin(VIRGA_MATERIAL_CONCRETE);
-    const uint32_t capacity = (uint32_t)(0.25 * 0.05 * 0.05 * 1e9), place = ground_fixture_place(&f, 0, 0);
+    const uint32_t capacity = (uint32_t)(0.25 * 0.05 * 0.05 * 1e9), cell_index = ground_fixture_index(&f, 0, 0);
     ground_fixture_drop(&f, 0, 0, 0, 4000);
     ground_fixture_step(&f, 1);
-    assert_int_equal(f.cells[place].held_nl, 4000);
-    assert_int_equal(f.cells[place].free_nl, 0);
+    assert_int_equal(f.cells[cell_index].held_nl, 4000);
+    assert_int_equal(f.cells[cell_index].free_nl, 0);
     assert_int_equal(f.landings[0].state, VIRGA_GROUND_DRY);
     ground_fixture_drop(&f, 0, 0, 0, capacity); /* 4000 more than there is room for, shared by five dry ones */
     ground_fixture_step(&f, 1);
-    assert_in_range(f.cells[place].held_nl, capacity - 1, capacity);
-    assert_int_equal(f.cells[ground_fixture_place(&f, 1, 0)].held_nl, 800);
+    assert_in_range(f.cells[cell_index].held_nl, capacity - 1, capacity);
+    assert_int_equal(f.cells[ground_fixture_index(&f, 1, 0)].held_nl, 800);
     ground_fixture_close(&f);
 }
 
 static void test_what_a_drop_meets_is_told_by_the_water_before_it(void **state)
 {
     (void)state;
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     const uint32_t mm = 2500000; /* on a cell, nl */
     put_water((water[]){{0, 0, mm}, {4, 0, 3 * mm}, {8, 0, 5 * mm}, {12, 0, 10 * mm}}, 4);
     for (int i = 0; i < 5; i++)
@@ -170,7 +170,7 @@ static void test_what_a_drop_meets_is_told_by_the_water_before_it(void **state)
     virga_ground_stats stats;
     virga_ground_stats_get(f.ground, &stats);
     assert_int_equal(stats.landed_nl, 500);
-    assert_int_equal(stats.elsewhere_nl, 200);
+    assert_int_equal(stats.off_ground_nl, 200);
     ground_fixture_close(&f);
 }
 
@@ -239,12 +239,12 @@ static void test_the_order_of_drops_does_not_matter(void **state)
 {
     (void)state;
     static virga_cell_gpu forwards[128 * 128];
-    begin(VIRGA_MATERIAL_OWN);
+    begin(VIRGA_MATERIAL_CUSTOM);
     const uint32_t tick = f.tick;
     rain_at_random(5, false);
     memcpy(forwards, f.cells, sizeof forwards);
     ground_fixture_close(&f);
-    begin(VIRGA_MATERIAL_OWN); /* another: time never goes back for one */
+    begin(VIRGA_MATERIAL_CUSTOM); /* another: time never goes back for one */
     f.tick = tick;
     rain_at_random(5, true);
     assert_memory_equal(forwards, f.cells, sizeof forwards);

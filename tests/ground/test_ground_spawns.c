@@ -16,9 +16,9 @@ static virga_ground_def small_def(void)
     virga_ground_def def = virga_default_ground_def();
     def.flow_ticks = 60; /* none in the ticks that are looked at */
     def.cells = 128;
-    def.kept_tiles = 0;
-    def.max_impacts = MOST_DROPS;
-    def.max_returns = 32768;
+    def.cached_tiles = 0;
+    def.max_impacts = MAX_DROPS;
+    def.max_returned_droplets = 32768;
     def.max_spawns = 16384;
     def.ripple_texels = 64;
     return def;
@@ -31,7 +31,7 @@ static void begin(uint32_t material, const virga_ground_def *given)
     ground_fixture_open(&f);
     ground_fixture_floor(&f, material);
     ground_fixture_ground(&f, &def);
-    f.settings.materials[material].bumps_mm = 0;
+    f.settings.materials[material].bump_height_mm = 0;
     virga_ground_set(f.ground, &f.settings);
     ground_fixture_step(&f, 0); /* takes up the window */
     ground_fixture_splash(&f, false);
@@ -125,7 +125,7 @@ static void test_what_a_drop_makes_follows_from_the_water_on_asphalt(void **stat
                   {10 * MM_NL, VIRGA_GROUND_PUDDLE_10, VIRGA_SPLASH_CROWN_CONE}};
     begin(VIRGA_MATERIAL_ASPHALT, NULL);
     for (int i = 0; i < 4; i++) {
-        const virga_splash_row *row = &f.splash->settings.rows[VIRGA_MATERIAL_ASPHALT][table[i].state];
+        const virga_splash_rule *row = &f.splash->settings.rules[VIRGA_MATERIAL_ASPHALT][table[i].state];
         flood(VIRGA_MATERIAL_ASPHALT, table[i].free_nl);
         drop_some(4189);
         ground_fixture_step(&f, 1);
@@ -219,7 +219,7 @@ static void test_on_what_is_not_ground_drops_splash_as_on_wet_ground(void **stat
     assert_int_equal(f.spawns[0].kind, VIRGA_GROUND_NONE | VIRGA_MATERIAL_STEEL << 8 | VIRGA_SPLASH_SCATTERING << 16);
     assert_true(f.spawns[0].water_nl > 0);
     const virga_ground_stats stats = ground_stats();
-    assert_int_equal(stats.elsewhere_nl + stats.flown_nl, 4189);
+    assert_int_equal(stats.off_ground_nl + stats.flown_nl, 4189);
     assert_int_equal(ground_fixture_sum(&f), 0);
     ground_fixture_close(&f);
 }
@@ -337,7 +337,7 @@ static void rain_without_splashes(bool rules, virga_cell_gpu *cells)
     if (rules) {
         virga_splash_settings settings = f.splash->settings;
         for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS * VIRGA_GROUND_STATES; i++)
-            settings.rows[i / VIRGA_GROUND_STATES][i % VIRGA_GROUND_STATES].model = VIRGA_SPLASH_NONE;
+            settings.rules[i / VIRGA_GROUND_STATES][i % VIRGA_GROUND_STATES].model = VIRGA_SPLASH_NONE;
         REQUIRE(virga_splash_set(f.splash, &settings) == VIRGA_OK);
     } else
         virga_splash_destroy(&f.splash);
@@ -370,17 +370,17 @@ static void give_back(host_buffer *buffer, const float *diameters_mm, uint32_t c
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                HOST_BUFFER_UPLOAD, "returns", buffer, f.gpu.error, sizeof f.gpu.error));
     virga_impacts_gpu *head = buffer->mapped;
-    virga_impact_gpu *returns = (virga_impact_gpu *)(head + 1);
+    virga_impact_gpu *returned_droplets = (virga_impact_gpu *)(head + 1);
     *head = (virga_impacts_gpu){.count = count, .group_count = {1, 1, 1}, .is_return = 1};
     for (uint32_t i = 0; i < count; i++)
-        returns[i] = (virga_impact_gpu){.position = {(float)((i + 0.5) * 0.05), 0, 0.025f},
-                                        .velocity = {0, -2, 0},
-                                        .diameter_m = diameters_mm[i] * 1e-3f,
-                                        .normal = {0, 1, 0},
-                                        .weight = 1,
-                                        .id = 1000 + i,
-                                        .water_nl = water_nl};
-    f.returns = buffer->buffer;
+        returned_droplets[i] = (virga_impact_gpu){.position = {(float)((i + 0.5) * 0.05), 0, 0.025f},
+                                                  .velocity = {0, -2, 0},
+                                                  .diameter_m = diameters_mm[i] * 1e-3f,
+                                                  .normal = {0, 1, 0},
+                                                  .weight = 1,
+                                                  .id = 1000 + i,
+                                                  .water_nl = water_nl};
+    f.returned_droplets = buffer->buffer;
 }
 
 static void test_droplets_that_fall_back_make_dots_at_most(void **state)
@@ -432,10 +432,10 @@ static void test_on_dry_ground_droplets_that_fall_back_make_nothing(void **state
 static void assert_budget(uint64_t put_nl, uint64_t rained_nl)
 {
     const virga_ground_stats s = ground_stats();
-    assert_int_equal(s.landed_nl + s.elsewhere_nl + s.flown_nl - s.returned_nl, rained_nl);
-    assert_int_equal(put_nl + s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.kept_nl +
+    assert_int_equal(s.landed_nl + s.off_ground_nl + s.flown_nl - s.returned_nl, rained_nl);
+    assert_int_equal(put_nl + s.start_nl + s.landed_nl, s.film_nl + s.puddles_nl + s.held_nl + s.cached_nl +
                                                             s.infiltrated_nl + s.run_off_nl + s.evaporated_nl +
-                                                            s.forgotten_nl);
+                                                            s.evicted_nl);
 }
 
 /* What ground sent up and what splash took, after a step of both. */
@@ -526,14 +526,14 @@ static void test_lists_that_no_device_can_bind_are_refused(void **state)
     begin(VIRGA_MATERIAL_STEEL, NULL);
     const virga_ground_step_info right = {.impacts = f.impacts.buffer,
                                           .splash_rules = f.impacts.buffer,
-                                          .returns = f.impacts.buffer,
+                                          .returned_droplets = f.impacts.buffer,
                                           .first_tick = f.tick};
     virga_ground_step_info info = right;
     info.impacts_offset = 2;
     refuse(&info, "step_info.impacts_offset");
     info = right;
-    info.returns_offset = 254;
-    refuse(&info, "step_info.returns_offset");
+    info.returned_droplets_offset = 254;
+    refuse(&info, "step_info.returned_droplets_offset");
     info = right;
     info.splash_rules_offset = 1;
     refuse(&info, "step_info.splash_rules_offset");
@@ -541,8 +541,8 @@ static void test_lists_that_no_device_can_bind_are_refused(void **state)
     info.impacts_size = sizeof(virga_impacts_gpu) - 4;
     refuse(&info, "step_info.impacts_size");
     info = right;
-    info.returns_size = 1;
-    refuse(&info, "step_info.returns_size");
+    info.returned_droplets_size = 1;
+    refuse(&info, "step_info.returned_droplets_size");
     ground_fixture_close(&f);
 }
 

@@ -55,10 +55,10 @@ static const float *row(int layer, int time)
 
 static double highest(const float *slopes)
 {
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < VIRGA_RING_RADII; i++)
-        most = fmax(most, fabs((double)slopes[i]));
-    return most;
+        max = fmax(max, fabs((double)slopes[i]));
+    return max;
 }
 
 static double half_value(uint16_t half)
@@ -106,13 +106,13 @@ static void test_half_floats_are_the_nearest(void **state)
 static void test_the_slowest_wave_of_deep_water(void **state)
 {
     (void)state;
-    double least = 1, at = 0;
+    double min = 1, at = 0;
     for (double k = 50; k < 2000; k += 1)
-        if (ring_omega(k, 10) / k < least) {
-            least = ring_omega(k, 10) / k;
+        if (ring_omega(k, 10) / k < min) {
+            min = ring_omega(k, 10) / k;
             at = k;
         }
-    assert_float_equal(least, 0.231, 0.001);
+    assert_float_equal(min, 0.231, 0.001);
     assert_float_equal(2 * pi / at, 0.0171, 0.0003);
     assert_float_equal(ring_omega(1, 2e-3), sqrt(9.80665 * 2e-3), 1e-4); /* long waves: sqrt(g h) */
 }

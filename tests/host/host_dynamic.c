@@ -288,9 +288,9 @@ static void record(engine *e, VkCommandBuffer cmd, uint32_t number)
                                .occluder_count = WORLD_BOXES,
                                .view = &moment.view,
                                .panes = &pane,
-                               .panes_later = true};
+                               .defer_panes = true};
     memcpy(frame.camera_m, moment.camera_m, sizeof frame.camera_m);
-    memcpy(frame.focus_m, moment.focus_m, sizeof frame.focus_m);
+    memcpy(frame.ripple_center_m, moment.ripple_center_m, sizeof frame.ripple_center_m);
     ready_to_draw(e, cmd);
     REQUIRE(virga_scene_record(e->scene, cmd, &frame) == VIRGA_OK);
     draw_opaque(e, cmd, &moment, number % FRAMES_IN_FLIGHT);
@@ -361,14 +361,14 @@ static void take_pictures(const engine *e)
  * jitter moves what a sample sees the other way. Motion is that of the middle of the pixel. */
 static void draw_offline(void)
 {
-    static const float places[4][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+    static const float positions[4][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
     static offline o;
     float middle[1][2], jitters_px[4][2];
     static float ignored[WORLD_PIXELS * 3];
     jitter_of(WORLD_FRAMES, middle[0]);
     for (int k = 0; k < 4; k++)
         for (int axis = 0; axis < 2; axis++)
-            jitters_px[k][axis] = middle[0][axis] - places[k][axis];
+            jitters_px[k][axis] = middle[0][axis] - positions[k][axis];
     offline_open(&o, 1);
     offline_run(&o, &seen.offline_bits);
     offline_draw(&o, (const float(*)[2])jitters_px, 4, seen.expected);

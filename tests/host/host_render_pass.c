@@ -5,7 +5,7 @@
 
 /* ---- the engine's allocator: large blocks, in which it goes on until all of a block is free */
 
-enum { MOST_BLOCKS = 64, BLOCK_BYTES = 16 << 20, FRAMES_IN_FLIGHT = 2 };
+enum { MAX_BLOCKS = 64, BLOCK_BYTES = 16 << 20, FRAMES_IN_FLIGHT = 2 };
 
 typedef struct engine_block {
     VkDeviceMemory memory;
@@ -24,7 +24,7 @@ typedef struct engine_frame {
 typedef struct engine {
     world_gpu gpu;
     VkDeviceSize alignment;
-    engine_block blocks[MOST_BLOCKS];
+    engine_block blocks[MAX_BLOCKS];
     uint32_t from_virga; /* pieces of device memory that Virga holds */
     uint32_t host_pieces;
     virga_context *context;
@@ -60,7 +60,7 @@ static VkResult engine_alloc(void *user, const VkMemoryRequirements *need, uint3
 {
     engine *e = user;
     const VkDeviceSize alignment = need->alignment > e->alignment ? need->alignment : e->alignment;
-    for (uint32_t i = 0; i < MOST_BLOCKS; i++) {
+    for (uint32_t i = 0; i < MAX_BLOCKS; i++) {
         engine_block *block = &e->blocks[i];
         if (!block->memory && !block_open(e, block, need->size, type))
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -124,7 +124,7 @@ static void close_allocator(engine *e)
 {
     assert_int_equal(e->from_virga, 0);
     assert_int_equal(e->host_pieces, 0);
-    for (uint32_t i = 0; i < MOST_BLOCKS; i++) {
+    for (uint32_t i = 0; i < MAX_BLOCKS; i++) {
         assert_int_equal(e->blocks[i].live, 0);
         vkFreeMemory(e->gpu.device, e->blocks[i].memory, NULL);
     }
@@ -316,10 +316,10 @@ static void step_ground_and_splash(engine *e, VkCommandBuffer cmd, const world_m
     virga_ground *ground = virga_scene_ground(e->scene);
     virga_splash *splash = virga_scene_splash(e->scene);
     virga_rain_buffer impacts;
-    virga_splash_buffer rules, returns;
+    virga_splash_buffer rules, returned_droplets;
     virga_rain_impacts(rain, &impacts);
     virga_splash_rules(splash, &rules);
-    virga_splash_returns(splash, &returns);
+    virga_splash_returned_droplets(splash, &returned_droplets);
     virga_ground_step_info wet = {.meshes = e->street.occluders,
                                   .mesh_count = WORLD_BOXES,
                                   .impacts = impacts.buffer,
@@ -327,11 +327,11 @@ static void step_ground_and_splash(engine *e, VkCommandBuffer cmd, const world_m
                                   .impacts_size = impacts.size,
                                   .splash_rules = rules.buffer,
                                   .splash_rules_offset = rules.offset,
-                                  .returns = returns.buffer,
-                                  .returns_offset = returns.offset,
-                                  .returns_size = returns.size};
+                                  .returned_droplets = returned_droplets.buffer,
+                                  .returned_droplets_offset = returned_droplets.offset,
+                                  .returned_droplets_size = returned_droplets.size};
     memcpy(wet.camera_m, moment->camera_m, sizeof wet.camera_m);
-    memcpy(wet.focus_m, moment->focus_m, sizeof wet.focus_m);
+    memcpy(wet.ripple_center_m, moment->ripple_center_m, sizeof wet.ripple_center_m);
     virga_rain_ticks(rain, &wet.first_tick, &wet.ticks);
     REQUIRE(virga_ground_step(ground, cmd, &wet) == VIRGA_OK);
     virga_splash_step_info fly = {.first_tick = wet.first_tick, .ticks = wet.ticks};
@@ -354,7 +354,7 @@ static void step_pane(engine *e, VkCommandBuffer cmd, uint32_t number)
     virga_glass_rectangle(glass, corner, along_u, along_v, &caught.width_m, &caught.height_m);
     memcpy(caught.corner_m, pane.pose.position_m, sizeof caught.corner_m); /* a flat pane: its corner is its origin */
     memcpy(caught.velocity_m_s, pane.velocity_m_s, sizeof caught.velocity_m_s);
-    REQUIRE(virga_rain_hits(rain, cmd, &caught, &hits) == VIRGA_OK);
+    REQUIRE(virga_rain_find_hits(rain, cmd, &caught, &hits) == VIRGA_OK);
     virga_rain_get(rain, &weather);
     virga_glass_step_info info = {.sizes = &weather.sizes,
                                   .air_density = weather.air_density,
@@ -435,7 +435,7 @@ static void record(engine *e, VkCommandBuffer cmd, uint32_t number)
     world_at(number, NULL, false, &moment);
     virga_rain_step_info step = {.dt_s = 1 / WORLD_FPS};
     memcpy(step.camera_m, moment.camera_m, sizeof step.camera_m);
-    REQUIRE(virga_rain_occlusion(rain, cmd, moment.camera_m, e->street.occluders, WORLD_BOXES) == VIRGA_OK);
+    REQUIRE(virga_rain_draw_occlusion(rain, cmd, moment.camera_m, e->street.occluders, WORLD_BOXES) == VIRGA_OK);
     REQUIRE(virga_rain_step(rain, cmd, &step) == VIRGA_OK);
     step_ground_and_splash(e, cmd, &moment);
     step_pane(e, cmd, number);
@@ -478,7 +478,7 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
     (void)state;
     static engine e;
     static offline o;
-    static const float centre[1][2] = {{0, 0}};
+    static const float center[1][2] = {{0, 0}};
     static float picture[WORLD_PIXELS * 3], expected[WORLD_PIXELS * 3];
     world_bits bits, offline_bits;
     double rms;
@@ -492,7 +492,7 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
     engine_close(&e);
     offline_open(&o, 1);
     offline_run(&o, &offline_bits);
-    offline_draw(&o, centre, 1, expected);
+    offline_draw(&o, center, 1, expected);
     offline_close(&o);
     world_save("host_render_pass", picture);
     world_save("host_render_pass_offline", expected);

@@ -22,14 +22,14 @@ typedef struct seen {
  * which fails. */
 static void look(void (*lie)(VkPhysicalDeviceProperties *), seen *s)
 {
-    static const float centre[1][2] = {{0, 0}};
+    static const float center[1][2] = {{0, 0}};
     static offline o;
     memset(&watch, 0, sizeof watch);
     watch.lie_properties = lie;
     offline_open_through(&o, 1, watch_get_instance_proc_addr);
     offline_add_moving(&o);
     offline_run(&o, &s->bits);
-    offline_draw(&o, centre, 1, s->picture);
+    offline_draw(&o, center, 1, s->picture);
     picture_read(&o.f.device, &o.moving);
     memcpy(s->motion, o.moving.motion, sizeof s->motion);
     memcpy(s->reactive, o.moving.reactive, sizeof s->reactive);

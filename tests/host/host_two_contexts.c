@@ -244,7 +244,7 @@ static void record(world_thread *w, VkCommandBuffer cmd, uint32_t number)
                                .view = &moment.view,
                                .panes = &pane};
     memcpy(frame.camera_m, moment.camera_m, sizeof frame.camera_m);
-    memcpy(frame.focus_m, moment.focus_m, sizeof frame.focus_m);
+    memcpy(frame.ripple_center_m, moment.ripple_center_m, sizeof frame.ripple_center_m);
     if (number == 1)
         clear_before(w, cmd);
     REQUIRE(virga_scene_record(w->scene, cmd, &frame) == VIRGA_OK);
@@ -346,13 +346,13 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
 {
     (void)state;
     static offline o;
-    static const float centre[1][2] = {{0, 0}};
+    static const float center[1][2] = {{0, 0}};
     static float expected[WORLD_PIXELS * 3];
     world_bits bits;
     double rms;
     offline_open(&o, 2);
     offline_run(&o, &bits);
-    offline_draw(&o, centre, 1, expected);
+    offline_draw(&o, center, 1, expected);
     offline_close(&o);
     world_save("host_two_contexts", at_once[1].picture);
     world_save("host_two_contexts_offline", expected);

@@ -106,7 +106,7 @@ static inline void offline_run(offline *o, world_bits *bits)
         virga_scene_frame frame = {
             .dt_s = 1 / WORLD_FPS, .occluders = o->street.occluders, .occluder_count = WORLD_BOXES, .panes = &pane};
         memcpy(frame.camera_m, moment.camera_m, sizeof frame.camera_m);
-        memcpy(frame.focus_m, moment.focus_m, sizeof frame.focus_m);
+        memcpy(frame.ripple_center_m, moment.ripple_center_m, sizeof frame.ripple_center_m);
         REQUIRE(virga_scene_record(o->scene, cmd, &frame) == VIRGA_OK);
         if (o->frame == WORLD_FRAMES)
             state_copy(cmd, o->scene, &o->state);

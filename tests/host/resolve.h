@@ -43,7 +43,7 @@ static inline double wall_light(double x, double y)
 }
 
 /* Where the ray through a place of the picture meets the wall. */
-static inline void wall_place(const host_camera *camera, double x_px, double y_px, double place[3])
+static inline void wall_position(const host_camera *camera, double x_px, double y_px, double position[3])
 {
     const float *p = camera->clip_from_view, *m = camera->view_from_world;
     const double ndc[2] = {2 * x_px / camera->width - 1, 2 * y_px / camera->height - 1};
@@ -53,18 +53,18 @@ static inline void wall_place(const host_camera *camera, double x_px, double y_p
         d[i] = (double)m[4 * i] * v[0] + (double)m[4 * i + 1] * v[1] + (double)m[4 * i + 2] * v[2];
     const double way = (WALL_Z - camera->position_m[2]) / d[2];
     for (int i = 0; i < 3; i++)
-        place[i] = camera->position_m[i] + way * d[i];
+        position[i] = camera->position_m[i] + way * d[i];
 }
 
 /* Pixels right and down, of a place in the world; the depth along the camera's axis is returned. */
-static inline double camera_pixel(const host_camera *camera, const double place[3], double pixel[2])
+static inline double camera_pixel(const host_camera *camera, const double position[3], double pixel[2])
 {
     const float *p = camera->clip_from_view, *m = camera->view_from_world;
     double v[3];
     for (int row = 0; row < 3; row++) {
         v[row] = 0;
         for (int i = 0; i < 3; i++)
-            v[row] += (double)m[4 * i + row] * (place[i] - camera->position_m[i]);
+            v[row] += (double)m[4 * i + row] * (position[i] - camera->position_m[i]);
     }
     pixel[0] = (0.5 + 0.5 * ((double)p[0] * v[0] + (double)p[8] * v[2]) / -v[2]) * camera->width;
     pixel[1] = (0.5 + 0.5 * ((double)p[5] * v[1] + (double)p[9] * v[2]) / -v[2]) * camera->height;
@@ -75,9 +75,9 @@ static inline void wall_picture(const host_camera *camera, float *light)
 {
     for (uint32_t y = 0; y < camera->height; y++)
         for (uint32_t x = 0; x < camera->width; x++) {
-            double place[3];
-            wall_place(camera, x + 0.5, y + 0.5, place);
-            light[y * camera->width + x] = (float)wall_light(place[0], place[1]);
+            double position[3];
+            wall_position(camera, x + 0.5, y + 0.5, position);
+            light[y * camera->width + x] = (float)wall_light(position[0], position[1]);
         }
 }
 
@@ -85,9 +85,9 @@ static inline void wall_picture(const host_camera *camera, float *light)
 static inline void wall_motion(const resolve_scene *scene, size_t pixel, double motion[2])
 {
     const double x = (double)(pixel % scene->now.width) + 0.5, y = (double)(pixel / scene->now.width) + 0.5;
-    double place[3], before[2];
-    wall_place(&scene->now, x, y, place);
-    camera_pixel(&scene->before, place, before);
+    double position[3], before[2];
+    wall_position(&scene->now, x, y, position);
+    camera_pixel(&scene->before, position, before);
     motion[0] = before[0] - x;
     motion[1] = before[1] - y;
 }

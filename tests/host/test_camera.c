@@ -21,7 +21,7 @@ static const host_camera_key keys[] = {
 };
 static const host_camera_path path = {keys, 5, 50.0, 0.1, 500.0};
 
-static void place(double time_s, double out[3])
+static void path_at(double time_s, double out[3])
 {
     host_camera camera;
     host_camera_at(&path, time_s, 160, 90, NULL, &camera);
@@ -33,13 +33,13 @@ static void goes_through_keys(void **state)
     (void)state;
     double p[3];
     for (int i = 0; i < 5; i++) {
-        place(keys[i].time_s, p);
+        path_at(keys[i].time_s, p);
         for (int c = 0; c < 3; c++)
             assert_float_equal(p[c], keys[i].position_m[c], 1e-9);
     }
-    place(-5.0, p);
+    path_at(-5.0, p);
     assert_float_equal(p[0], 0.0, 0.0);
-    place(50.0, p);
+    path_at(50.0, p);
     assert_float_equal(p[0], 110.0, 0.0);
 }
 
@@ -49,9 +49,9 @@ static void speed_is_continuous(void **state)
     (void)state;
     const double step = 1e-5;
     double before[3], on[3], after[3];
-    place(1.0 - step, before);
-    place(1.0, on);
-    place(1.0 + step, after);
+    path_at(1.0 - step, before);
+    path_at(1.0, on);
+    path_at(1.0 + step, after);
     for (int c = 0; c < 3; c++)
         assert_float_equal((on[c] - before[c]) / step, (after[c] - on[c]) / step, 1e-3);
 }
@@ -60,7 +60,7 @@ static void two_keys_are_a_line(void **state)
 {
     (void)state;
     double p[3];
-    place(4.5, p);
+    path_at(4.5, p);
     assert_float_equal(p[0], 102.5, 1e-9);
 }
 
@@ -68,9 +68,9 @@ static void cut_holds_and_jumps(void **state)
 {
     (void)state;
     double p[3];
-    place(3.999, p);
+    path_at(3.999, p);
     assert_float_equal(p[0], 4.0, 1e-9);
-    place(4.0, p);
+    path_at(4.0, p);
     assert_float_equal(p[0], 100.0, 1e-9);
     assert_float_equal(host_camera_shot_start(&path, 5.0), 4.0, 0.0);
     assert_true(isinf(host_camera_shot_start(&path, 3.0)));

@@ -358,7 +358,7 @@ static bool make_water(scene *s, puddle *p)
     if (!make_wet(s, 0, &p->wet) || !make_map(s, VK_FORMAT_R32_UINT, CELLS * 2, CELLS, none, 4, &p->spots) ||
         !make_map(s, VK_FORMAT_R16G16_SFLOAT, 16, 16, none, 4, &p->ripples))
         return false;
-    p->maps = (virga_ground_maps){.wet = p->wet.view,
+    p->maps = (virga_ground_maps){.wetness = p->wet.view,
                                   .spots = p->spots.view,
                                   .ripples = p->ripples.view,
                                   .ripple_texels = 16,
@@ -508,9 +508,9 @@ static void haze_veils_what_water_mirrors(void **state)
         printf("row %d: %.4f is left, expected %.4f\n", y, left, exp(-per_m * from_water_to_wall(88, y)));
         assert_float_equal(left, exp(-per_m * from_water_to_wall(88, y)), 0.004);
     }
-    const double taken = (double)(sky - s->picture.color[at(66, 74) * 4 + 1]) / reflectance(66, 74);
-    printf("%.4f of the sky is taken, expected %.4f\n", taken, 1 - exp(-per_m * 50));
-    assert_float_equal(taken, 1 - exp(-per_m * 50), 0.02);
+    const double used = (double)(sky - s->picture.color[at(66, 74) * 4 + 1]) / reflectance(66, 74);
+    printf("%.4f of the sky is taken, expected %.4f\n", used, 1 - exp(-per_m * 50));
+    assert_float_equal(used, 1 - exp(-per_m * 50), 0.02);
     host_renderer_haze_mirror(s->renderer, NULL, NULL);
     close_rain(s);
 }
@@ -522,7 +522,7 @@ static void waves_mirror_without_sparks(void **state)
 {
     scene *s = *state;
     assert_true(make_wet(s, 0x211f, &s->puddle.wavy)); /* 0.01 */
-    s->puddle.maps.wet = s->puddle.wavy.view;
+    s->puddle.maps.wetness = s->puddle.wavy.view;
     host_renderer_set_ground(s->renderer, &s->puddle.maps);
     assert_true(draw(s, 1));
     double sum = 0, differences = 0;

@@ -136,7 +136,7 @@ static inline virga_scene_def world_scene_def(uint32_t seed, virga_glass_def *pa
     def.ground.ripple_texels = 128;
     def.ground.ripple_texel_m = 0.02f;
     def.ground.max_spawns = 4096;
-    def.ground.max_returns = 8192;
+    def.ground.max_returned_droplets = 8192;
     def.splash.max_splashes = 4096;
     def.splash.max_droplets = 16384;
     def.panes = pane;
@@ -189,7 +189,7 @@ static inline void world_reverse_depth(float clip_from_view[16])
 typedef struct world_moment {
     virga_view view;
     float clip_now[16], clip_before[16]; /* from the world */
-    double camera_m[3], focus_m[3];
+    double camera_m[3], ripple_center_m[3];
 } world_moment;
 
 static inline void world_at(uint32_t frame, const float jitter_px[2], bool reversed, world_moment *moment)
@@ -211,12 +211,12 @@ static inline void world_at(uint32_t frame, const float jitter_px[2], bool rever
     memcpy(view->temporal.position_m, before.position_m, sizeof before.position_m);
     memcpy(view->temporal.view_from_world, before.view_from_world, sizeof before.view_from_world);
     memcpy(view->temporal.clip_from_view, before.clip_from_view, sizeof before.clip_from_view);
-    view->temporal.ago_s = 1 / WORLD_FPS;
+    view->temporal.frame_interval_s = 1 / WORLD_FPS;
     host_matrix_multiply(now.clip_from_view, now.view_from_world, moment->clip_now);
     host_matrix_multiply(before.clip_from_view, before.view_from_world, moment->clip_before);
     memcpy(moment->camera_m, now.position_m, sizeof moment->camera_m);
-    memcpy(moment->focus_m, now.position_m, sizeof moment->focus_m);
-    moment->focus_m[2] -= 2;
+    memcpy(moment->ripple_center_m, now.position_m, sizeof moment->ripple_center_m);
+    moment->ripple_center_m[2] -= 2;
 }
 
 /* A pane before the right half of the picture, its outer side away from the camera, with which it moves: u goes to the
@@ -224,14 +224,14 @@ static inline void world_at(uint32_t frame, const float jitter_px[2], bool rever
 static inline virga_scene_pane world_pane(uint32_t frame)
 {
     virga_scene_pane pane = {.pose = {.world_from_pane = {-1, 0, 0, 0, 1, 0, 0, 0, -1},
-                                      .before_world_from_pane = {-1, 0, 0, 0, 1, 0, 0, 0, -1}}};
+                                      .previous_world_from_pane = {-1, 0, 0, 0, 1, 0, 0, 0, -1}}};
     const double from_camera_m[3] = {0.0625, -0.03, -0.07};
     host_camera now, before;
     world_camera(frame / WORLD_FPS, NULL, &now);
     world_camera((frame - 1) / WORLD_FPS, NULL, &before);
     for (int axis = 0; axis < 3; axis++) {
         pane.pose.position_m[axis] = now.position_m[axis] + from_camera_m[axis];
-        pane.pose.before_position_m[axis] = before.position_m[axis] + from_camera_m[axis];
+        pane.pose.previous_position_m[axis] = before.position_m[axis] + from_camera_m[axis];
         pane.velocity_m_s[axis] = (float)((now.position_m[axis] - before.position_m[axis]) * WORLD_FPS);
     }
     return pane;

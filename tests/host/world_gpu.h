@@ -339,7 +339,7 @@ static inline void street_bind_maps(world_gpu *gpu, world_street *street, const 
     virga_ground_maps maps;
     virga_ground_maps_get(ground, &maps);
     const VkDescriptorBufferInfo block = {street->blocks.buffer, 0, sizeof(street_block)};
-    const VkDescriptorImageInfo images[2] = {{street->sampler, maps.wet, VK_IMAGE_LAYOUT_GENERAL},
+    const VkDescriptorImageInfo images[2] = {{street->sampler, maps.wetness, VK_IMAGE_LAYOUT_GENERAL},
                                              {street->sampler, maps.spots, VK_IMAGE_LAYOUT_GENERAL}};
     VkWriteDescriptorSet writes[3];
     for (uint32_t i = 0; i < 3; i++)
@@ -506,10 +506,10 @@ static inline void state_parts(virga_scene *scene, state_part parts[STATE_PARTS]
     virga_glass_buffer pane;
     virga_ground_cells cells;
     uint32_t drop_count, droplet_count, pane_count;
-    double place[3];
-    virga_rain_drops(virga_scene_rain(scene), &drops, &drop_count, place);
+    double position[3];
+    virga_rain_drops(virga_scene_rain(scene), &drops, &drop_count, position);
     virga_rain_impacts(virga_scene_rain(scene), &impacts);
-    virga_splash_droplets(virga_scene_splash(scene), &droplets, &droplet_count, place);
+    virga_splash_droplets(virga_scene_splash(scene), &droplets, &droplet_count, position);
     virga_glass_drops(virga_scene_glass(scene, 0), &pane, &pane_count);
     virga_ground_cells_get(virga_scene_ground(scene), &cells);
     parts[STATE_DROPS] = (state_part){drops.buffer, drops.offset, drop_count * sizeof(virga_drop_gpu)};

@@ -31,9 +31,9 @@ static const char full[] =
     "  keys: [{time_s: 0}, {time_s: 2, rate_mm_h: 80}, {time_s: 4, rate_mm_h: 0, wind_m_s: [5, 0, 1]}]\n"
     "ground: {on: true, cells: 256, materials: [{match: a, material: tile, walkable: false}],\n"
     "  material_map: {file: m.png, low_m: [-4, -2.5], high_m: [4, 7], materials: [tile, any word]}}\n"
-    "splash: {mode: paper, style: paper, max_splashes: 1000, max_droplets: 2000, droplets_m: 7,\n"
-    "  bounce: 0.5, pile_s: 0.03, pile_m: 0.01, dot_mm: 0.4, gain: 2, light_gain: 3, min_width_px: 0.5,\n"
-    "  soft_m: 0.01, near_m: 0.1}\n";
+    "splash: {mode: paper, style: paper, max_splashes: 1000, max_droplets: 2000, droplet_range_m: 7,\n"
+    "  bounce: 0.5, pile_max_s: 0.03, pile_max_m: 0.01, dot_min_mm: 0.4, gain: 2, light_gain: 3, min_width_px: 0.5,\n"
+    "  soft_m: 0.01, near_fade_m: 0.1}\n";
 
 static void smallest_scene_has_the_defaults(void **state)
 {
@@ -58,8 +58,8 @@ static void smallest_scene_has_the_defaults(void **state)
     near(scene_rain_of(scene)->transition_s, 0.5);
     near(scene_rain_of(scene)->range_m, 32);
     near(scene_rain_of(scene)->soft_m, 0.05);
-    near(scene_rain_of(scene)->near_m, 0.15);
-    near(scene_rain_of(scene)->bodies_min_mm, 0.4);
+    near(scene_rain_of(scene)->near_fade_m, 0.15);
+    near(scene_rain_of(scene)->streak_min_mm, 0.4);
     assert_int_equal(scene_rain_of(scene)->sizes, SCENE_SIZES_MARSHALL_PALMER);
     assert_int_equal(scene_rain_of(scene)->max_drops, 131072);
     assert_int_equal(scene_rain_of(scene)->seed, 1);
@@ -84,16 +84,16 @@ static void every_value_of_splash_arrives(const scene_splash *splash)
     assert_string_equal(scene_splash_style_name(SCENE_SPLASH_STYLE_FILM), "film");
     assert_int_equal(splash->max_splashes, 1000);
     assert_int_equal(splash->max_droplets, 2000);
-    near(splash->droplets_m, 7);
+    near(splash->droplet_range_m, 7);
     near(splash->bounce, 0.5);
-    near(splash->pile_s, 0.03);
-    near(splash->pile_m, 0.01);
-    near(splash->dot_mm, 0.4);
+    near(splash->pile_max_s, 0.03);
+    near(splash->pile_max_m, 0.01);
+    near(splash->dot_min_mm, 0.4);
     near(splash->gain, 2);
     near(splash->light_gain, 3);
     near(splash->min_width_px, 0.5);
     near(splash->soft_m, 0.01);
-    near(splash->near_m, 0.1);
+    near(splash->near_fade_m, 0.1);
 }
 
 static void every_value_arrives(void **state)

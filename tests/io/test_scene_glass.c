@@ -20,16 +20,16 @@ static const char full[] =
     "    motion: given\n"
     "    velocity_m_s: [0, 0, 12]\n"
     "    acceleration_m_s2: [0, 0, -1]\n"
-    "    turn_deg_s: [0, 5, 0]\n"
+    "    angular_velocity_deg_s: [0, 5, 0]\n"
     "    shelter: 0.5\n"
     "    frame_m: 0.1\n"
     "    kind: coated\n"
     "    advancing_deg: 100\n"
     "    receding_deg: 90\n"
-    "    run_hold: 0\n"
+    "    kinetic_hold: 0\n"
     "    affinity: 0.1\n"
     "    film_um: 0\n"
-    "    tail_mm: 0.2\n"
+    "    tail_max_radius_mm: 0.2\n"
     "    opaque: true\n"
     "    style: paper\n"
     "    density: wyvill\n"
@@ -38,10 +38,11 @@ static const char full[] =
     "    tint: [0.9, 1, 0.95]\n"
     "    max_drops: 4096\n"
     "    mask: mask.png\n"
-    "    bumps: {file: bumps.png, size_mm: [40, 30], depth_mm: 0.2, pull: 2}\n"
+    "    bumps: {file: bumps.png, size_mm: [40, 30], depth_mm: 0.2, affinity: 2}\n"
     "    wipers:\n"
     "      - {pivot_m: [0.6, -0.02], reach_m: 0.6, blade_m: 0.5, low_deg: 170, high_deg: 80, wear: 0.6, drawn: false}\n"
-    "      - {pivot_m: [1, 0], reach_m: 0.6, blade_m: 0.6, low_deg: 5, high_deg: 95, drive: keys, blade_turn: 1,\n"
+    "      - {pivot_m: [1, 0], reach_m: 0.6, blade_m: 0.6, low_deg: 5, high_deg: 95, drive: keys, "
+    "blade_hold_direction: 1,\n"
     "         keys: [{time_s: 1, angle_deg: 10}, {time_s: 2, angle_deg: 30}]}\n";
 
 /* The smallest scene, and more. */
@@ -83,10 +84,10 @@ static void a_pane_has_defaults(void **state)
     assert_int_equal(pane->follow, SCENE_PANE_WORLD);
     assert_null(pane->advancing_deg);
     assert_null(pane->receding_deg);
-    assert_null(pane->run_hold);
+    assert_null(pane->kinetic_hold);
     assert_null(pane->affinity);
     assert_null(pane->film_um);
-    assert_null(pane->tail_mm);
+    assert_null(pane->tail_max_radius_mm);
     assert_null(pane->opaque);
     assert_null(pane->mask);
     assert_null(pane->mesh);
@@ -107,7 +108,7 @@ static void wipers_arrive(const scene_pane *pane)
     assert_false(pane->wipers[0].drawn);
     assert_true(pane->wipers[1].drawn);
     assert_int_equal(pane->wipers[1].drive, SCENE_WIPER_KEYS);
-    near(pane->wipers[1].blade_turn, 1);
+    near(pane->wipers[1].blade_hold_direction, 1);
     assert_int_equal(pane->wipers[1].key_count, 2);
     near(scene_wiper_angle_deg(&pane->wipers[1], 0), 10);
     near(scene_wiper_angle_deg(&pane->wipers[1], 1.5), 20);
@@ -135,15 +136,15 @@ static void every_value_of_a_pane_arrives(void **state)
     assert_int_equal(pane->motion, SCENE_PANE_MOTION_GIVEN);
     near(pane->velocity_m_s[2], 12);
     near(pane->acceleration_m_s2[2], -1);
-    near(pane->turn_deg_s[1], 5);
+    near(pane->angular_velocity_deg_s[1], 5);
     near(pane->shelter, 0.5);
     near(pane->frame_m, 0.1);
     assert_string_equal(scene_pane_kind_name(pane->kind), "coated");
     near(*pane->advancing_deg, 100);
     near(*pane->receding_deg, 90);
-    near(*pane->run_hold, 0);
+    near(*pane->kinetic_hold, 0);
     near(*pane->film_um, 0);
-    near(*pane->tail_mm, 0.2);
+    near(*pane->tail_max_radius_mm, 0.2);
     assert_true(*pane->opaque);
     assert_string_equal(scene_pane_style_name(pane->style), "paper");
     assert_int_equal(pane->density, 3);
@@ -155,7 +156,7 @@ static void every_value_of_a_pane_arrives(void **state)
     assert_string_equal(pane->bumps.file, in_folder("bumps.png"));
     near(pane->bumps.size_mm[1], 30);
     near(pane->bumps.depth_mm, 0.2);
-    near(pane->bumps.pull, 2);
+    near(pane->bumps.affinity, 2);
     wipers_arrive(pane);
     scene_file_free(scene);
 }
@@ -225,7 +226,7 @@ static const struct {
     {PANE("shape: mesh"), "s.yaml:5: glass.0.shape: expected mesh beside it, the name of one"},
     {PANE("mesh: visor"), "s.yaml:5: glass.0.mesh: expected shape: mesh beside it"},
     {PANE("velocity_m_s: [0, 0, 9]"),
-     "glass.0.motion: expected given, as velocity_m_s, acceleration_m_s2 or turn_deg_s is there"},
+     "glass.0.motion: expected given, as velocity_m_s, acceleration_m_s2 or angular_velocity_deg_s is there"},
     {PANE("mask: none.png"), "s.yaml:5: glass.0.mask: cannot read"},
     {PANE("mask: [a]"), "glass.0.mask: expected the name of a file, got a list"},
     {PANE("bumps: b.png"), "glass.0.bumps: expected keys with values, as in 'key: value', got 'b.png'"},

@@ -55,9 +55,9 @@ static inline void to_clip(const host_camera *camera, bool reversed, const doubl
  * the sampling, times the drops that it stands for up to a quarter, and nothing below 1 / 400. */
 static inline double coverage_of(const shot *s, const expected *e)
 {
-    const double least = 1.0 / 400, narrow = fmin(e->width_px / (double)s->f.settings.min_width_px, 1);
+    const double min = 1.0 / 400, narrow = fmin(e->width_px / (double)s->f.settings.min_width_px, 1);
     const double one = fmin((double)s->f.settings.streak_gain * e->body_px / fmax(e->way_px, e->body_px), 1) * narrow;
-    return fmin(one * e->weight, fmax(one, 0.25)) * clamp01(one * e->weight / least - 1);
+    return fmin(one * e->weight, fmax(one, 0.25)) * clamp01(one * e->weight / min - 1);
 }
 
 /* False where an end is behind the camera or nearly so. */
@@ -96,7 +96,7 @@ static inline bool expect_streak(const shot *s, uint32_t slot, expected *e)
     e->body_px = e->width_px * virga_drop_axis_ratio(e->diameter_m);
     e->way_px = hypot(way[0], way[1]);
     const double *m = e->middle, distance = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-    e->weight = weight_of(s, slot, at_tick) * clamp01(distance / (double)s->f.settings.near_m - 1);
+    e->weight = weight_of(s, slot, at_tick) * clamp01(distance / (double)s->f.settings.near_fade_m - 1);
     e->alpha = coverage_of(s, e);
     return true;
 }

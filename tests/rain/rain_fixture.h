@@ -98,7 +98,7 @@ static inline void rain_fixture_step(rain_fixture *f, double dt_s)
     virga_rain_buffer impacts, drops;
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
     if (f->occluder_count)
-        REQUIRE(virga_rain_occlusion(f->rain, cmd, f->camera, f->occluders, f->occluder_count) == VIRGA_OK);
+        REQUIRE(virga_rain_draw_occlusion(f->rain, cmd, f->camera, f->occluders, f->occluder_count) == VIRGA_OK);
     const virga_rain_step_info info = {.dt_s = dt_s, .camera_m = {f->camera[0], f->camera[1], f->camera[2]}};
     REQUIRE(virga_rain_step(f->rain, cmd, &info) >= 0); /* ticks may be dropped */
     virga_rain_impacts(f->rain, &impacts);
@@ -164,7 +164,7 @@ static inline const virga_point_gpu *rain_fixture_points_step(rain_fixture *f, d
     virga_rain_buffer points;
     const VkCommandBuffer cmd = rain_fixture_begin_frame(f);
     rain_fixture_record_step(f, cmd, dt_s);
-    REQUIRE(virga_rain_points(f->rain, cmd, &points, &f->slots, f->origin) == VIRGA_OK);
+    REQUIRE(virga_rain_write_points(f->rain, cmd, &points, &f->slots, f->origin) == VIRGA_OK);
     if (!read->buffer)
         rain_fixture_readback(f, points.size, read);
     rain_fixture_copy(cmd, &points, read);

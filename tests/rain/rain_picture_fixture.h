@@ -70,7 +70,7 @@ typedef struct shot {
     virga_target *layer; /* of the pass that is drawn into */
     virga_target_def layer_def;
     host_camera camera, open;
-    double shutter_s, ago_s; /* the time drawn is so much before that of the rain */
+    double shutter_s, frame_interval_s; /* the time drawn is so much before that of the rain */
     uint32_t sub_frames;
     float aperture_m, focus_m;
     host_buffer streaks, prepared, slots, order;
@@ -258,7 +258,7 @@ static const float *draw_without_step(shot *s, VkCommandBuffer cmd)
 {
     record_scene_depth(s, cmd);
     const virga_view view = view_of(s);
-    REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain) - s->ago_s) == VIRGA_OK);
+    REQUIRE(virga_rain_prepare(s->f.rain, cmd, &view, virga_rain_time(s->f.rain) - s->frame_interval_s) == VIRGA_OK);
     record_prepared(s, cmd);
     record_layer(s, cmd);
     host_target_copy_out(&s->picture, cmd, 1u << HOST_LAYER);

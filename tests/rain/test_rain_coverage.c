@@ -8,7 +8,7 @@ enum { THIN_STREAKS = 6, GAIN = 4 /* so that single drops are dense enough farth
 /* One drop each, well inside the picture, thinner than a pixel and still dense enough not to fade at half the size. */
 static uint32_t choose_thin(const shot *s, uint32_t *ids)
 {
-    const uint32_t wide = ((const virga_prepared_gpu *)s->prepared.mapped)->wide.index_count / 6;
+    const uint32_t wide = ((const virga_prepared_gpu *)s->prepared.mapped)->wide_quads.index_count / 6;
     uint32_t found = 0;
     for (uint32_t i = wide; i < streak_count(s) && found < THIN_STREAKS; i++) {
         const virga_streak_gpu *streak = &streak_list(s)[i];
@@ -24,7 +24,7 @@ static uint32_t choose_thin(const shot *s, uint32_t *ids)
     return found;
 }
 
-static int place_of(const shot *s, uint32_t id)
+static int slot_of_id(const shot *s, uint32_t id)
 {
     for (uint32_t i = 0; i < streak_count(s); i++)
         if (streak_list(s)[i].id == id)
@@ -61,7 +61,7 @@ static void a_thin_streak_covers_its_disc_at_any_resolution(void **state)
         count = run ? count : choose_thin(&s, ids);
         for (uint32_t i = 0; i < count; i++) {
             expected e;
-            s.only = place_of(&s, ids[i]);
+            s.only = slot_of_id(&s, ids[i]);
             const double sum = sum_of(&s, draw_frame(&s, 0), 3);
             assert_true(expect_streak(&s, ids[i] & ((1u << VIRGA_RAIN_ID_SLOT_BITS) - 1), &e));
             const double disc = GAIN * 0.785398 * e.width_px * e.body_px * e.weight;
@@ -78,12 +78,12 @@ static void a_thin_streak_covers_its_disc_at_any_resolution(void **state)
     close_shot(&s);
 }
 
-static double most_of(const shot *s, const float *pixels)
+static double max_of(const shot *s, const float *pixels)
 {
-    double most = 0;
+    double max = 0;
     for (size_t i = 0; i < (size_t)s->picture.width * s->picture.height; i++)
-        most = fmax(most, (double)pixels[i * 4 + 3]);
-    return most;
+        max = fmax(max, (double)pixels[i * 4 + 3]);
+    return max;
 }
 
 /* Where it lies in the list goes by how all of them are seen. */
@@ -91,7 +91,7 @@ static const float *draw_only(shot *s, uint32_t id)
 {
     s->only = EVERY_STREAK;
     draw_frame(s, 0);
-    s->only = place_of(s, id);
+    s->only = slot_of_id(s, id);
     return draw_frame(s, 0);
 }
 
@@ -111,16 +111,16 @@ static void a_streak_out_of_focus_covers_as_much_over_more(void **state)
     draw_frame(&s, 0.2);
     const uint32_t id = streak_list(&s)[choose_streak(&s, &distance)].id;
     const float *pixels = draw_only(&s, id);
-    const double sharp = sum_of(&s, pixels, 3), most = most_of(&s, pixels);
+    const double sharp = sum_of(&s, pixels, 3), max = max_of(&s, pixels);
     const double pixel = 2 / (fabs((double)s.camera.clip_from_view[5]) * 240);
     s.aperture_m = (float)(8 * pixel * distance); /* 8 pixels, in focus at infinity */
     pixels = draw_only(&s, id);
-    printf("%.1f m away: %.3f in all, at most %.3f; blurred %.3f and %.3f\n", distance, sharp, most,
-           sum_of(&s, pixels, 3), most_of(&s, pixels));
-    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.03 && most_of(&s, pixels) < 0.4 * most);
+    printf("%.1f m away: %.3f in all, at most %.3f; blurred %.3f and %.3f\n", distance, sharp, max,
+           sum_of(&s, pixels, 3), max_of(&s, pixels));
+    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.03 && max_of(&s, pixels) < 0.4 * max);
     s.focus_m = (float)distance;
     pixels = draw_only(&s, id);
-    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.01 && fabs(most_of(&s, pixels) / most - 1) < 0.02);
+    assert_true(fabs(sum_of(&s, pixels, 3) / sharp - 1) < 0.01 && fabs(max_of(&s, pixels) / max - 1) < 0.02);
     close_shot(&s);
 }
 
@@ -155,7 +155,7 @@ static void rain_of_haze(shot *s)
 {
     static const double diameters[2] = {0.0005, 0.0015}, numbers[2] = {1, 1};
     s->f.settings.sizes = (virga_sizes){VIRGA_SIZES_TABLE, diameters, numbers, 2};
-    s->f.settings.bodies_min_mm = 2;
+    s->f.settings.streak_min_mm = 2;
     s->f.settings.haze = 4;
     s->give_depth = true;
     for (int c = 0; c < 3; c++)

@@ -96,7 +96,7 @@ typedef struct look {
     uint32_t id;
 } look;
 
-static look *take_look(const rain_fixture *f)
+static look *copy_look(const rain_fixture *f)
 {
     look *drops = malloc(f->slots * sizeof *drops);
     for (uint32_t i = 0; i < f->slots; i++) {
@@ -113,11 +113,11 @@ static void a_moved_camera_sees_the_same_drops_in_the_same_places(void **state)
     rain_fixture f;
     open_field(&f, 3, 1);
     rain_fixture_step(&f, 0.5);
-    look *before = take_look(&f);
+    look *before = copy_look(&f);
     f.camera[0] = 0.3;
     f.camera[1] = 1.9;
     rain_fixture_step(&f, 0);
-    look *after = take_look(&f);
+    look *after = copy_look(&f);
     uint32_t same = 0, strange = 0;
     for (uint32_t i = 0; i < f.slots; i++) {
         if (before[i].id != after[i].id)
@@ -156,9 +156,9 @@ static void drops_fall_by_the_table_in_still_air(void **state)
     rain_fixture f;
     open_field(&f, 0, 1);
     rain_fixture_step(&f, 0.5);
-    look *before = take_look(&f);
+    look *before = copy_look(&f);
     rain_fixture_step(&f, 1.0 / 60);
-    look *after = take_look(&f);
+    look *after = copy_look(&f);
     uint32_t checked = 0;
     const double slowest = virga_drop_terminal_speed(VIRGA_DROP_MIN_M, 0),
                  fastest = virga_drop_terminal_speed(VIRGA_DROP_MAX_M, 0);
@@ -201,9 +201,9 @@ static void far_from_the_origin_the_field_is_as_fine(void **state)
     open_field(&f, 0, 1);
     f.camera[0] = 3e6;
     rain_fixture_step(&f, 0.5);
-    look *before = take_look(&f);
+    look *before = copy_look(&f);
     rain_fixture_step(&f, 1.0 / 60);
-    look *after = take_look(&f);
+    look *after = copy_look(&f);
     for (uint32_t i = 0; i < f.slots; i++)
         if (before[i].id == after[i].id)
             assert_true(fabs(before[i].position[0] - after[i].position[0]) < 1e-5);

@@ -17,7 +17,7 @@ static void open_night(shot *s)
     add_picture(s, WIDTH, HEIGHT);
     virga_rain_settings *settings = &s->f.settings;
     settings->sizes = (virga_sizes){VIRGA_SIZES_TABLE, diameters, numbers, 2};
-    settings->bodies_min_mm = 2;
+    settings->streak_min_mm = 2;
     settings->haze = 2;
     settings->haze_sky_m = 0;
     memset(settings->lighting.environment_sh, 0, sizeof settings->lighting.environment_sh);
@@ -70,11 +70,11 @@ static double glow_along(const shot *s, const double ray[3], double begins, doub
     const double k = virga_rain_extinction((double)s->f.settings.rate_mm_h) * (double)s->f.settings.haze;
     const int steps = 4000;
     const double pixel = 0.5 * lamp_along(ray) * 2 / (fabs((double)s->camera.clip_from_view[5]) * HEIGHT);
-    const double least2 = 0.1 * 0.1 + pixel * pixel;
+    const double min2 = 0.1 * 0.1 + pixel * pixel;
     double sum = 0;
     for (int i = 0; i < steps; i++) {
         const double t = begins + (ends - begins) * (i + 0.5) / steps;
-        double out[3], r2 = least2;
+        double out[3], r2 = min2;
         for (int axis = 0; axis < 3; axis++) {
             out[axis] = ray[axis] * t - lamp_at[axis];
             r2 += out[axis] * out[axis];
@@ -94,22 +94,22 @@ static double glow_along(const shot *s, const double ray[3], double begins, doub
 static double compare_glow(const shot *s, const float *pixels, double begin_m, double depth_m, double tolerance)
 {
     const float *p = s->camera.clip_from_view;
-    double most = 0, worst = 0;
+    double max = 0, worst = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
-        most = fmax(most, (double)pixels[i * 4]);
+        max = fmax(max, (double)pixels[i * 4]);
     for (int i = 0; i < WIDTH * HEIGHT; i += 5) {
         const double x = ((i % WIDTH + 0.5) / WIDTH * 2 - 1) / (double)p[0],
                      y = ((i / WIDTH + 0.5) / HEIGHT * 2 - 1) / (double)p[5], length = sqrt(1 + x * x + y * y);
         const double ray[3] = {x / length, y / length, -1 / length};
         const double expected = 40 * glow_along(s, ray, begin_m * length, depth_m > 0 ? depth_m * length : 100);
-        const double off = fabs((double)pixels[i * 4] - expected) / (expected + 0.02 * most);
+        const double off = fabs((double)pixels[i * 4] - expected) / (expected + 0.02 * max);
         worst = fmax(worst, off);
         assert_true(fabs((double)pixels[i * 4 + 2] - 3 * (double)pixels[i * 4]) <
                     3e-3 * (double)pixels[i * 4 + 2] + 1e-6);
     }
-    printf("brightest %.4f, off by %.1f %%\n", most, 100 * worst);
-    assert_true(most > 0 && worst < tolerance);
-    return most;
+    printf("brightest %.4f, off by %.1f %%\n", max, 100 * worst);
+    assert_true(max > 0 && worst < tolerance);
+    return max;
 }
 
 static double check_glow(shot *s, double depth_m, double tolerance)
@@ -208,17 +208,17 @@ static void a_far_lamps_glow_fades_before_its_rectangle_ends(void **state)
         s.f.settings.lighting.environment_sh[0][c] = 300;
     s.scene_depth = 1; /* haze itself does not show before the sky */
     const float *pixels = draw_night(&s);
-    double most = 0, step = 0;
+    double max = 0, step = 0;
     int dark = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const double here = (double)pixels[i * 4], beside = i % WIDTH ? (double)pixels[i * 4 - 4] : here;
-        most = fmax(most, here);
+        max = fmax(max, here);
         dark += here == 0;
         if (here == 0 || beside == 0)
             step = fmax(step, fabs(here - beside));
     }
-    printf("brightest %.4f, largest step to nothing %.6f, %d of %d dark\n", most, step, dark, WIDTH * HEIGHT);
-    assert_true(dark > WIDTH * HEIGHT / 4 && dark < WIDTH * HEIGHT && step < 0.01 * most);
+    printf("brightest %.4f, largest step to nothing %.6f, %d of %d dark\n", max, step, dark, WIDTH * HEIGHT);
+    assert_true(dark > WIDTH * HEIGHT / 4 && dark < WIDTH * HEIGHT && step < 0.01 * max);
     close_shot(&s);
 }
 
@@ -226,18 +226,18 @@ static void a_far_lamps_glow_fades_before_its_rectangle_ends(void **state)
 static void a_lamp_may_be_anywhere(void **state)
 {
     (void)state;
-    static const double places[][3] = {{0, 0, 0},   {0, 0, -0.01}, {0.3, 0, 0.2},  {0, 40, 0},
-                                       {60, 0, -1}, {0, 0, 80},    {1e6, 0, -1e6}, {-3, 0.1, -0.2}};
+    static const double positions[][3] = {{0, 0, 0},   {0, 0, -0.01}, {0.3, 0, 0.2},  {0, 40, 0},
+                                          {60, 0, -1}, {0, 0, 80},    {1e6, 0, -1e6}, {-3, 0.1, -0.2}};
     shot s;
     open_night(&s);
     s.scene_depth = stored_depth(&s, 20);
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; i < sizeof positions / sizeof positions[0]; i++) {
         for (int axis = 0; axis < 3; axis++)
-            s.f.settings.lighting.lights[0].position_m[axis] = s.f.camera[axis] + places[i][axis];
+            s.f.settings.lighting.lights[0].position_m[axis] = s.f.camera[axis] + positions[i][axis];
         const float *pixels = draw_night(&s);
         for (int j = 0; j < WIDTH * HEIGHT * 4; j++)
             assert_true(pixels[j] >= 0 && pixels[j] < 1e4f);
-        assert_true(places[i][2] < 50 || sum_of(&s, pixels, 0) == 0);
+        assert_true(positions[i][2] < 50 || sum_of(&s, pixels, 0) == 0);
     }
     close_shot(&s);
 }

@@ -77,10 +77,10 @@ static caught run(virga_rain_pane pane, double seconds)
     for (int frame = 0; frame < (int)(seconds * 24); frame++) {
         const VkCommandBuffer cmd = rain_fixture_begin_frame(&f);
         if (f.occluder_count)
-            REQUIRE(virga_rain_occlusion(f.rain, cmd, f.camera, f.occluders, f.occluder_count) == VIRGA_OK);
+            REQUIRE(virga_rain_draw_occlusion(f.rain, cmd, f.camera, f.occluders, f.occluder_count) == VIRGA_OK);
         rain_fixture_record_step(&f, cmd, 1.0 / 24);
         virga_rain_buffer hits;
-        REQUIRE(virga_rain_hits(f.rain, cmd, &pane, &hits) == VIRGA_OK);
+        REQUIRE(virga_rain_find_hits(f.rain, cmd, &pane, &hits) == VIRGA_OK);
         virga_rain_buffer drops;
         virga_rain_drops(f.rain, &drops, NULL, NULL);
         rain_fixture_copy(cmd, &drops, &f.drops);
@@ -206,18 +206,18 @@ static void wrong_panes_are_refused(void **unused)
     const VkCommandBuffer cmd = rain_fixture_begin_frame(&f);
     virga_rain_buffer hits;
     virga_rain_pane pane = {.along_u = {1, 0, 0}, .along_v = {0, 1, 0}, .width_m = 1, .height_m = 1};
-    assert_int_equal(virga_rain_hits(f.rain, cmd, &pane, &hits), VIRGA_NOT_READY);
+    assert_int_equal(virga_rain_find_hits(f.rain, cmd, &pane, &hits), VIRGA_NOT_READY);
     rain_fixture_record_step(&f, cmd, 1.0 / 24);
-    assert_int_equal(virga_rain_hits(f.rain, cmd, NULL, &hits), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_rain_find_hits(f.rain, cmd, NULL, &hits), VIRGA_ERROR_INVALID);
     pane.along_u[0] = 2;
-    assert_int_equal(virga_rain_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_rain_find_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
     pane.along_u[0] = 1;
     pane.width_m = NAN;
-    assert_int_equal(virga_rain_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_rain_find_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
     pane.width_m = 1;
     for (int i = 0; i < 2; i++)
-        assert_int_equal(virga_rain_hits(f.rain, cmd, &pane, &hits), VIRGA_OK);
-    assert_int_equal(virga_rain_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
+        assert_int_equal(virga_rain_find_hits(f.rain, cmd, &pane, &hits), VIRGA_OK);
+    assert_int_equal(virga_rain_find_hits(f.rain, cmd, &pane, &hits), VIRGA_ERROR_INVALID);
     rain_fixture_end_frame(&f);
     close_rain();
 }

@@ -14,7 +14,7 @@ typedef struct landed {
     double *diameters, *weights;
 } landed;
 
-enum { MOST_IMPACTS = 4000000, MAP_SIZE = 256 };
+enum { MAX_IMPACTS = 4000000, MAP_SIZE = 256 };
 
 static void gather(const rain_fixture *f, landed *sum)
 {
@@ -23,7 +23,7 @@ static void gather(const rain_fixture *f, landed *sum)
     assert_int_equal(head->dropped, 0);
     for (uint32_t i = 0; i < head->count; i++) {
         const float x = list[i].position[0] + head->origin[0], z = list[i].position[2] + head->origin[2];
-        if (fabsf(x) > sum->half_m || fabsf(z) > sum->half_m || sum->impacts == MOST_IMPACTS)
+        if (fabsf(x) > sum->half_m || fabsf(z) > sum->half_m || sum->impacts == MAX_IMPACTS)
             continue;
         const double volume = virga_drop_volume((double)list[i].diameter_m), weight = (double)list[i].weight;
         sum->water_m3 += weight * volume;
@@ -58,8 +58,8 @@ static void run(rain_fixture *f, double rate, double seconds, float slope, uint3
     assert_int_equal(virga_rain_set(f->rain, &f->settings), VIRGA_OK);
     memset(sum, 0, sizeof *sum);
     sum->half_m = slope > 0 ? 1.25f : 2.5f;
-    sum->diameters = malloc(MOST_IMPACTS * sizeof(double));
-    sum->weights = malloc(MOST_IMPACTS * sizeof(double));
+    sum->diameters = malloc(MAX_IMPACTS * sizeof(double));
+    sum->weights = malloc(MAX_IMPACTS * sizeof(double));
     for (int step = 0; step < (int)(seconds * 3); step++) {
         rain_fixture_step(f, 1.0 / 3);
         gather(f, sum);
@@ -80,10 +80,10 @@ static void check_rate(double rate, float slope, uint32_t map_size)
     const double seconds = 60;
     run(&f, rate, seconds, slope, map_size, &sum);
     const double area_m2 = 4 * (double)sum.half_m * (double)sum.half_m;
-    const double asked = rate * 1e-3 / 3600 * seconds * area_m2, noise = sqrt(sum.variance_m6);
+    const double expected = rate * 1e-3 / 3600 * seconds * area_m2, noise = sqrt(sum.variance_m6);
     printf("%g mm/h: %u impacts, %.4f of the water asked for, counting noise %.2f %%\n", rate, sum.impacts,
-           sum.water_m3 / asked, 100 * noise / asked);
-    assert_true(fabs(sum.water_m3 - asked) <= 0.01 * asked + 2.5 * noise);
+           sum.water_m3 / expected, 100 * noise / expected);
+    assert_true(fabs(sum.water_m3 - expected) <= 0.01 * expected + 2.5 * noise);
     finish(&f, &sum);
 }
 

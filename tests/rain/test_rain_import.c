@@ -50,7 +50,7 @@ static float plane_depth(const virga_occlusion_view *view, uint32_t column, doub
 static void draw_maps(rain_fixture *f, VkCommandBuffer cmd, host_maps *maps, double height, double slope)
 {
     virga_occlusion_view views[VIRGA_RAIN_MAX_MAPS];
-    assert_int_equal(virga_rain_occlusion_views(f->rain, f->camera, views), maps->count);
+    assert_int_equal(virga_rain_plan_occlusion(f->rain, f->camera, views), maps->count);
     float *texels = maps->texels.mapped;
     for (uint32_t i = 0; i < maps->count * MAP_SIZE * MAP_SIZE; i++)
         texels[i] = plane_depth(&views[i / (MAP_SIZE * MAP_SIZE)], i % MAP_SIZE, height, slope);
@@ -66,7 +66,7 @@ static void draw_maps(rain_fixture *f, VkCommandBuffer cmd, host_maps *maps, dou
     host_image_barrier(cmd, &maps->depth, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                        VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    assert_int_equal(virga_rain_occlusion_import(f->rain, cmd, &maps->given), VIRGA_OK);
+    assert_int_equal(virga_rain_import_occlusion(f->rain, cmd, &maps->given), VIRGA_OK);
 }
 
 static const virga_impacts_gpu *step_with_maps(rain_fixture *f, host_maps *maps, double height, double slope,

@@ -28,7 +28,7 @@ static void table_of_sizes(virga_rain_settings *s)
 static void more_haze(virga_rain_settings *s)
 {
     s->haze = 4;
-    s->bodies_min_mm = 2;
+    s->streak_min_mm = 2;
 }
 
 static void another_sky(virga_rain_settings *s)
@@ -50,7 +50,7 @@ static void another_look(virga_rain_settings *s)
     s->streak_gain = 5;
     s->min_width_px = 2;
     s->soft_m = 0.5f;
-    s->near_m = 1;
+    s->near_fade_m = 1;
     s->oscillation = 0;
     s->default_material = 7;
 }
@@ -171,12 +171,12 @@ static void velocities_change_by_drag_only(void **state)
         const virga_point_gpu *after = rain_fixture_points_step(&f, tick_s, &read);
         for (uint32_t i = 0; i < f.slots; i++) {
             const double terminal = virga_drop_terminal_speed((double)after[i].diameter_m, 0);
-            double against2 = 0, most;
+            double against2 = 0, max;
             for (int axis = 0; axis < 3; axis++)
                 against2 += pow((double)before[i].velocity[axis] - (double)f.settings.wind_m_s[axis], 2);
-            most = VIRGA_GRAVITY * (against2 / (terminal * terminal) + 1) * tick_s;
+            max = VIRGA_GRAVITY * (against2 / (terminal * terminal) + 1) * tick_s;
             for (int axis = 0; axis < 3; axis++)
-                assert_true(fabs((double)after[i].velocity[axis] - (double)before[i].velocity[axis]) <= most + 1e-4);
+                assert_true(fabs((double)after[i].velocity[axis] - (double)before[i].velocity[axis]) <= max + 1e-4);
         }
     }
     free(before);

@@ -106,9 +106,9 @@ static void no_drop_is_shown_under_the_roof(void **state)
     REQUIRE(host_begin_frame(&f.gpu.device, &cmd, f.gpu.error, sizeof f.gpu.error));
     REQUIRE(virga_frame_begin(f.context, f.gpu.device.frame, f.gpu.device.completed) == VIRGA_OK);
     const virga_rain_step_info info = {.dt_s = 0.1, .camera_m = {0, 1.7, 0}};
-    REQUIRE(virga_rain_occlusion(f.rain, cmd, f.camera, f.occluders, f.occluder_count) == VIRGA_OK);
+    REQUIRE(virga_rain_draw_occlusion(f.rain, cmd, f.camera, f.occluders, f.occluder_count) == VIRGA_OK);
     REQUIRE(virga_rain_step(f.rain, cmd, &info) == VIRGA_OK);
-    REQUIRE(virga_rain_points(f.rain, cmd, &points, &count, origin) == VIRGA_OK);
+    REQUIRE(virga_rain_write_points(f.rain, cmd, &points, &count, origin) == VIRGA_OK);
     REQUIRE(host_buffer_create(&f.gpu.device, points.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK,
                                "points", &read, f.gpu.error, sizeof f.gpu.error));
     rain_fixture_copy(cmd, &points, &read);
@@ -172,7 +172,7 @@ static void maps_by_turns_are_all_drawn_once_a_round(void **state)
     rain_fixture f;
     uint32_t on[4], first, still;
     open_roof(&f, 0);
-    f.settings.occlusion_turns = 8;
+    f.settings.occlusion_interval = 8;
     assert_int_equal(virga_rain_set(f.rain, &f.settings), VIRGA_OK);
     count_landed(&f, on); /* the first call draws all */
     assert_true(on[1] > 10 && on[2] > 10);
@@ -195,7 +195,7 @@ static void a_camera_that_jumps_has_all_maps_at_once(void **state)
     rain_fixture f;
     uint32_t on[4];
     open_roof(&f, 0);
-    f.settings.occlusion_turns = 16;
+    f.settings.occlusion_interval = 16;
     assert_int_equal(virga_rain_set(f.rain, &f.settings), VIRGA_OK);
     f.camera[0] = 50;
     count_landed(&f, on);

@@ -33,11 +33,11 @@ static const virga_prepared_gpu *prepared_of(const shot *s)
 }
 
 /* The streak whose two triangles or line are at a place of a draw. */
-static uint32_t streak_at(const shot *s, const virga_draw_gpu *draw, uint32_t place)
+static uint32_t streak_at(const shot *s, const virga_draw_gpu *draw, uint32_t slot)
 {
     static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3}, ends[2] = {0, 2};
     const bool line = draw == &prepared_of(s)->lines;
-    const uint32_t *indices = (const uint32_t *)s->order.mapped + draw->first_index + (size_t)place * (line ? 2 : 6);
+    const uint32_t *indices = (const uint32_t *)s->order.mapped + draw->first_index + (size_t)slot * (line ? 2 : 6);
     const uint32_t streak = indices[0] / 4;
     for (uint32_t i = 0; i < (line ? 2 : 6); i++)
         assert_int_equal(indices[i], 4 * streak + (line ? ends : corners)[i]);
@@ -72,7 +72,7 @@ static void prepare_shot(shot *s, float rate_mm_h)
 {
     open_shot(s, rate_mm_h);
     add_picture(s, 640, 480);
-    s->f.settings.bodies_min_mm = 0.2F;
+    s->f.settings.streak_min_mm = 0.2F;
     s->f.settings.streak_gain = 4;
     apply_settings(s);
     const host_camera_key key = {0, {0, 1.7, 0}, {0, 1.7, -5}, 0, false};
@@ -88,18 +88,18 @@ static void each_streak_is_drawn_once(void **state)
     shot s;
     prepare_shot(&s, 100);
     const virga_prepared_gpu *prepared = prepared_of(&s);
-    const virga_draw_gpu *draws[3] = {&prepared->wide, &prepared->lines, &prepared->thin};
+    const virga_draw_gpu *draws[3] = {&prepared->wide_quads, &prepared->lines, &prepared->thin_quads};
     const uint32_t count = streak_count(&s);
     bool *drawn = calloc(count, sizeof *drawn);
     for (int i = 0; i < 3; i++)
-        for (uint32_t place = 0; place < count_of(&s, draws[i]); place++) {
-            const uint32_t streak = streak_at(&s, draws[i], place);
+        for (uint32_t slot = 0; slot < count_of(&s, draws[i]); slot++) {
+            const uint32_t streak = streak_at(&s, draws[i], slot);
             assert_false(drawn[streak]);
             drawn[streak] = true;
         }
     uint32_t nothing = 0;
     for (uint32_t i = 0; i < count; i++) {
-        assert_true(drawn[i] == covers(&streak_list(&s)[i]) || i < count_of(&s, &prepared->wide));
+        assert_true(drawn[i] == covers(&streak_list(&s)[i]) || i < count_of(&s, &prepared->wide_quads));
         nothing += !drawn[i];
     }
     printf("%u streaks, %u of them cover nothing\n", count, nothing);
@@ -113,11 +113,11 @@ static void wide_streaks_keep_their_places(void **state)
     (void)state;
     shot s;
     prepare_shot(&s, 100);
-    const virga_draw_gpu *wide = &prepared_of(&s)->wide;
+    const virga_draw_gpu *wide = &prepared_of(&s)->wide_quads;
     printf("%u of %u streaks are wide\n", count_of(&s, wide), streak_count(&s));
     assert_true(count_of(&s, wide) > 0);
-    for (uint32_t place = 0; place < count_of(&s, wide); place++)
-        assert_int_equal(streak_at(&s, wide, place), place);
+    for (uint32_t slot = 0; slot < count_of(&s, wide); slot++)
+        assert_int_equal(streak_at(&s, wide, slot), slot);
     close_shot(&s);
 }
 
@@ -126,13 +126,13 @@ static void wide_streaks_keep_their_places(void **state)
 static uint32_t check_order(const shot *s, const virga_draw_gpu *draw, uint32_t first_bucket)
 {
     uint32_t area = 0, before = 0, areas = 0;
-    for (uint32_t place = 0; place < count_of(s, draw); place++) {
-        const uint32_t streak = streak_at(s, draw, place);
+    for (uint32_t slot = 0; slot < count_of(s, draw); slot++) {
+        const uint32_t streak = streak_at(s, draw, slot);
         const virga_streak_gpu *here = &streak_list(s)[streak];
         const uint32_t own = here->order / VIRGA_RAIN_GROUP - first_bucket;
         assert_true(is_in_area(s, here, own));
-        assert_true(place == 0 || own > area || (own == area && streak > before));
-        areas += place == 0 || own != area;
+        assert_true(slot == 0 || own > area || (own == area && streak > before));
+        areas += slot == 0 || own != area;
         area = own;
         before = streak;
     }
@@ -146,7 +146,7 @@ static void thin_streaks_follow_the_picture(void **state)
     prepare_shot(&s, 100);
     const virga_prepared_gpu *prepared = prepared_of(&s);
     const uint32_t lines = check_order(&s, &prepared->lines, 0);
-    const uint32_t quads = check_order(&s, &prepared->thin, has_lines(&s) ? VIRGA_RAIN_BUCKETS / 2 : 0);
+    const uint32_t quads = check_order(&s, &prepared->thin_quads, has_lines(&s) ? VIRGA_RAIN_BUCKETS / 2 : 0);
     assert_true(quads > VIRGA_RAIN_BUCKETS / 4);
     assert_true(!has_lines(&s) || lines > VIRGA_RAIN_BUCKETS / 4);
     close_shot(&s);
@@ -158,24 +158,24 @@ static void the_thinnest_are_lines_where_the_device_has_them(void **state)
     shot s;
     prepare_shot(&s, 100);
     const virga_prepared_gpu *prepared = prepared_of(&s);
-    const uint32_t lines = count_of(&s, &prepared->lines), quads = count_of(&s, &prepared->thin);
+    const uint32_t lines = count_of(&s, &prepared->lines), quads = count_of(&s, &prepared->thin_quads);
     printf("%u lines, %u thin streaks of two triangles\n", lines, quads);
     assert_true(quads > 0 && (lines > 0) == has_lines(&s));
-    for (uint32_t place = 0; place < lines; place++)
-        assert_true(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->lines, place)], 1e-4));
-    for (uint32_t place = 0; has_lines(&s) && place < quads; place++)
-        assert_false(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->thin, place)], -1e-4));
+    for (uint32_t slot = 0; slot < lines; slot++)
+        assert_true(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->lines, slot)], 1e-4));
+    for (uint32_t slot = 0; has_lines(&s) && slot < quads; slot++)
+        assert_false(is_line_by(&s, &streak_list(&s)[streak_at(&s, &prepared->thin_quads, slot)], -1e-4));
     close_shot(&s);
 }
 
-static uint64_t sum_of_places(const shot *s)
+static uint64_t sum_of_streaks(const shot *s)
 {
     const virga_prepared_gpu *prepared = prepared_of(s);
-    const virga_draw_gpu *draws[3] = {&prepared->wide, &prepared->lines, &prepared->thin};
+    const virga_draw_gpu *draws[3] = {&prepared->wide_quads, &prepared->lines, &prepared->thin_quads};
     uint64_t sum = 0;
     for (int i = 0; i < 3; i++)
-        for (uint32_t place = 0; place < count_of(s, draws[i]); place++)
-            sum += 1 + streak_at(s, draws[i], place);
+        for (uint32_t slot = 0; slot < count_of(s, draws[i]); slot++)
+            sum += 1 + streak_at(s, draws[i], slot);
     return sum;
 }
 
@@ -185,16 +185,16 @@ static void a_view_without_rain_draws_nothing_in_order(void **state)
     (void)state;
     shot s;
     prepare_shot(&s, 100);
-    const uint64_t before = sum_of_places(&s);
+    const uint64_t before = sum_of_streaks(&s);
     s.f.settings.streak_gain = 0;
     apply_settings(&s);
     draw_frame(&s, 0);
     assert_int_equal(streak_count(&s), 0);
-    assert_int_equal(sum_of_places(&s), 0);
+    assert_int_equal(sum_of_streaks(&s), 0);
     s.f.settings.streak_gain = 4;
     apply_settings(&s);
     draw_frame(&s, 0);
-    assert_int_equal(sum_of_places(&s), before);
+    assert_int_equal(sum_of_streaks(&s), before);
     close_shot(&s);
 }
 

@@ -40,7 +40,7 @@ static void check_records(const shot *s)
     }
     for (uint32_t slot = 0; slot < s->f.slots; slot++) {
         if (!expect_streak(s, slot, &e) || !inside(e.head) || !inside(e.tail) || e.alpha < 1e-4 ||
-            e.diameter_m < (double)s->f.settings.bodies_min_mm * 1e-3)
+            e.diameter_m < (double)s->f.settings.streak_min_mm * 1e-3)
             continue;
         due++;
         missing += !there[slot];
@@ -112,7 +112,7 @@ static void no_streak_that_passes_the_camera_is_missing(void **state)
     open_shot(&s, 200);
     add_picture(&s, 320, 240);
     s.shutter_s = 0.1;
-    s.f.settings.bodies_min_mm = 0.2f;
+    s.f.settings.streak_min_mm = 0.2f;
     apply_settings(&s);
     aim(&s, &s.camera, s.f.camera, (const double[3]){0.2, 10, -2});
     s.open = s.camera;
@@ -131,15 +131,15 @@ static void no_streak_that_passes_the_camera_is_missing(void **state)
 /* ---- waves */
 
 /* Where drops are in their oscillation at the tails of streaks, by slot; -1: no streak. */
-static void turns_at_tails(shot *s, double ago_s, double *turns)
+static void phases_at_tails(shot *s, double frame_interval_s, double *turns)
 {
     for (uint32_t slot = 0; slot < s->f.slots; slot++)
         turns[slot] = -1;
-    s->ago_s = ago_s;
+    s->frame_interval_s = frame_interval_s;
     draw_frame(s, 0);
     for (uint32_t i = 0; i < streak_count(s); i++)
         if (streak_list(s)[i].width_alpha)
-            turns[slot_of(&streak_list(s)[i])] = high_half(streak_list(s)[i].turns);
+            turns[slot_of(&streak_list(s)[i])] = high_half(streak_list(s)[i].oscillations);
 }
 
 /* Rayleigh's second mode. */
@@ -163,8 +163,8 @@ static void drops_oscillate_alike_after_a_day_of_rain(void **state)
     draw_frame(&s, 0.2);
     s.f.rain->ticks += 24 * 3600 * 60;
     double *before = calloc(s.f.slots, sizeof *before), *now = calloc(s.f.slots, sizeof *now);
-    turns_at_tails(&s, between_s, before);
-    turns_at_tails(&s, 0, now);
+    phases_at_tails(&s, between_s, before);
+    phases_at_tails(&s, 0, now);
     for (uint32_t slot = 0; slot < s.f.slots; slot++) {
         if (before[slot] < 0 || now[slot] < 0)
             continue;
@@ -207,7 +207,7 @@ static void lamp_at(const shot *s, const virga_light *light, const double p[3], 
 }
 
 /* The middle line shows the world through nearly straight rays, the edge through bent ones. */
-static void light_of(const shot *s, const expected *e, double centre[3], double rim[3])
+static void light_of(const shot *s, const expected *e, double center[3], double rim[3])
 {
     double moments[3], d[3], glitter[3] = {0};
     const double *m = e->middle, length = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
@@ -216,10 +216,10 @@ static void light_of(const shot *s, const expected *e, double centre[3], double 
     for (uint32_t i = 0; i < s->f.settings.lighting.light_count; i++)
         lamp_at(s, &s->f.settings.lighting.lights[i], m, d, glitter);
     virga_drop_phase_moments(moments);
-    environment_at(s, d, (const double[3]){1, 0.97, 0.90}, centre);
+    environment_at(s, d, (const double[3]){1, 0.97, 0.90}, center);
     environment_at(s, d, (const double[3]){1, 0.75 * moments[1], 0.3 * moments[2]}, rim);
     for (int c = 0; c < 3; c++) {
-        centre[c] += glitter[c];
+        center[c] += glitter[c];
         rim[c] += 0.6 * glitter[c];
     }
 }
@@ -230,14 +230,14 @@ static void check_lights(const shot *s)
     for (uint32_t i = 0; i < streak_count(s); i++) {
         const virga_streak_gpu *streak = &streak_list(s)[i];
         expected e;
-        double centre[3], rim[3];
+        double center[3], rim[3];
         if (!streak->width_alpha || !expect_streak(s, slot_of(streak), &e))
             continue;
-        light_of(s, &e, centre, rim);
+        light_of(s, &e, center, rim);
         const double got[6] = {low_half(streak->light[0]),  high_half(streak->light[0]), low_half(streak->light[1]),
                                high_half(streak->light[1]), low_half(streak->light[2]),  high_half(streak->light[2])};
         for (int c = 0; c < 3; c++) {
-            assert_true(fabs(got[c] - centre[c]) < 0.01 * centre[c] + 1e-4);
+            assert_true(fabs(got[c] - center[c]) < 0.01 * center[c] + 1e-4);
             assert_true(fabs(got[3 + c] - rim[c]) < 0.01 * rim[c] + 1e-4);
         }
         checked++;
@@ -285,11 +285,11 @@ static void streaks_glitter_by_the_phase_function(void **state)
 }
 
 /* Distance in pixels of a pixel from the picture of a place. */
-static double pixels_from(const shot *s, size_t pixel, const double place[3])
+static double pixels_from(const shot *s, size_t pixel, const double position[3])
 {
     double from_camera[3], clip[4];
     for (int i = 0; i < 3; i++)
-        from_camera[i] = place[i] - s->camera.position_m[i];
+        from_camera[i] = position[i] - s->camera.position_m[i];
     to_clip(&s->camera, false, from_camera, clip);
     const double x = (clip[0] / clip[3] * 0.5 + 0.5) * s->picture.width,
                  y = (clip[1] / clip[3] * 0.5 + 0.5) * s->picture.height;

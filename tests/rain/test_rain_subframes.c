@@ -10,7 +10,7 @@ static double mean_coverage(shot *s, uint32_t sub_frames)
     s->sub_frames = sub_frames;
     s->shutter_s = SHUTTER_S / sub_frames;
     for (uint32_t i = 0; i < sub_frames; i++) {
-        s->ago_s = s->shutter_s * i;
+        s->frame_interval_s = s->shutter_s * i;
         sum += sum_of(s, draw_frame(s, 0), 3);
     }
     return sum / sub_frames / s->picture.width / s->picture.height;
@@ -69,7 +69,7 @@ static void longer_streaks_end_at_the_ground(void **state)
     s.sub_frames = 16;
     s.shutter_s = SHUTTER_S / 16;
     const VkCommandBuffer cmd = rain_fixture_begin_frame(&s.f);
-    REQUIRE(virga_rain_occlusion(s.f.rain, cmd, s.f.camera, s.f.occluders, s.f.occluder_count) == VIRGA_OK);
+    REQUIRE(virga_rain_draw_occlusion(s.f.rain, cmd, s.f.camera, s.f.occluders, s.f.occluder_count) == VIRGA_OK);
     rain_fixture_record_step(&s.f, cmd, 0.2);
     draw_without_step(&s, cmd);
     uint32_t cut = 0, longer = 0;

@@ -61,12 +61,12 @@ static void aim(host_camera *camera, double x, double z, double to_x, const floa
 }
 
 /* A game's previous camera, apart from the shutter's. */
-static void set_previous(virga_view *view, const host_camera *before, double ago_s)
+static void set_previous(virga_view *view, const host_camera *before, double frame_interval_s)
 {
     memcpy(view->temporal.position_m, before->position_m, sizeof before->position_m);
     memcpy(view->temporal.view_from_world, before->view_from_world, sizeof before->view_from_world);
     memcpy(view->temporal.clip_from_view, before->clip_from_view, sizeof before->clip_from_view);
-    view->temporal.ago_s = ago_s;
+    view->temporal.frame_interval_s = frame_interval_s;
 }
 
 static void draw_frame(shot *s, double dt_s)
@@ -92,17 +92,17 @@ static void draw_frame(shot *s, double dt_s)
 
 /* ---- vectors in doubles */
 
-/* Where a drop was `ago_s` before the time drawn, in the world. */
-static void drop_at(const shot *s, uint32_t slot, double ago_s, double place[3])
+/* Where a drop was `frame_interval_s` before the time drawn, in the world. */
+static void drop_at(const shot *s, uint32_t slot, double frame_interval_s, double position[3])
 {
     const virga_rain *rain = s->f.rain;
     const uint32_t k = ((const virga_slot_gpu *)s->slots.mapped)[slot].class_rank & 0xffff;
     const double diameter = VIRGA_DROP_MIN_M * pow(VIRGA_DROP_MAX_M / VIRGA_DROP_MIN_M, (k + 0.5) / VIRGA_RAIN_CLASSES);
-    const double since = virga_rain_time(rain) - (double)rain->ticks * rain->def.tick_s - ago_s;
+    const double since = virga_rain_time(rain) - (double)rain->ticks * rain->def.tick_s - frame_interval_s;
     for (int i = 0; i < 3; i++) {
         const double velocity =
             (double)s->f.settings.wind_m_s[i] - (i == 1 ? virga_drop_terminal_speed(diameter, 0) : 0);
-        place[i] = (double)rain_fixture_drops(&s->f)[slot].position[i] + s->f.origin[i] + velocity * since;
+        position[i] = (double)rain_fixture_drops(&s->f)[slot].position[i] + s->f.origin[i] + velocity * since;
     }
 }
 
@@ -117,7 +117,7 @@ static bool expect_motion(const shot *s, uint32_t slot, double open_s, const hos
 {
     double here[3], there[3], pixel[2], was[2];
     drop_at(s, slot, open_s, here);
-    drop_at(s, slot, open_s + s->view.temporal.ago_s, there);
+    drop_at(s, slot, open_s + s->view.temporal.frame_interval_s, there);
     if (camera_pixel(now, here, pixel) < 0.3 || camera_pixel(before, there, was) < 0.3)
         return false;
     motion[0] = was[0] - pixel[0];
@@ -216,17 +216,17 @@ static int widest_streak(const shot *s)
 
 /* A pixel of a streak has its motion where the streak covers enough of it, with the scale asked for; else what was
  * there. Half floats: 1/1024 of the value; and between the ends it is taken as even: 0.05 px. */
-static void check_pixels(const shot *s, float scale, double least)
+static void check_pixels(const shot *s, float scale, double min)
 {
     const float *ends = motions_of(s)[s->only];
-    uint32_t taken = 0, left = 0;
+    uint32_t used = 0, left = 0;
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
         const double alpha = (double)s->picture.color[4 * i + 3];
-        if (fabs(alpha - least) < 1e-5)
+        if (fabs(alpha - min) < 1e-5)
             continue;
-        assert_int_equal(picture_has_motion(&s->picture, i), alpha >= least);
-        left += alpha > 0 && alpha < least;
-        if (alpha < least)
+        assert_int_equal(picture_has_motion(&s->picture, i), alpha >= min);
+        left += alpha > 0 && alpha < min;
+        if (alpha < min)
             continue;
         for (int axis = 0; axis < 2; axis++) {
             const double a = (double)(ends[axis] * scale), b = (double)(ends[2 + axis] * scale), margin = fabs(a - b);
@@ -234,9 +234,9 @@ static void check_pixels(const shot *s, float scale, double least)
             assert_true(value > fmin(a, b) - margin - 0.05 - fabs(a) / 1024);
             assert_true(value < fmax(a, b) + margin + 0.05 + fabs(a) / 1024);
         }
-        taken++;
+        used++;
     }
-    assert_true(taken > 3 && left > 3);
+    assert_true(used > 3 && left > 3);
 }
 
 static void pixels_that_a_streak_covers_enough_take_its_motion(void **state)
@@ -254,14 +254,14 @@ static void pixels_that_a_streak_covers_enough_take_its_motion(void **state)
     draw_frame(&s, 0.2);
     s.only = widest_streak(&s);
     draw_frame(&s, 0);
-    float most = 0;
+    float max = 0;
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++)
-        most = fmaxf(most, s.picture.color[4 * i + 3]);
-    s.view.temporal.motion_coverage = 0.5f * most;
+        max = fmaxf(max, s.picture.color[4 * i + 3]);
+    s.view.temporal.motion_coverage = 0.5f * max;
     for (int back = 0; back < 2; back++) {
         s.view.temporal.motion_scale[0] = s.view.temporal.motion_scale[1] = back ? -0.5f : 1;
         draw_frame(&s, 0);
-        check_pixels(&s, back ? -0.5f : 1, 0.5 * (double)most);
+        check_pixels(&s, back ? -0.5f : 1, 0.5 * (double)max);
     }
     close_shot(&s);
 }
@@ -280,13 +280,13 @@ static void the_mask_is_the_coverage_of_so_many_layers(void **state)
         const double gain = (const double[]){1, 8, 0}[k];
         s.view.temporal.reactive_gain = (float)gain;
         draw_frame(&s, k ? 0 : 0.2);
-        double most = 0;
+        double max = 0;
         for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
             const double expected = 1 - pow(1 - (double)s.picture.color[4 * i + 3], gain);
             assert_true(fabs((double)s.picture.reactive[i] - expected) < 3.5 / 255);
-            most = fmax(most, expected);
+            max = fmax(max, expected);
         }
-        assert_true(gain > 0 ? most > 0.2 : most == 0);
+        assert_true(gain > 0 ? max > 0.2 : max == 0);
     }
     close_shot(&s);
 }

@@ -85,29 +85,29 @@ static void what_open_ground_gets_is_told(void **state)
     (void)state;
     rain_fixture f;
     host_buffer read = {0};
-    virga_rain_fall fall;
+    virga_rainfall fall;
     open_sky(&f, 10, (float)(20 * tick_s));
     rain_fixture_points_step(&f, 15.001 * tick_s, &read); /* so that sums of floats do not fall a tick short */
-    virga_rain_fall_get(f.rain, &fall);
+    virga_rain_rainfall_get(f.rain, &fall);
     assert_float_equal(fall.rate_mm_h, 10, 1e-4);
     assert_float_equal(fall.drop_m / mean_diameter(10), 1, 0.01);
     assert_float_equal(fall.reach_m, f.rain->def.range_m, 0);
     f.settings.rate_mm_h = 50;
     set(&f);
     rain_fixture_points_step(&f, 10 * tick_s, &read);
-    virga_rain_fall_get(f.rain, &fall);
+    virga_rain_rainfall_get(f.rain, &fall);
     assert_float_equal(fall.rate_mm_h, 30, 1e-3);
     rain_fixture_points_step(&f, 10 * tick_s, &read);
-    virga_rain_fall_get(f.rain, &fall);
+    virga_rain_rainfall_get(f.rain, &fall);
     assert_float_equal(fall.rate_mm_h, 50, 1e-4);
     assert_float_equal(fall.drop_m / mean_diameter(50), 1, 0.01);
     f.settings.rate_mm_h = 0;
     set(&f);
     for (int i = 0; i < 2; i++)
         rain_fixture_points_step(&f, 15.001 * tick_s, &read);
-    virga_rain_fall_get(f.rain, &fall);
+    virga_rain_rainfall_get(f.rain, &fall);
     assert_true(fall.rate_mm_h == 0 && fall.drop_m == 0);
-    virga_rain_fall_get(NULL, &fall);
+    virga_rain_rainfall_get(NULL, &fall);
     assert_true(fall.reach_m == 0);
     host_buffer_destroy(&f.gpu.device, &read);
     rain_fixture_close(&f);

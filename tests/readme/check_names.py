@@ -43,7 +43,8 @@ for path in files_of_project():
     labels |= set(re.findall(r'"([a-z]+\.[a-z_]+)"', text))
 
 for page in pages.names(root):
-    for span in pages.spans(pages.read(root, page)):
+    text = pages.read(root, page).split("\n## Renamed before 1.0\n")[0]  # behind it are names that are no more
+    for span in pages.spans(text):
         if span.startswith(("http", "$", "-") + OTHERS) or " " in span or span.endswith((".rdc", "_spv")):
             continue
         for name in re.findall(r"\b[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)+\b", span):

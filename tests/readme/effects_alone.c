@@ -15,14 +15,14 @@ void record_frame(virga_context *context, virga_rain *rain, virga_ground *ground
 {
     virga_rain_step_info step = {.dt_s = dt};
     virga_rain_buffer impacts;
-    virga_splash_buffer rules, returns;
+    virga_splash_buffer rules, returned_droplets;
     virga_ground_step_info ground_info = {.meshes = occluders, .mesh_count = occluder_count};
     virga_splash_step_info splash_info = {.wind_m_s = {0, 0, 0}};
     for (int axis = 0; axis < 3; axis++)
         step.camera_m[axis] = ground_info.camera_m[axis] = splash_info.camera_m[axis] = camera_m[axis];
 
     virga_frame_begin(context, frame_index, completed_index);
-    virga_rain_occlusion(rain, cmd, camera_m, occluders, occluder_count); /* draws your meshes from above */
+    virga_rain_draw_occlusion(rain, cmd, camera_m, occluders, occluder_count); /* draws your meshes from above */
     virga_rain_step(rain, cmd, &step);
 
     virga_rain_impacts(rain, &impacts); /* the ground reads what landed */
@@ -33,10 +33,10 @@ void record_frame(virga_context *context, virga_rain *rain, virga_ground *ground
     virga_splash_rules(splash, &rules); /* which drops splash */
     ground_info.splash_rules = rules.buffer;
     ground_info.splash_rules_offset = rules.offset;
-    virga_splash_returns(splash, &returns); /* and the droplets that fell back in the step before */
-    ground_info.returns = returns.buffer;
-    ground_info.returns_offset = returns.offset;
-    ground_info.returns_size = returns.size;
+    virga_splash_returned_droplets(splash, &returned_droplets); /* and the droplets that fell back in the step before */
+    ground_info.returned_droplets = returned_droplets.buffer;
+    ground_info.returned_droplets_offset = returned_droplets.offset;
+    ground_info.returned_droplets_size = returned_droplets.size;
     virga_ground_step(ground, cmd, &ground_info);
 
     virga_ground_spawns(ground, &splash_info.spawns, &splash_info.spawns_size); /* splashes begin where drops landed */

@@ -4,7 +4,7 @@
 #include "../gpu/small_scene.h"
 #include "../gpu/small_state.h"
 
-typedef struct told {
+typedef struct fields_test {
     gpu_fixture *f;
     virga_context *context;
     virga_scene *scene;
@@ -16,11 +16,11 @@ typedef struct told {
     virga_view view;
     virga_occluder mesh;
     uint32_t frames;
-} told;
+} fields_test;
 
 #define SIZE(table) (sizeof(table) / sizeof(table)[0])
 
-static void open_buffers(told *t)
+static void open_buffers(fields_test *t)
 {
     host_device *device = &t->f->gpu.device;
     char *error = t->f->gpu.error;
@@ -32,7 +32,7 @@ static void open_buffers(told *t)
     t->mesh = small_occluder(t->vertices.buffer, t->indices.buffer);
 }
 
-static void open_told(told *t, void **state)
+static void open_test(fields_test *t, void **state)
 {
     virga_glass_def panes[SMALL_PANES];
     const virga_scene_def def = small_scene_def(panes);
@@ -54,7 +54,7 @@ static void open_told(told *t, void **state)
                                    .panes = t->panes};
 }
 
-static void close_told(told *t)
+static void close_test(fields_test *t)
 {
     small_state_close(&t->state, &t->f->gpu.device);
     virga_scene_destroy(&t->scene);
@@ -65,7 +65,7 @@ static void close_told(told *t)
 }
 
 /* One frame of the scene as it is told; checks the state where it was stepped. */
-static virga_result record_frame(told *t, const virga_scene_frame *frame)
+static virga_result record_frame(fields_test *t, const virga_scene_frame *frame)
 {
     VkCommandBuffer cmd = gpu_begin_frame(t->f, t->context);
     const virga_result result = virga_scene_record(t->scene, cmd, frame);
@@ -80,8 +80,8 @@ static virga_result record_frame(told *t, const virga_scene_frame *frame)
     return result;
 }
 
-static void try_fields(told *t, const char *name, const void *good, size_t size, const field *fields, uint32_t count,
-                       virga_result (*call)(void *, const void *), void (*read)(void *, void *))
+static void try_fields(fields_test *t, const char *name, const void *good, size_t size, const field *fields,
+                       uint32_t count, virga_result (*call)(void *, const void *), void (*read)(void *, void *))
 {
     const field_table table = {name, good, size, fields, count, call, read, t};
     fields_try(t->f, &table);
@@ -90,14 +90,14 @@ static void try_fields(told *t, const char *name, const void *good, size_t size,
 
 /* ---- settings */
 
-#define SETTINGS(effect, of)                                             \
-    static virga_result set_##effect(void *user, const void *changed)    \
-    {                                                                    \
-        return virga_##effect##_set(of(((told *)user)->scene), changed); \
-    }                                                                    \
-    static void get_##effect(void *user, void *in_force)                 \
-    {                                                                    \
-        virga_##effect##_get(of(((told *)user)->scene), in_force);       \
+#define SETTINGS(effect, of)                                                    \
+    static virga_result set_##effect(void *user, const void *changed)           \
+    {                                                                           \
+        return virga_##effect##_set(of(((fields_test *)user)->scene), changed); \
+    }                                                                           \
+    static void get_##effect(void *user, void *in_force)                        \
+    {                                                                           \
+        virga_##effect##_get(of(((fields_test *)user)->scene), in_force);       \
     }
 #define FIRST_PANE(scene) virga_scene_glass(scene, 0)
 SETTINGS(rain, virga_scene_rain)
@@ -106,7 +106,7 @@ SETTINGS(glass, FIRST_PANE)
 
 static virga_result set_ground(void *user, const void *changed)
 {
-    return virga_ground_set(virga_scene_ground(((told *)user)->scene), changed);
+    return virga_ground_set(virga_scene_ground(((fields_test *)user)->scene), changed);
 }
 
 #define FAR                    VIRGA_TESTS_FARTHEST_M
@@ -136,23 +136,23 @@ static void rain_settings_fields(void **state)
         F(light_gain, 0, 100),
         F(min_width_px, 0.5, 4),
         F(soft_m, 0, 1),
-        F(near_m, 0, 5),
+        F(near_fade_m, 0, 5),
         F(oscillation, 0, 4),
         F(haze, 0, 4),
         F(haze_sky_m, 0, 100000),
         F(glow, 0, 100),
-        F(bodies_min_mm, 0.2, 2),
+        F(streak_min_mm, 0.2, 2),
         F(default_material, 0, 255),
         FIELD(virga_rain_settings, wind_min_m, REFUSED, -FAR, FAR),
         FIELD(virga_rain_settings, wind_max_m, REFUSED, -FAR, FAR),
         LIGHTS(virga_rain_settings),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     virga_rain_settings good = virga_default_rain_settings();
     good.lighting.light_count = 1;
     try_fields(&t, "rain_settings", &good, sizeof good, fields, SIZE(fields), set_rain, get_rain);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -168,14 +168,14 @@ static void ground_settings_fields(void **state)
         F(materials[3].infiltration_mm_h, 0, 10000),
         F(materials[3].drying, 0, 10),
         F(materials[3].manning_n, 0.005, 1),
-        F(materials[31].bumps_mm, 0, 50),
-        F(materials[31].bump_m, 0.2, 50),
+        F(materials[31].bump_height_mm, 0, 50),
+        F(materials[31].bump_width_m, 0.2, 50),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     const virga_ground_settings good = virga_default_ground_settings();
     try_fields(&t, "ground_settings", &good, sizeof good, fields, SIZE(fields), set_ground, NULL);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -185,36 +185,37 @@ static void splash_settings_fields(void **state)
     static const field fields[] = {
         FIELD(virga_splash_settings, mode, REFUSED, 0, 1),
         FIELD(virga_splash_settings, style, REFUSED, 0, 1),
-        F(rows[0][0].model, 0, VIRGA_SPLASH_DISK),
-        F(rows[0][0].least_diameter_mm, 0, 10),
-        F(rows[0][0].least_depth_mm, 0, 100),
-        F(rows[0][0].share, 0, 1),
-        F(rows[0][0].count, 0, 64),
-        F(rows[0][0].angle_deg, 0, 90),
-        F(rows[0][0].speed_m_s, 0, 10),
-        F(rows[31][5].strength, 0, 4),
-        F(rows[31][5].circle, 0, 10),
-        F(pile_s, 0.001, 0.2),
-        F(pile_m, 0.001, 0.2),
+        F(rules[0][0].model, 0, VIRGA_SPLASH_DISK),
+        F(rules[0][0].min_diameter_mm, 0, 10),
+        F(rules[0][0].min_depth_mm, 0, 100),
+        F(rules[0][0].share, 0, 1),
+        F(rules[0][0].count, 0, 64),
+        F(rules[0][0].angle_deg, 0, 90),
+        F(rules[0][0].speed_m_s, 0, 10),
+        F(rules[31][5].strength, 0, 4),
+        F(rules[31][5].circle_radius, 0, 10),
+        F(pile_max_s, 0.001, 0.2),
+        F(pile_max_m, 0.001, 0.2),
         F(bounce, 0, 1),
         F(wind_share, 0, 2),
-        F(droplets_m, 0, 1000),
-        F(dot_mm, 0.05, 5),
+        F(droplet_range_m, 0, 1000),
+        F(dot_min_mm, 0.05, 5),
         F(air_density, 0.3, 2),
         F(gain, 0, 100),
         F(light_gain, 0, 100),
         F(min_width_px, 0.5, 4),
         F(soft_m, 0, 1),
-        F(near_m, 0, 5),
+        F(near_fade_m, 0, 5),
         LIGHTS(virga_splash_settings),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     virga_splash_settings good = virga_default_splash_settings();
     good.lighting.light_count = 1;
-    good.rows[0][0] = (virga_splash_row){.share = {0, 1}, .count = {0, 64}, .angle_deg = {0, 90}, .speed_m_s = {0, 10}};
+    good.rules[0][0] =
+        (virga_splash_rule){.share = {0, 1}, .count = {0, 64}, .angle_deg = {0, 90}, .speed_m_s = {0, 10}};
     try_fields(&t, "splash_settings", &good, sizeof good, fields, SIZE(fields), set_splash, get_splash);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -223,23 +224,23 @@ static const field glass_fields[] = {
     F(advancing_deg, 5, 175),
     F(receding_deg, 1, 63),
     F(drag, 0.01, 100),
-    F(run_hold, 0, 1),
+    F(kinetic_hold, 0, 1),
     F(affinity, 0, 2),
     F(meander, 0, 1),
     F(path_ease, 0, 1),
-    F(path_s, 0.1, 600),
-    F(touch, 0, 2),
-    F(tail_m, 0.001, 1),
-    F(tail_mm, 0, 2),
-    F(tail_s, 0.1, 3600),
+    F(path_dry_s, 0.1, 600),
+    F(merge_distance, 0, 2),
+    F(tail_spacing_m, 0.001, 1),
+    F(tail_max_radius_mm, 0, 2),
+    F(tail_lifetime_s, 0.1, 3600),
     F(film_um, 0, 100),
     F(film_break_s, 0, 60),
     F(evaporation_mm_h, 0, 100),
-    F(mist_mm, 0, 1),
+    F(mist_max_mm, 0, 1),
     F(air_share, 0, 2),
-    F(particle_mm, 0.2, 5),
+    F(particle_radius_mm, 0.2, 5),
     F(penalty, 0, 1),
-    F(band, 1, 16),
+    F(particle_band, 1, 16),
     F(hold_back_mm, 0, 20),
     F(hold_back_cells, 0, 8),
     F(compress_from, 0, 2),
@@ -260,7 +261,7 @@ static const field glass_fields[] = {
     F(wipers[0].low_deg, -720, 720),
     F(wipers[0].high_deg, -720, 720),
     F(wipers[0].blade_deg, -180, 180),
-    F(wipers[0].blade_turn, 0, 1),
+    F(wipers[0].blade_hold_direction, 0, 1),
     F(wipers[0].sweep_s, 0.1, 60),
     F(wipers[0].pause_s, 0, 3600),
     F(wipers[0].phase_s, 0, 3600),
@@ -276,8 +277,8 @@ static const field glass_fields[] = {
 
 static void glass_settings_fields(void **state)
 {
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     virga_glass_settings good = virga_default_glass_settings();
     good.wiper_count = good.lighting.light_count = 1;
     /* What bounds another field is tried where the other fits under all of its range. */
@@ -289,7 +290,7 @@ static void glass_settings_fields(void **state)
     good.wipers[0].blade_m = 0.01f;
     try_fields(&t, "glass_settings", &good, sizeof good, glass_fields, 1, set_glass, get_glass);
     try_fields(&t, "glass_settings", &good, sizeof good, glass_fields + 34, 1, set_glass, get_glass);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -302,7 +303,7 @@ static virga_result frame_with(void *user, const void *changed)
 
 static virga_result frame_with_view(void *user, const void *changed)
 {
-    const told *t = user;
+    const fields_test *t = user;
     virga_scene_frame frame = t->frame;
     frame.view = changed;
     return record_frame(user, &frame);
@@ -310,7 +311,7 @@ static virga_result frame_with_view(void *user, const void *changed)
 
 static virga_result frame_with_panes(void *user, const void *changed)
 {
-    const told *t = user;
+    const fields_test *t = user;
     virga_scene_frame frame = t->frame;
     frame.panes = changed;
     return record_frame(user, &frame);
@@ -318,7 +319,7 @@ static virga_result frame_with_panes(void *user, const void *changed)
 
 static virga_result frame_with_mesh(void *user, const void *changed)
 {
-    const told *t = user;
+    const fields_test *t = user;
     virga_scene_frame frame = t->frame;
     frame.occluders = changed;
     return record_frame(user, &frame);
@@ -329,7 +330,7 @@ static void scene_frame_fields(void **state)
 {
     static const field fields[] = {
         F(camera_m, REFUSED, -FAR, FAR),
-        F(focus_m, REFUSED, -FAR, FAR),
+        F(ripple_center_m, REFUSED, -FAR, FAR),
         F(materials.low_m, REFUSED, -FAR, FAR),
         F(materials.high_m, REFUSED, -FAR, FAR),
     };
@@ -342,8 +343,8 @@ static void scene_frame_fields(void **state)
                                     {0, VIRGA_OK},
                                     {1e-310, VIRGA_OK},
                                     {10, VIRGA_DEGRADED}}; /* all of it but max_ticks_per_step is dropped */
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     try_fields(&t, "scene_frame", &t.frame, sizeof t.frame, fields, SIZE(fields), frame_with, NULL);
     for (size_t i = 0; i < SIZE(dts); i++) {
         virga_scene_frame frame = t.frame;
@@ -352,7 +353,7 @@ static void scene_frame_fields(void **state)
         assert_int_equal(record_frame(&t, &frame), (int)dts[i][1]);
         assert_int_equal(field_lines(t.f), dts[i][1] != VIRGA_OK);
     }
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -381,8 +382,8 @@ static void view_fields(void **state)
         F(open_clip_from_view[11], REFUSED, -1, -1),
         F(clip_from_view[8], REFUSED, -1e7, 1e7),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     try_fields(&t, "view", &t.view, sizeof t.view, fields, 6, frame_with_view, NULL);
     /* Signs do not matter to what follows, so these are tried with what is wrong alone. */
     for (size_t i = 6; i < SIZE(fields); i++) {
@@ -395,7 +396,7 @@ static void view_fields(void **state)
     gpu_forget_log(t.f);
     assert_int_equal(frame_with_view(&t, &zero), VIRGA_ERROR_INVALID); /* all matrices zero */
     assert_int_equal(field_lines(t.f), 1);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -406,11 +407,11 @@ static void scene_pane_fields(void **state)
         F(pose.position_m, REFUSED, -FAR, FAR),
         F(velocity_m_s, CLAMPED, -1000, 1000),
         F(acceleration_m_s2, CLAMPED, -1000, 1000),
-        F(turn_rad_s, CLAMPED, -100, 100),
+        F(angular_velocity_rad_s, CLAMPED, -100, 100),
         F(shelter, REFUSED, 0, 1),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     try_fields(&t, "scene_pane", t.panes, sizeof t.panes, fields, SIZE(fields), frame_with_panes, NULL);
     virga_scene_pane bent[SMALL_PANES];
     memcpy(bent, t.panes, sizeof bent);
@@ -418,7 +419,7 @@ static void scene_pane_fields(void **state)
     gpu_forget_log(t.f);
     assert_int_equal(frame_with_panes(&t, bent), VIRGA_ERROR_INVALID);
     assert_int_equal(field_lines(t.f), 1);
-    close_told(&t);
+    close_test(&t);
 }
 #undef F
 
@@ -429,14 +430,14 @@ static void mesh_fields(void **state)
         F(vertex_stride, REFUSED, 12, 12), F(index_type, REFUSED, 0, 1),           F(material, REFUSED, 0, 255),
         F(cover, REFUSED, 0, 1),           F(world_from_mesh, REFUSED, -FAR, FAR),
     };
-    told t;
-    open_told(&t, state);
+    fields_test t;
+    open_test(&t, state);
     try_fields(&t, "occluder", &t.mesh, sizeof t.mesh, fields, 4, frame_with_mesh, NULL);
     try_fields(&t, "occluder", &t.mesh, sizeof t.mesh, fields + 4, 1, frame_with_mesh, NULL);
     virga_occluder empty = t.mesh;
     empty.index_count = 0;
     assert_int_equal(frame_with_mesh(&t, &empty), VIRGA_OK);
-    close_told(&t);
+    close_test(&t);
 }
 
 int main(void)

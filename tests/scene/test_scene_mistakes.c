@@ -82,7 +82,7 @@ static void panes_that_nobody_prepared_are_told(void **state)
     open_scene(&m, state);
     REQUIRE(virga_scene_attach(m.scene, m.picture.target) == VIRGA_OK);
     gpu_forget_log(m.f);
-    m.frame.panes_later = true;
+    m.frame.defer_panes = true;
     for (int i = 0; i < 3; i++) {
         assert_int_equal(record(&m), VIRGA_OK);
         assert_int_equal(draw(&m), VIRGA_NOT_READY);
@@ -156,7 +156,7 @@ static void lists_and_pointers_that_are_missing_are_named(void **state)
     m.frame.occluders = &mesh; /* refused before a buffer is looked at */
     refused(&m, "world_from_mesh");
     gpu_forget_log(m.f);
-    assert_int_equal(virga_scene_light(m.scene, NULL), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_lighting_set(m.scene, NULL), VIRGA_ERROR_INVALID);
     assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
     close_scene(&m);
 }

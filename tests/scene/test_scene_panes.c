@@ -185,14 +185,14 @@ static void panes_catch_the_drops_that_fall(void **state)
         REQUIRE(virga_scene_record(scene, begin(f), &frame) == VIRGA_OK);
         finish(f);
     }
-    virga_glass_stats caught, told;
+    virga_glass_stats caught, expected;
     virga_glass_stats_get(virga_scene_glass(scene, 0), &caught);
-    virga_glass_stats_get(virga_scene_glass(scene, 1), &told);
-    const double share = (double)caught.landed_nl / (double)told.landed_nl;
+    virga_glass_stats_get(virga_scene_glass(scene, 1), &expected);
+    const double share = (double)caught.landed_nl / (double)expected.landed_nl;
     if (!(share > 0.75 && share < 1.33))
         fail_msg("%llu nl of drops that fall, %llu nl of the rate", (unsigned long long)caught.landed_nl,
-                 (unsigned long long)told.landed_nl);
-    assert_int_not_equal(caught.landed_nl, told.landed_nl);
+                 (unsigned long long)expected.landed_nl);
+    assert_int_not_equal(caught.landed_nl, expected.landed_nl);
     virga_scene_destroy(&scene);
 }
 
@@ -242,9 +242,9 @@ static void light_is_the_same_for_all_effects(void **state)
     light.light_count = 1;
     light.lights[0].intensity[1] = 7;
     light.environment_sh[0][2] = 0.25f;
-    assert_int_equal(virga_scene_light(scene, NULL), VIRGA_ERROR_INVALID);
-    assert_int_equal(virga_scene_light(NULL, &light), VIRGA_ERROR_INVALID);
-    REQUIRE(virga_scene_light(scene, &light) == VIRGA_OK);
+    assert_int_equal(virga_scene_lighting_set(scene, NULL), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_lighting_set(NULL, &light), VIRGA_ERROR_INVALID);
+    REQUIRE(virga_scene_lighting_set(scene, &light) == VIRGA_OK);
     virga_rain_get(virga_scene_rain(scene), &rain);
     assert_memory_equal(&rain.lighting, &light, sizeof light);
     REQUIRE(rain.rate_mm_h == 100);
@@ -253,7 +253,7 @@ static void light_is_the_same_for_all_effects(void **state)
         assert_memory_equal(&glass.lighting, &light, sizeof light);
     }
     light.lights[0].intensity[1] = NAN;
-    assert_int_equal(virga_scene_light(scene, &light), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_scene_lighting_set(scene, &light), VIRGA_ERROR_INVALID);
     virga_scene_destroy(&scene);
 }
 
@@ -286,7 +286,7 @@ static void panes_are_drawn_once_they_are_prepared(void **state)
     REQUIRE(virga_target_create(f->context, &def, &layer) == VIRGA_OK);
     REQUIRE(virga_scene_attach(scene, layer) == VIRGA_OK);
     for (int later = 0; later < 3; later++) { /* 1: one by one, 2: all in a call */
-        const virga_scene_frame frame = {.dt_s = 0.25, .view = &view, .panes = panes, .panes_later = later};
+        const virga_scene_frame frame = {.dt_s = 0.25, .view = &view, .panes = panes, .defer_panes = later};
         VkCommandBuffer cmd = begin(f);
         REQUIRE(virga_scene_record(scene, cmd, &frame) == VIRGA_OK);
         for (uint32_t i = 0; later && i < 2; i++)
@@ -302,10 +302,10 @@ static void panes_are_drawn_once_they_are_prepared(void **state)
         host_target_copy_out(&target, cmd, 1u << HOST_LAYER);
         finish(f);
         const float *pixels = host_target_floats(&f->gpu.device, &target, HOST_LAYER);
-        float most = 0;
+        float max = 0;
         for (uint32_t i = 3; i < SIDE * SIDE * 4; i += 4)
-            most = pixels[i] > most ? pixels[i] : most;
-        REQUIRE(most > 0.2f && most <= 1);
+            max = pixels[i] > max ? pixels[i] : max;
+        REQUIRE(max > 0.2f && max <= 1);
     }
     virga_target_destroy(&layer);
     virga_scene_destroy(&scene);

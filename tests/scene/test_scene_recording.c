@@ -33,7 +33,7 @@ static virga_scene *make_scene(virga_context *context)
     def.rain.max_panes = 1;
     def.ground.cells = 128;
     def.ground.max_spawns = def.splash.max_spawns = 256;
-    def.ground.max_returns = def.splash.max_returns = 512;
+    def.ground.max_returned_droplets = def.splash.max_returned_droplets = 512;
     def.splash.max_splashes = 256;
     def.splash.max_droplets = 1024;
     def.with_ground = def.with_splash = true;
@@ -51,7 +51,7 @@ static void record(virga_scene *scene, VkCommandBuffer cmd, const gpu_picture *p
     const double forward = 0.5 * number; /* the ground's window follows */
     const virga_scene_frame frame = {.dt_s = 1.0 / 30,
                                      .camera_m = {0, 1.7, -forward},
-                                     .focus_m = {0, 0, -forward},
+                                     .ripple_center_m = {0, 0, -forward},
                                      .occluders = &none,
                                      .view = &view,
                                      .panes = &pane};
@@ -102,7 +102,7 @@ static void scene_waits_for_all_of_its_pipelines(void **state)
     virga_context *context = NULL;
     gpu_picture picture;
     uint32_t left = 1;
-    def.pipelines = VIRGA_PIPELINES_IN_STEPS;
+    def.pipeline_build_mode = VIRGA_PIPELINES_DEFERRED;
     REQUIRE(virga_context_create(&def, &context) == VIRGA_OK);
     virga_scene *scene = make_scene(context);
     gpu_picture_open(f, context, &picture);

@@ -26,7 +26,7 @@ typedef struct splash_fixture {
     const virga_droplet_gpu *droplets;
     const virga_splash_gpu *splashes;
     const virga_impacts_gpu *returns_head;
-    const virga_impact_gpu *returns;
+    const virga_impact_gpu *returned_droplets;
 } splash_fixture;
 
 /* Small rings, and ticks of the default length. */
@@ -36,7 +36,7 @@ static inline virga_splash_def splash_fixture_def(void)
     def.max_splashes = 4096;
     def.max_droplets = 16384;
     def.max_spawns = 4096;
-    def.max_returns = 16384;
+    def.max_returned_droplets = 16384;
     return def;
 }
 
@@ -52,9 +52,9 @@ static inline void splash_fixture_buffers(splash_fixture *f)
                                HOST_BUFFER_UPLOAD, "spawns", &f->spawns, error, size));
     REQUIRE(host_buffer_create(&f->gpu.device, state + droplets, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD,
                                "droplets up", &f->upload, error, size));
-    REQUIRE(host_buffer_create(&f->gpu.device, state + droplets + splash->splashes->size + splash->returns->size,
-                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "droplets down", &f->download,
-                               error, size));
+    REQUIRE(host_buffer_create(
+        &f->gpu.device, state + droplets + splash->splashes->size + splash->returned_droplets->size,
+        VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "droplets down", &f->download, error, size));
 }
 
 static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def *given)
@@ -77,7 +77,7 @@ static inline virga_spawn_gpu *splash_fixture_spawn(splash_fixture *f, uint32_t 
     static const float depths_m[VIRGA_GROUND_STATES] = {0, 0, 0.5e-3f, 4e-3f, 7e-3f, 20e-3f};
     REQUIRE(f->spawn_count < f->splash->def.max_spawns);
     virga_spawn_gpu *spawn = (virga_spawn_gpu *)((virga_spawns_gpu *)f->spawns.mapped + 1) + f->spawn_count;
-    const uint32_t model = f->settings.rows[material][state].model;
+    const uint32_t model = f->settings.rules[material][state].model;
     *spawn = (virga_spawn_gpu){.velocity = {0, -6.5f, 0},
                                .diameter_m = 2e-3f,
                                .normal = {0, 1, 0},
@@ -116,8 +116,8 @@ static inline void splash_fixture_read(splash_fixture *f, VkCommandBuffer cmd)
     f->state = splash_fixture_copy(f, cmd, f->splash->state, &offset);
     f->droplets = splash_fixture_copy(f, cmd, f->splash->droplets, &offset);
     f->splashes = splash_fixture_copy(f, cmd, f->splash->splashes, &offset);
-    f->returns_head = splash_fixture_copy(f, cmd, f->splash->returns, &offset);
-    f->returns = (const virga_impact_gpu *)(f->returns_head + 1);
+    f->returns_head = splash_fixture_copy(f, cmd, f->splash->returned_droplets, &offset);
+    f->returned_droplets = (const virga_impact_gpu *)(f->returns_head + 1);
 }
 
 /* One frame of `ticks` ticks with the spawns set. Reads back everything. */

@@ -17,7 +17,7 @@
 #define SECOND_LAYER ((host_output)(HOST_LAYER + 1))
 #define HALF_OF_ONE  0x3c00u /* 1 as a half float in the low bits */
 
-enum { SIDE = 128, FEW_SPRITES = 64, BLOB_PLACES = 4 };
+enum { SIDE = 128, FEW_SPRITES = 64, BLOB_POSITIONS = 4 };
 
 /* ---- a shot: splashes, a picture, and what prepare wrote for it */
 
@@ -71,7 +71,7 @@ static inline void open_shot_of(shot *s, const virga_splash_def *def)
 {
     memset(s, 0, sizeof *s);
     splash_fixture_open(&s->f, def);
-    s->f.settings.near_m = 0;
+    s->f.settings.near_fade_m = 0;
     s->f.settings.soft_m = 0;
     apply_settings(s);
     readback(s, FEW_SPRITES * sizeof(virga_sprite_gpu), &s->sprites);
@@ -131,14 +131,14 @@ static inline double pixel_m(const shot *s, double distance_m)
 }
 
 /* Pixels right and down, of a place in the world. */
-static inline double to_pixels(const shot *s, const double place[3], double pixel[2])
+static inline double to_pixels(const shot *s, const double position[3], double pixel[2])
 {
     const float *m = s->camera.view_from_world, *p = s->camera.clip_from_view;
     double v[3];
     for (int row = 0; row < 3; row++) {
         v[row] = 0;
         for (int i = 0; i < 3; i++)
-            v[row] += (double)m[4 * i + row] * (place[i] - s->camera.position_m[i]);
+            v[row] += (double)m[4 * i + row] * (position[i] - s->camera.position_m[i]);
     }
     pixel[0] = (0.5 + 0.5 * (double)p[0] * v[0] / -v[2]) * s->picture.width;
     pixel[1] = (0.5 + 0.5 * (double)p[5] * v[1] / -v[2]) * s->picture.height;
@@ -272,12 +272,12 @@ static inline void assert_near(double value, double expected, double share)
 
 /* One that flies far above its ground, and has no pile any more. After a tick it is about where it is to be, and moves
  * so. */
-static inline virga_droplet_gpu flying(double diameter_m, const double place[3], const double velocity[3])
+static inline virga_droplet_gpu flying(double diameter_m, const double position[3], const double velocity[3])
 {
     const double tick_s = 1.0 / 60, up = velocity[1] + GRAVITY * tick_s;
-    return (virga_droplet_gpu){.position = {(float)(place[0] - velocity[0] * tick_s),
-                                            (float)(place[1] - up * tick_s + 0.5 * GRAVITY * tick_s * tick_s),
-                                            (float)(place[2] - velocity[2] * tick_s)},
+    return (virga_droplet_gpu){.position = {(float)(position[0] - velocity[0] * tick_s),
+                                            (float)(position[1] - up * tick_s + 0.5 * GRAVITY * tick_s * tick_s),
+                                            (float)(position[2] - velocity[2] * tick_s)},
                                .age_s = 1,
                                .velocity = {(float)velocity[0], (float)up, (float)velocity[2]},
                                .diameter_m = (float)diameter_m,
@@ -289,20 +289,20 @@ static inline virga_droplet_gpu flying(double diameter_m, const double place[3],
 
 static const double nowhere[3], at_rest[3];
 
-static inline void put_flying(shot *s, double diameter_m, const double place[3], const double velocity[3])
+static inline void put_flying(shot *s, double diameter_m, const double position[3], const double velocity[3])
 {
-    const virga_droplet_gpu droplet = flying(diameter_m, place, velocity);
+    const virga_droplet_gpu droplet = flying(diameter_m, position, velocity);
     splash_fixture_put(&s->f, &droplet, 1);
     splash_fixture_step(&s->f, 1);
     REQUIRE(s->f.state->staying == 1);
 }
 
 /* Where the droplet is so long after the newest tick. */
-static inline void droplet_at(const shot *s, double time_s, double place[3])
+static inline void droplet_at(const shot *s, double time_s, double position[3])
 {
     const virga_droplet_gpu *droplet = &s->f.droplets[0];
     for (int i = 0; i < 3; i++)
-        place[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
+        position[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
                    (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
 }
 

@@ -40,11 +40,11 @@ static double time_share(double x, double y, double (*centres)[2], double radius
  * its way. The greatest differences are where the chord is short: a pixel takes its chord in its middle. */
 static void check_moving(shot *s, double diameter_m, const double velocity[3])
 {
-    double centres[TIMES][2], place[3], distance = 1, worst = 0, sum = 0;
+    double centres[TIMES][2], position[3], distance = 1, worst = 0, sum = 0;
     put_flying(s, diameter_m, nowhere, velocity);
     for (int i = 0; i < TIMES; i++) {
-        droplet_at(s, -s->shutter_s * (i + 0.5) / TIMES, place);
-        distance = to_pixels(s, place, centres[i]);
+        droplet_at(s, -s->shutter_s * (i + 0.5) / TIMES, position);
+        distance = to_pixels(s, position, centres[i]);
     }
     const double width = diameter_m / pixel_m(s, distance);
     const float *pixels = draw_frame(s);
@@ -79,7 +79,7 @@ static void a_moving_droplet_spreads_its_disc_over_its_way(void **state)
 static void a_thin_droplet_covers_its_disc_at_any_resolution(void **state)
 {
     (void)state;
-    enum { PLACES = 5 };
+    enum { POSITIONS = 5 };
     const double diameter = 1e-3, distance = 0.44;
     shot s;
     open_shot(&s);
@@ -89,10 +89,10 @@ static void a_thin_droplet_covers_its_disc_at_any_resolution(void **state)
         aim_from(&s, distance);
         const double pixel = pixel_m(&s, distance), width = diameter / pixel, disc = M_PI / 4 * width * width;
         double sum = 0;
-        for (int i = 0; i < PLACES; i++) {
+        for (int i = 0; i < POSITIONS; i++) {
             put_flying(&s, diameter, (const double[3]){0.23 * i * pixel, 0.11 * i * pixel, 0}, at_rest);
             const double alpha = drawn_alpha(&s);
-            sum += alpha / disc / PLACES;
+            sum += alpha / disc / POSITIONS;
             printf("%.2f px wide: covers %.3f of its disc\n", width, alpha / disc);
         }
         assert_near(sum, 1, 0.03);
@@ -217,14 +217,14 @@ static void what_is_beside_the_picture_makes_no_sprite(void **state)
 {
     (void)state;
     /* The picture reaches 36 mm from its middle. */
-    static const double places[6][3] = {{0.05, 0, 0},  {-0.05, 0, 0}, {0, 0.05, 0},
-                                        {0, -0.05, 0}, {0, 0, 0.2},   {0, 0, 0.0999}};
+    static const double spawn_offsets[6][3] = {{0.05, 0, 0},  {-0.05, 0, 0}, {0, 0.05, 0},
+                                               {0, -0.05, 0}, {0, 0, 0.2},   {0, 0, 0.0999}};
     shot s;
     virga_splash_stats stats;
     open_shot(&s);
     aim_from(&s, 0.1);
     for (int i = 0; i < 6; i++) {
-        put_flying(&s, 3e-3, places[i], at_rest);
+        put_flying(&s, 3e-3, spawn_offsets[i], at_rest);
         assert_true(drawn_alpha(&s) == 0);
         virga_splash_stats_get(s.f.splash, &stats);
         assert_int_equal(stats.sprites, 0);

@@ -33,12 +33,12 @@ static void what_is_near_the_camera_fades(void **state)
     shot s;
     open_shot(&s);
     for (int i = 0; i < 5; i++) {
-        s.f.settings.near_m = 0;
+        s.f.settings.near_fade_m = 0;
         apply_settings(&s);
         put_flying(&s, 3e-3, nowhere, at_rest);
         aim_from(&s, distances[i]);
         const double whole = drawn_alpha(&s);
-        s.f.settings.near_m = 0.1f;
+        s.f.settings.near_fade_m = 0.1f;
         apply_settings(&s);
         assert_true(fabs(drawn_alpha(&s) / whole - shares[i]) < 0.01);
     }

@@ -17,11 +17,11 @@ static void put_cloud(shot *s)
     uint32_t random = 7;
     for (int i = 0; i < DROPLETS; i++) {
         const double pixel = pixel_m(s, 0.5), cell = pixel * SIDE / 8;
-        const double place[3] = {(i % 8 - 3.5) * cell, (i / 8 - 3.5) * cell, 0};
-        const double border[3] = {-4.05 * cell, place[1] + i * cell, 0};
+        const double position[3] = {(i % 8 - 3.5) * cell, (i / 8 - 3.5) * cell, 0};
+        const double border[3] = {-4.05 * cell, position[1] + i * cell, 0};
         const double beside[3] = {unit(&random) - 0.5, unit(&random) - 0.5, 0}, out[3] = {-6, 0, 0};
         const double diameter = (0.5 + 1.5 * unit(&random)) * pixel;
-        droplets[i] = i < BORDER ? flying(0.6 * pixel, border, out) : flying(diameter, place, beside);
+        droplets[i] = i < BORDER ? flying(0.6 * pixel, border, out) : flying(diameter, position, beside);
     }
     splash_fixture_put(&s->f, droplets, DROPLETS);
     splash_fixture_step(&s->f, 1);
@@ -56,11 +56,11 @@ static double half_value(uint32_t bits)
 static bool is_line(const shot *s, const virga_sprite_gpu *sprite, double margin)
 {
     const double width = fmax(half_value(sprite->widths & 0xffff), half_value(sprite->widths >> 16));
-    const double least = (double)s->f.settings.min_width_px;
+    const double min = (double)s->f.settings.min_width_px;
     double furthest = 0;
     for (int i = 0; i < 2; i++)
         furthest = fmax(furthest, fmax(fabs((double)sprite->head[i]), fabs((double)sprite->tail[i])));
-    return width < (least + 1e-6) * (1 + margin) && furthest + (least + 2) / SIDE < 1 + margin;
+    return width < (min + 1e-6) * (1 + margin) && furthest + (min + 2) / SIDE < 1 + margin;
 }
 
 static void the_thinnest_droplets_are_lines(void **state)
@@ -69,12 +69,12 @@ static void the_thinnest_droplets_are_lines(void **state)
     shot s;
     open_cloud(&s, VIRGA_SPLASH_STYLE_FILM);
     draw_frame(&s);
-    const uint32_t wide = prepared(&s)->wide.index_count / 6, lines = prepared(&s)->lines.index_count / 2,
-                   thin = prepared(&s)->thin.index_count / 6;
+    const uint32_t wide = prepared(&s)->wide_quads.index_count / 6, lines = prepared(&s)->lines.index_count / 2,
+                   thin = prepared(&s)->thin_quads.index_count / 6;
     printf("%u wide, %u lines, %u thin of two triangles\n", wide, lines, thin);
     assert_true(lines > 10 && thin > 10);
     assert_int_equal(wide + lines + thin, prepared(&s)->sprites);
-    assert_int_equal(prepared(&s)->thin.first_index, 6 * (wide + lines));
+    assert_int_equal(prepared(&s)->thin_quads.first_index, 6 * (wide + lines));
     for (uint32_t i = 0; i < lines; i++)
         assert_true(is_line(&s, &sprites(&s)[wide + i], 1e-3));
     for (uint32_t i = 0; i < thin; i++)
@@ -94,14 +94,14 @@ static void compare(virga_splash_style style, bool depth)
     const uint32_t lines = prepared(&s)->lines.index_count / 2, all = prepared(&s)->sprites;
     s.f.context->lines = false;
     const float *without = draw_frame(&s);
-    double worst = 0, most = 0;
+    double worst = 0, max = 0;
     for (size_t i = 0; i < pixel_count(&s) * 4; i++) {
         worst = fmax(worst, fabs((double)with[i] - (double)without[i]));
-        most = fmax(most, (double)without[i]);
+        max = fmax(max, (double)without[i]);
     }
-    printf("%u of %u are lines; worst pixel off by %.3g of %.3g\n", lines, all, worst, most);
+    printf("%u of %u are lines; worst pixel off by %.3g of %.3g\n", lines, all, worst, max);
     assert_true(lines > 10 && prepared(&s)->lines.index_count == 0 && prepared(&s)->sprites == all);
-    assert_true(most > 0 && worst < 1e-3 * most);
+    assert_true(max > 0 && worst < 1e-3 * max);
     free(with);
     close_shot(&s);
 }

@@ -22,7 +22,7 @@ static void sprites_that_have_no_room_are_counted(void **state)
         REQUIRE(drawn_alpha(&s) > 0);
         virga_splash_stats_get(s.f.splash, &stats);
         assert_int_equal(stats.sprites, 2);
-        assert_int_equal(stats.sprites_cut, 0);
+        assert_int_equal(stats.sprites_dropped, 0);
         for (int i = 0; i < PILES; i++)
             droplets[i] = rising(0);
         splash_fixture_put(&s.f, droplets, PILES);
@@ -30,8 +30,8 @@ static void sprites_that_have_no_room_are_counted(void **state)
         REQUIRE(drawn_alpha(&s) > 0);
         virga_splash_stats_get(s.f.splash, &stats);
         assert_int_equal(stats.sprites, ROOM);
-        assert_int_equal(stats.sprites_cut, 2 * PILES - ROOM);
-        assert_int_equal(stats.sheets_cut, 0);
+        assert_int_equal(stats.sprites_dropped, 2 * PILES - ROOM);
+        assert_int_equal(stats.sheets_dropped, 0);
     }
     close_shot(&s);
 }
@@ -61,7 +61,7 @@ static double covered_between(const shot *s, const float *pixels, double low_m, 
 /* Droplet and tip, where doubles put the droplet. */
 static void check_tip(shot *s)
 {
-    double place[3], pixel[2];
+    double position[3], pixel[2];
     for (int i = -1; i <= 1; i++) {
         s->after_s = i * 0.004;
         draw_frame(s);
@@ -69,8 +69,8 @@ static void check_tip(shot *s)
                                *droplet = sprite_of_kind(s, VIRGA_SPRITE_DROPLET);
         assert_non_null(pile);
         assert_non_null(droplet);
-        droplet_at(s, s->after_s, place);
-        to_pixels(s, place, pixel);
+        droplet_at(s, s->after_s, position);
+        to_pixels(s, position, pixel);
         for (int axis = 0; axis < 2; axis++) {
             assert_true(fabsf(pile->head[axis] - droplet->head[axis]) < 1e-6f);
             assert_true(fabs((0.5 + 0.5 * (double)pile->head[axis]) * SIDE - pixel[axis]) < 0.01);
@@ -83,42 +83,42 @@ static void a_pile_stands_until_its_droplet_leaves_and_then_sinks(void **state)
 {
     (void)state;
     shot s;
-    double place[3];
+    double position[3];
     open_shot(&s);
-    s.f.settings.pile_s = 0.1f;
-    s.f.settings.pile_m = 0.2f;
+    s.f.settings.pile_max_s = 0.1f;
+    s.f.settings.pile_max_m = 0.2f;
     apply_settings(&s);
     aim_from(&s, 0.1);
     put_pile(&s, -0.05f); /* has not risen yet */
     assert_true(drawn_alpha(&s) == 0);
     put_pile(&s, 0);
-    droplet_at(&s, 0, place);
-    double below = covered_between(&s, draw_frame(&s), -0.02, place[1] - 2e-3);
+    droplet_at(&s, 0, position);
+    double below = covered_between(&s, draw_frame(&s), -0.02, position[1] - 2e-3);
     assert_true(below > 20); /* 23 px high and 2 or more wide */
     assert_int_equal(prepared(&s)->sprites, 2);
     check_tip(&s);
     /* It leaves at 20 ms, and the pile is down again at 40 ms. */
-    s.f.settings.pile_s = 0.02f;
+    s.f.settings.pile_max_s = 0.02f;
     apply_settings(&s);
     splash_fixture_step(&s.f, 1);
-    droplet_at(&s, 0, place);
+    droplet_at(&s, 0, position);
     REQUIRE(s.f.droplets[0].kind & VIRGA_DROPLET_FREE);
     const double free_s = 0.02, since = 2.0 / 60 - free_s, left = 1 - since / free_s * (since / free_s);
     double tip[3], top[2];
     droplet_at(&s, -since, tip);
     tip[1] = -0.02 + left * (tip[1] + 0.02);
     to_pixels(&s, tip, top);
-    below = covered_between(&s, draw_frame(&s), -0.02, place[1] - 2e-3);
+    below = covered_between(&s, draw_frame(&s), -0.02, position[1] - 2e-3);
     assert_true(below > 5);
-    assert_true(covered_between(&s, draw_frame(&s), tip[1] + 1e-3, place[1] - 2e-3) < 1e-6);
+    assert_true(covered_between(&s, draw_frame(&s), tip[1] + 1e-3, position[1] - 2e-3) < 1e-6);
     const virga_sprite_gpu *pile = sprite_of_kind(&s, VIRGA_SPRITE_PILE);
     assert_non_null(pile);
     assert_true(fabs((0.5 + 0.5 * (double)pile->head[1]) * SIDE - top[1]) < 0.1);
     splash_fixture_step(&s.f, 1);
-    droplet_at(&s, 0, place);
+    droplet_at(&s, 0, position);
     const float *pixels = draw_frame(&s);
     assert_int_equal(prepared(&s)->sprites, 1);
-    assert_true(covered_between(&s, pixels, -0.03, place[1] - 2e-3) == 0);
+    assert_true(covered_between(&s, pixels, -0.03, position[1] - 2e-3) == 0);
     assert_true(sum_of(&s, pixels, 3) > 5);
     close_shot(&s);
 }
@@ -189,7 +189,7 @@ static void a_crown_near_by_is_a_sheet_while_it_lives(void **state)
 static void put_tall_crown(shot *s)
 {
     splash_fixture_clear(&s->f);
-    s->f.settings.droplets_m = 0; /* nothing but the crown */
+    s->f.settings.droplet_range_m = 0; /* nothing but the crown */
     apply_settings(s);
     virga_spawn_gpu *spawn = splash_fixture_spawn(&s->f, VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_10);
     spawn->kind &= ~(255u << 16);
@@ -325,21 +325,21 @@ static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
     close_shot(&s);
 }
 
-/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. It shows as `most`
+/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. It shows as `max`
  * pieces at most. */
-static double blob_alpha(shot *s, double distance_m, uint32_t most)
+static double blob_alpha(shot *s, double distance_m, uint32_t max)
 {
     const double pixel = pixel_m(s, distance_m);
     double sum = 0;
-    for (int i = 0; i < BLOB_PLACES * BLOB_PLACES; i++) {
-        const double right = (double)(i % BLOB_PLACES) / BLOB_PLACES * pixel,
-                     up = (double)(i / BLOB_PLACES) / BLOB_PLACES * pixel;
+    for (int i = 0; i < BLOB_POSITIONS * BLOB_POSITIONS; i++) {
+        const double right = (double)(i % BLOB_POSITIONS) / BLOB_POSITIONS * pixel,
+                     up = (double)(i / BLOB_POSITIONS) / BLOB_POSITIONS * pixel;
         aim(s, (const double[3]){right, 0.5 * distance_m + up, 0.8660254 * distance_m},
             (const double[3]){right, up, 0});
         const float *pixels = draw_frame(s);
         const uint32_t count = pieces(s, pixels);
-        sum += sum_of(s, pixels, 3) / (BLOB_PLACES * BLOB_PLACES);
-        assert_true(count > most / 3 && count <= most);
+        sum += sum_of(s, pixels, 3) / (BLOB_POSITIONS * BLOB_POSITIONS);
+        assert_true(count > max / 3 && count <= max);
         assert_int_equal(prepared(s)->sprites, 1);
         assert_int_equal(prepared(s)->crowns.instance_count, 0);
     }

@@ -67,7 +67,7 @@ static double chi_square_limit(uint32_t freedom)
 
 static void assert_even_counts(const uint32_t *counts, uint32_t low, uint32_t high)
 {
-    uint32_t cells[VIRGA_SPLASH_MOST_COUNT + 1] = {0};
+    uint32_t cells[VIRGA_SPLASH_MAX_COUNT + 1] = {0};
     for (uint32_t i = 0; i < SPLASHES; i++) {
         assert_in_range(counts[i], low, high);
         cells[counts[i]]++;
@@ -88,9 +88,9 @@ static void assert_between(double value, double low, double high, double slack)
 
 /* ---- splashes */
 
-static virga_splash_row *row_of(uint32_t material, uint32_t state)
+static virga_splash_rule *row_of(uint32_t material, uint32_t state)
 {
-    return &f.settings.rows[material][state];
+    return &f.settings.rules[material][state];
 }
 
 /* Drops that fall straight, with different water. */
@@ -128,7 +128,7 @@ static void throw_row(uint32_t material, uint32_t state)
     measure();
 }
 
-static void assert_row_is_kept(const virga_splash_row *row)
+static void assert_row_is_kept(const virga_splash_rule *row)
 {
     assert_even_counts(born.counts, (uint32_t)row->count[0], (uint32_t)row->count[1]);
     for (uint32_t i = 0; i < born.count; i++) {
@@ -138,7 +138,7 @@ static void assert_row_is_kept(const virga_splash_row *row)
     }
 }
 
-static void assert_row_is_distributed(const virga_splash_row *row)
+static void assert_row_is_distributed(const virga_splash_rule *row)
 {
     if (row->angle_deg[1] > row->angle_deg[0]) {
         assert_distributed(born.elevation, born.count, cut_normal, (double)row->angle_deg[0],
@@ -161,7 +161,7 @@ static void test_asphalt_has_the_rows_of_table_1(void **state)
                   {VIRGA_GROUND_PUDDLE_5, VIRGA_SPLASH_SCATTERING, {12, 22}, {1, 90}, {0.2f, 2.0f}},
                   {VIRGA_GROUND_PUDDLE_10, VIRGA_SPLASH_CROWN_CONE, {1, 1}, {90, 90}, {0.1f, 2.0f}}};
     for (int i = 0; i < 4; i++) {
-        const virga_splash_row *row = row_of(VIRGA_MATERIAL_ASPHALT, table[i].state);
+        const virga_splash_rule *row = row_of(VIRGA_MATERIAL_ASPHALT, table[i].state);
         assert_int_equal(row->model, table[i].model);
         assert_memory_equal(row->count, table[i].count, sizeof row->count);
         assert_memory_equal(row->angle_deg, table[i].angle_deg, sizeof row->angle_deg);
@@ -174,7 +174,7 @@ static void test_every_material_splashes_in_every_state_but_dry(void **state)
     (void)state;
     for (uint32_t material = 0; material < VIRGA_GROUND_MATERIALS; material++) {
         for (uint32_t wet = VIRGA_GROUND_WET; wet < VIRGA_GROUND_STATES; wet++) {
-            const virga_splash_row *row = row_of(material, wet);
+            const virga_splash_rule *row = row_of(material, wet);
             assert_in_range(row->model, VIRGA_SPLASH_SCATTERING, VIRGA_SPLASH_CROWN_CONE);
             assert_true(row->count[0] >= 1 && row->count[1] >= row->count[0]);
             assert_true(row->angle_deg[1] >= row->angle_deg[0] && row->speed_m_s[1] > row->speed_m_s[0]);
@@ -250,8 +250,8 @@ static void test_angle_and_speed_of_a_droplet_know_nothing_of_each_other(void **
 static void test_piles_stand_on_the_circle_and_point_outwards(void **state)
 {
     (void)state;
-    const virga_splash_row *row = row_of(VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_3);
-    const double radius = (double)row->circle * 2e-3;
+    const virga_splash_rule *row = row_of(VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_3);
+    const double radius = (double)row->circle_radius * 2e-3;
     throw_row(VIRGA_MATERIAL_ASPHALT, VIRGA_GROUND_PUDDLE_3);
     for (uint32_t i = 0; i < born.count; i++) {
         const double x = (double)f.droplets[i].base[0], z = (double)f.droplets[i].base[2];
@@ -436,7 +436,7 @@ static int open_all(void **state)
     def.max_splashes = 16384;
     def.max_droplets = 262144;
     def.max_spawns = 16384;
-    def.max_returns = 16384;
+    def.max_returned_droplets = 16384;
     def.tick_s = 1e-3;
     splash_fixture_open(&f, &def);
     return 0;

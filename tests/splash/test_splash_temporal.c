@@ -30,7 +30,7 @@ static void open_shot(shot *s)
 {
     memset(s, 0, sizeof *s);
     splash_fixture_open(&s->f, NULL);
-    s->f.settings.near_m = 0;
+    s->f.settings.near_fade_m = 0;
     s->f.settings.soft_m = 0;
     s->f.settings.style = VIRGA_SPLASH_STYLE_FILM;
     REQUIRE(virga_splash_set(s->f.splash, &s->f.settings) == VIRGA_OK);
@@ -67,7 +67,7 @@ static void set_cameras(shot *s, const host_camera *now, const host_camera *befo
     memcpy(s->view.temporal.position_m, before->position_m, sizeof before->position_m);
     memcpy(s->view.temporal.view_from_world, before->view_from_world, sizeof before->view_from_world);
     memcpy(s->view.temporal.clip_from_view, before->clip_from_view, sizeof before->clip_from_view);
-    s->view.temporal.ago_s = FRAME_S;
+    s->view.temporal.frame_interval_s = FRAME_S;
 }
 
 static void draw_frame(shot *s)
@@ -109,12 +109,12 @@ static void put_droplet(shot *s, float diameter_m, const float velocity[3])
 }
 
 /* Where the droplet is so long after the newest tick: a parabola. */
-static void droplet_at(const shot *s, double time_s, double place[3])
+static void droplet_at(const shot *s, double time_s, double position[3])
 {
     const virga_droplet_gpu *droplet = &s->f.droplets[0];
     for (int i = 0; i < 3; i++)
-        place[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
-                   (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
+        position[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
+                      (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
 }
 
 /* Both ends of its way, a moving camera, a jitter: 0.02 px of floats. */
@@ -156,14 +156,14 @@ static void a_crown_widens_from_its_middle(void **state)
     (void)state;
     shot s;
     host_camera now;
-    uint32_t taken = 0, all = 0;
+    uint32_t used = 0, all = 0;
     open_shot(&s);
     splash_fixture_spawn(&s.f, 1, VIRGA_GROUND_PUDDLE_10);
     splash_fixture_step(&s.f, 1);
     const double age = FRAME_S, ago = 0.4 * FRAME_S;
     aim(&now, (const double[3]){0, 0.004, 0.3}, (const double[3]){0, 0.004, 0}, 6, NULL);
     set_cameras(&s, &now, &now, 0);
-    s.view.temporal.ago_s = ago;
+    s.view.temporal.frame_interval_s = ago;
     s.view.temporal.motion_coverage = 0.02f;
     draw_frame(&s);
     const double factor = sqrt((age - ago) / age) - 1;
@@ -173,12 +173,12 @@ static void a_crown_widens_from_its_middle(void **state)
         all++;
         const double x = (double)(i % WIDTH) + 0.5 - 0.5 * WIDTH, found = (double)s.picture.motion[2 * i];
         if (fabs(found - x * factor) < 0.1 + 0.04 * fabs(x * factor))
-            taken++;
+            used++;
         else if (getenv("VIRGA_TEST_VERBOSE"))
             printf("x %g: %g, expected %g\n", x, found, x * factor);
     }
-    printf("%u of %u pixels of a crown are as expected\n", taken, all);
-    assert_true(taken > 100 && taken > 0.98 * all);
+    printf("%u of %u pixels of a crown are as expected\n", used, all);
+    assert_true(used > 100 && used > 0.98 * all);
     close_shot(&s);
 }
 
@@ -188,7 +188,7 @@ static void pyramids_of_the_papers_style_have_vectors_too(void **state)
     (void)state;
     shot s;
     host_camera now;
-    uint32_t taken = 0;
+    uint32_t used = 0;
     open_shot(&s);
     s.f.settings.style = VIRGA_SPLASH_STYLE_PAPER;
     REQUIRE(virga_splash_set(s.f.splash, &s.f.settings) == VIRGA_OK);
@@ -196,15 +196,15 @@ static void pyramids_of_the_papers_style_have_vectors_too(void **state)
     splash_fixture_step(&s.f, 1);
     aim(&now, (const double[3]){0, 0.004, 0.3}, (const double[3]){0, 0.004, 0}, 6, NULL);
     set_cameras(&s, &now, &now, 0);
-    s.view.temporal.ago_s = 0.4 * FRAME_S;
+    s.view.temporal.frame_interval_s = 0.4 * FRAME_S;
     draw_frame(&s);
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
         if (!picture_has_motion(&s.picture, i))
             continue;
         assert_true(s.picture.motion[2 * i + 1] > -0.5f && s.picture.motion[2 * i + 1] < HEIGHT);
-        taken++;
+        used++;
     }
-    assert_true(taken > 20);
+    assert_true(used > 20);
     close_shot(&s);
 }
 

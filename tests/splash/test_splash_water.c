@@ -57,7 +57,7 @@ static void assert_sound(const virga_droplet_gpu *droplet)
 }
 
 /* Those that are alive come first, and none is behind them. */
-static void assert_places(void)
+static void assert_slots(void)
 {
     const virga_splash_def *def = &f.splash->def;
     assert_in_range(f.state->staying, 0, def->max_droplets);
@@ -73,12 +73,12 @@ static void assert_budget(bool stepped)
 {
     if (stepped)
         for (uint32_t i = 0; i < f.returns_head->count; i++)
-            returned_nl += f.returns[i].water_nl;
+            returned_nl += f.returned_droplets[i].water_nl;
     const uint64_t returned = splash_fixture_count(&f, VIRGA_SPLASH_RETURNED);
     assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_FLOWN), returned + splash_fixture_water(&f));
     assert_int_equal(returned, returned_nl);
-    assert_in_range(f.returns_head->count, 0, f.splash->def.max_returns);
-    assert_places();
+    assert_in_range(f.returns_head->count, 0, f.splash->def.max_returned_droplets);
+    assert_slots();
 }
 
 static void begin(const virga_splash_def *def)
@@ -91,7 +91,7 @@ static void begin(const virga_splash_def *def)
 static virga_splash_def tiny_def(void)
 {
     virga_splash_def def = virga_default_splash_def();
-    def.max_splashes = def.max_droplets = def.max_spawns = def.max_returns = 256;
+    def.max_splashes = def.max_droplets = def.max_spawns = def.max_returned_droplets = 256;
     return def;
 }
 
@@ -109,7 +109,7 @@ static void test_what_flew_up_is_in_the_air_or_back_in_every_tick(void **state)
     virga_splash_stats_get(f.splash, &stats);
     assert_int_equal(stats.flown_nl, splash_fixture_count(&f, VIRGA_SPLASH_FLOWN));
     assert_int_equal(stats.returned_nl, returned_nl);
-    assert_int_equal(stats.crowded, 0);
+    assert_int_equal(stats.splashes_without_droplets, 0);
     assert_int_equal(stats.droplets, stats.fallen + f.state->staying);
     assert_true(stats.fallen > 50000);
     splash_fixture_close(&f);
@@ -152,7 +152,7 @@ static void test_rings_that_are_far_too_small_lose_nothing(void **state)
         storm(4, 1, i % 32 < 16 ? 250 : 5);
         assert_budget(true);
     }
-    assert_true(splash_fixture_count(&f, VIRGA_SPLASH_CROWDED) > 10000);
+    assert_true(splash_fixture_count(&f, VIRGA_SPLASH_WITHOUT_DROPLETS) > 10000);
     splash_fixture_close(&f);
 }
 
@@ -181,14 +181,14 @@ static void test_a_splash_without_room_gives_its_water_back_at_once(void **state
         spawn->share = JUST_BELOW_1; /* so that no droplet is back yet */
     }
     splash_fixture_step(&f, 1);
-    const uint32_t crowded = (uint32_t)splash_fixture_count(&f, VIRGA_SPLASH_CROWDED);
+    const uint32_t crowded = (uint32_t)splash_fixture_count(&f, VIRGA_SPLASH_WITHOUT_DROPLETS);
     assert_in_range(crowded, 100 - 256 / 12, 100 - 256 / 22 + 1);
     assert_int_equal(f.returns_head->count, crowded);
     for (uint32_t i = 0; i < crowded; i++) {
-        assert_int_equal(f.returns[i].water_nl, 400);
-        assert_int_equal(f.returns[i].id, 100 - crowded + i); /* the first had room */
-        assert_true(f.returns[i].position[0] == (float)(100 - crowded + i));
-        assert_int_equal(f.returns[i].material, VIRGA_MATERIAL_ASPHALT);
+        assert_int_equal(f.returned_droplets[i].water_nl, 400);
+        assert_int_equal(f.returned_droplets[i].id, 100 - crowded + i); /* the first had room */
+        assert_true(f.returned_droplets[i].position[0] == (float)(100 - crowded + i));
+        assert_int_equal(f.returned_droplets[i].material, VIRGA_MATERIAL_ASPHALT);
     }
     assert_int_equal(f.returns_head->is_return, 1);
     splash_fixture_close(&f);
@@ -210,9 +210,9 @@ static void test_droplets_fall_back_on_the_slope_that_they_came_from(void **stat
         splash_fixture_step(&f, 1);
         fallen += f.returns_head->count;
         for (uint32_t i = 0; i < f.returns_head->count; i++) {
-            const double x = (double)f.returns[i].position[0], y = (double)f.returns[i].position[1];
+            const double x = (double)f.returned_droplets[i].position[0], y = (double)f.returned_droplets[i].position[1];
             assert_float_equal(y, 7 + slope * (x - 2), 1e-4);
-            assert_int_equal(f.returns[i].material, VIRGA_MATERIAL_STONE);
+            assert_int_equal(f.returned_droplets[i].material, VIRGA_MATERIAL_STONE);
         }
     }
     assert_true(fallen > 1000);
@@ -279,9 +279,9 @@ static void test_a_camera_that_flies_about_loses_no_water(void **state)
     for (uint32_t i = 0; i < 60; i++) {
         storm(8, 1 + i % 3, 50);
         for (uint32_t k = 0; k < f.returns_head->count; k++) { /* they too are where the storm is */
-            const double x = (double)f.returns[k].position[0] + (double)f.returns_head->origin[0];
+            const double x = (double)f.returned_droplets[k].position[0] + (double)f.returns_head->origin[0];
             assert_float_equal(x, 0, 30);
-            returned_nl += f.returns[k].water_nl;
+            returned_nl += f.returned_droplets[k].water_nl;
         }
         assert_int_equal(splash_fixture_count(&f, VIRGA_SPLASH_FLOWN), returned_nl + splash_fixture_water(&f));
         f.camera[0] = 300 * (i % 2), f.camera[2] = 70.0 * (i % 5);
@@ -293,7 +293,7 @@ typedef struct kept {
     virga_splash_state_gpu state;
     virga_droplet_gpu droplets[512];
     virga_splash_gpu splashes[256];
-    virga_impact_gpu returns[2048];
+    virga_impact_gpu returned_droplets[2048];
     uint32_t return_count;
 } kept;
 
@@ -304,7 +304,7 @@ static void keep_a_storm(kept *out)
     def.max_splashes = 256;
     def.max_droplets = 512;
     def.max_spawns = 2048;
-    def.max_returns = 2048;
+    def.max_returned_droplets = 2048;
     memset(out, 0, sizeof *out);
     begin(&def);
     for (int i = 0; i < 20; i++)
@@ -313,7 +313,7 @@ static void keep_a_storm(kept *out)
     out->return_count = f.returns_head->count;
     memcpy(out->droplets, f.droplets, sizeof out->droplets);
     memcpy(out->splashes, f.splashes, sizeof out->splashes);
-    memcpy(out->returns, f.returns, f.returns_head->count * sizeof out->returns[0]);
+    memcpy(out->returned_droplets, f.returned_droplets, f.returns_head->count * sizeof out->returned_droplets[0]);
     splash_fixture_close(&f);
 }
 
@@ -343,8 +343,8 @@ static void test_of_more_splashes_than_there_are_places_the_newest_stay(void **s
         splash_fixture_step(&f, 1);
         assert_int_equal(f.state->end_splash, id);
         assert_in_range(f.state->end_splash - f.state->first_splash, 1, 256);
-        for (uint32_t place = f.state->first_splash; place < id; place++)
-            assert_int_equal(f.splashes[place & 255].id, place);
+        for (uint32_t slot = f.state->first_splash; slot < id; slot++)
+            assert_int_equal(f.splashes[slot & 255].id, slot);
     }
     splash_fixture_close(&f);
 }
@@ -360,8 +360,8 @@ static double free_age(double speed, double age_s)
                                        .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE,
                                        .water_nl = 523};
     splash_fixture_open(&f, NULL);
-    f.settings.pile_s = 0.02f;
-    f.settings.pile_m = 0.015f;
+    f.settings.pile_max_s = 0.02f;
+    f.settings.pile_max_m = 0.015f;
     REQUIRE(virga_splash_set(f.splash, &f.settings) == VIRGA_OK);
     splash_fixture_put(&f, &droplet, 1);
     for (int tick = 0; tick < 3; tick++)

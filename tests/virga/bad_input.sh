@@ -219,7 +219,7 @@ bad 'splash layer where they are off' render "$good" -o "$work/out" --set ground
     --layers splash
 bad 'glass layer without panes' render "$good" -o "$work/out" --layers glass,refraction
 bad 'set of a pane that is not there' render "$good" -o "$work/out" --set glass.0.kind=clean
-bad 'set of splash' render "$good" -o "$work/out" --set ground.on=true --set splash.pile_s=0
+bad 'set of splash' render "$good" -o "$work/out" --set ground.on=true --set splash.pile_max_s=0
 bad 'unknown device' render "$good" -o "$work/out" --device 99
 bad 'wrong set' render "$good" -o "$work/out" --set rain.rate=5
 bad 'set without value' render "$good" -o "$work/out" --set rain.rate_mm_h

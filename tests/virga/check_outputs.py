@@ -286,7 +286,7 @@ def check_droplets(paths):
         living = splash["droplets"] - splash["fallen"]
         # Of a far drop that stands for many, some splash later: those are not yet there.
         expect(0.1 * living <= len(points) <= living, f"{path}: {len(points)} droplets, told {living}")
-        water, aloft = sum(d[WATER] for d in points), lines[i]["water_ul"]["aloft"]
+        water, aloft = sum(d[WATER] for d in points), lines[i]["water_ul"]["in_air"]
         expect(0 < water < aloft * 1.0001, f"{path}: droplets of {water} microlitres, aloft {aloft}")
     if not failures:
         check_flight(frames[1], frames[2])
@@ -320,7 +320,7 @@ def check_mapped(paths):
 
 # ---- statistics and previews
 
-BUDGET = ("elsewhere", "absorbed", "film", "puddle", "run_off", "evaporated", "kept", "forgotten", "aloft")
+BUDGET = ("off_ground", "absorbed", "film", "puddle", "run_off", "evaporated", "cached", "evicted", "in_air")
 
 
 def nanolitres(microlitres):
@@ -338,7 +338,7 @@ def check_splash_stats(splash, before):
     expect((total > 0) == (splash["droplets"] > 0) == (before is not None), f"{total} splashes: {splash}")
     expect(splash["fallen"] <= splash["droplets"] and splash["splashes_alive"] <= total, f"splash {splash}")
     expect(splash["droplets"] - splash["fallen"] <= splash["droplets_alive"] <= splash["droplets"], f"splash {splash}")
-    expect(splash["crowded"] <= total and (splash["sprites"] > 0) == (total > 0), f"splash {splash}")
+    expect(splash["splashes_without_droplets"] <= total and (splash["sprites"] > 0) == (total > 0), f"splash {splash}")
 
 
 def check_stats(paths):
@@ -359,7 +359,7 @@ def check_stats(paths):
         off = nanolitres(water["start"]) + nanolitres(water["rained_total"]) - sum(nanolitres(water[name])
                                                                                    for name in BUDGET)
         expect(off == 0, f"the budget of water is off by {off} nl: {water}")
-        expect((water["aloft"] > 0) == (i > 0), f"frame {i + 1}: {water['aloft']} microlitres aloft")
+        expect((water["in_air"] > 0) == (i > 0), f"frame {i + 1}: {water['aloft']} microlitres aloft")
         check_splash_stats(line["splash"], splash)
         splash = line["splash"]
         for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.glow", "rain.streaks",

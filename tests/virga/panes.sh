@@ -50,7 +50,7 @@ camera:
     - {time_s: 0, position_m: [0, 1.2, 6], look_at_m: [0, 1.2, 0]}
     - {time_s: 1, position_m: [0, 1.2, 1], look_at_m: [0, 1.2, -5]}
 frames: {fps: 24, first: 1, last: 12, size: [96, 54]}
-rain: {rate_mm_h: 100, wind_m_s: [0, 0, 4], max_drops: 1024, occlusion_size: 64, near_m: 1}
+rain: {rate_mm_h: 100, wind_m_s: [0, 0, 4], max_drops: 1024, occlusion_size: 64, near_fade_m: 1}
 glass:
   - name: window
     position_m: [0.5, 0.5, -4]

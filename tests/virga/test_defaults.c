@@ -54,16 +54,16 @@ static void splashes(void **state)
     const virga_splash_settings def = virga_default_splash_settings();
     SAME(mode);
     SAME(style);
-    SAME(droplets_m);
+    SAME(droplet_range_m);
     SAME(bounce);
-    SAME(pile_s);
-    SAME(pile_m);
-    SAME(dot_mm);
+    SAME(pile_max_s);
+    SAME(pile_max_m);
+    SAME(dot_min_mm);
     SAME(gain);
     SAME(light_gain);
     SAME(min_width_px);
     SAME(soft_m);
-    SAME(near_m);
+    SAME(near_fade_m);
     scene_file_free(scene);
 }
 
@@ -86,7 +86,7 @@ static void ground(void **state)
         const virga_ground_def def = virga_default_ground_def();
         SAME(cells);
         SAME(cell_m);
-        SAME(kept_tiles);
+        SAME(cached_tiles);
         SAME(far_cells);
     }
     const virga_ground_settings def = virga_default_ground_settings();
@@ -115,24 +115,24 @@ static void panes(void **state)
         SAME(height_m);
         SAME(cell_m);
         SAME(max_drops);
-        SAME(affinity_m);
+        SAME(affinity_size_m);
         SAME(max_texels);
     }
     const virga_glass_settings def = virga_default_glass_settings();
     SAME(drag);
     SAME(meander);
     SAME(path_ease);
-    SAME(path_s);
-    SAME(touch);
-    SAME(tail_m);
-    SAME(tail_s);
+    SAME(path_dry_s);
+    SAME(merge_distance);
+    SAME(tail_spacing_m);
+    SAME(tail_lifetime_s);
     SAME(film_break_s);
     SAME(evaporation_mm_h);
-    SAME(mist_mm);
+    SAME(mist_max_mm);
     SAME(air_share);
-    SAME(particle_mm);
+    SAME(particle_radius_mm);
     SAME(penalty);
-    SAME(band);
+    SAME(particle_band);
     SAME(hold_back_mm);
     SAME(hold_back_cells);
     SAME(density);
@@ -162,7 +162,7 @@ static void wipers(void **state)
         const virga_glass_wiper def = virga_default_glass_wiper();
         SAME(width_m);
         SAME(blade_deg);
-        SAME(blade_turn);
+        SAME(blade_hold_direction);
         SAME(drive);
         SAME(sweep_s);
         SAME(pause_s);
@@ -170,7 +170,7 @@ static void wipers(void **state)
         SAME(film_mm);
         SAME(wear);
     }
-    assert_true((float)scene_glass_of(scene)->panes[0].bumps.pull == virga_default_glass_shape().bump_pull);
+    assert_true((float)scene_glass_of(scene)->panes[0].bumps.affinity == virga_default_glass_shape().bump_affinity);
     scene_file_free(scene);
 }
 
@@ -194,7 +194,7 @@ static void words_of_panes(void **state)
     scene_file *scene = load_pane();
     const virga_glass_settings before = virga_default_glass_settings();
     virga_glass_settings after = before;
-    virga_glass_settings_of((virga_glass_kind)scene_glass_of(scene)->panes[0].kind, &after);
+    virga_glass_apply_kind((virga_glass_kind)scene_glass_of(scene)->panes[0].kind, &after);
     assert_memory_equal(&before, &after, sizeof before);
     scene_file_free(scene);
 }

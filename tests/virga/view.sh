@@ -75,7 +75,7 @@ fi
 # ---- what the window shows, and what comes out of it
 
 view tour <<'END' || { cat "$work/tour.err"; fail "tour"; }
-divide 2
+downscale 2
 wait 3
 window first.png
 set rain.rate_mm_h 90            # what the saved scene must have
@@ -165,7 +165,7 @@ render() {
         2>"$work/err" || { cat "$work/err"; fail "render $1"; }
 }
 view save <<'END' || { cat "$work/save.err"; fail "save"; }
-divide 4
+downscale 4
 set rain.rate_mm_h 90
 set glass.*.kind coated
 save plain.yaml
@@ -179,7 +179,7 @@ oiiotool "$work/by_view/frame.0002.exr" "$work/by_hand/frame.0002.exr" --fail 0 
 # ---- lists grow and shrink, while it rains and in the saved scene
 
 view lists <<'END' || { cat "$work/lists.err"; fail "lists"; }
-divide 4
+downscale 4
 add lights
 set lights.1.position_m [2, 3, -1]
 add glass.0.wipers
@@ -205,7 +205,7 @@ has 'phase_s: 0.4' "$work/grown.yaml"
 
 if command -v xdotool >/dev/null; then
     cat >"$work/keys.txt" <<'END'
-divide 4
+downscale 4
 wait 2
 await paused
 await no-panel
@@ -260,8 +260,8 @@ END
     fail "a window without a display"
 has 'virga view: no display to open a window on' "$work/err"
 [ "$(wc -l <"$work/err")" = 1 ] || { cat "$work/err"; fail "more than a line about a missing display"; }
-(cd "$work" && timeout 60 "$virga" view scene.yaml --divide 9) 2>"$work/err" && fail "--divide 9"
-has '--divide: expected' "$work/err"
+(cd "$work" && timeout 60 "$virga" view scene.yaml --downscale 9) 2>"$work/err" && fail "--downscale 9"
+has '--downscale: expected' "$work/err"
 
 [ "$failures" = 0 ] && echo "the window is as it should be"
 [ "$failures" = 0 ]

@@ -13,7 +13,7 @@ bool bench_fail(bench *b, const char *what)
     return options_complain("bench", "%s: %s", what, b->error);
 }
 
-static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipelines_when when)
+static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipeline_build_mode when)
 {
     virga_context_def def = virga_default_context_def();
     def.instance = b->instance.instance;
@@ -24,11 +24,11 @@ static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pip
     def.wide_lines = b->device.wide_lines;
     def.pipeline_cache = blob;
     def.pipeline_cache_size = blob_size;
-    def.pipelines = when;
+    def.pipeline_build_mode = when;
     return virga_context_create(&def, &b->context) == VIRGA_OK || options_complain("bench", "the device was refused");
 }
 
-bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipelines_when when)
+bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipeline_build_mode when)
 {
     host_device_info infos[HOST_MAX_DEVICES];
     uint32_t index;

@@ -24,7 +24,7 @@ typedef struct bench {
 } bench;
 
 /* A device, a floor to rain on, pictures to draw into, and a context with those caches; *b is all zero before. */
-bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipelines_when when);
+bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipeline_build_mode when);
 
 /* All zero again. */
 void bench_close(bench *b);

@@ -60,16 +60,16 @@ void progress_end(progress *p)
         fputc('\n', stderr);
 }
 
-static volatile sig_atomic_t asked;
+static volatile sig_atomic_t requested;
 
 static void on_signal(int signal_number)
 {
-    if (asked) {
+    if (requested) {
         signal(signal_number, SIG_DFL);
         raise(signal_number);
         return;
     }
-    asked = 1;
+    requested = 1;
     static const char line[] = "\nvirga: stopping after the current frame; press again to stop at once\n";
     if (write(STDERR_FILENO, line, sizeof line - 1) < 0)
         return;
@@ -86,7 +86,7 @@ void interrupt_install(void)
     signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupt_asked(void)
+bool interrupt_requested(void)
 {
-    return asked;
+    return requested;
 }

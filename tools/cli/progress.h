@@ -23,6 +23,6 @@ double progress_now(void);
 
 /* Ctrl-C and SIGTERM: the first requests a stop after the current frame, the second ends the program at once. */
 void interrupt_install(void);
-bool interrupt_asked(void);
+bool interrupt_requested(void);
 
 #endif

@@ -22,7 +22,7 @@ void boxes_put(boxes *b, const float corners[8][3])
 {
     static const int sides[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
     static const uint32_t triangles[6] = {0, 1, 2, 2, 3, 0};
-    if (b->count == BOXES_MAX)
+    if (b->count == MAX_BOXES)
         return;
     for (uint32_t side = 0; side < 6; side++) {
         const uint32_t first = b->count * 24 + side * 4;

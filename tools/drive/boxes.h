@@ -5,10 +5,10 @@
 #include "mesh.h"
 
 /* Boxes with flat sides, in memory. */
-#define BOXES_MAX 64
+#define MAX_BOXES 64
 typedef struct boxes {
-    host_vertex vertices[BOXES_MAX * 24];
-    uint32_t indices[BOXES_MAX * 36];
+    host_vertex vertices[MAX_BOXES * 24];
+    uint32_t indices[MAX_BOXES * 36];
     uint32_t count;
 } boxes;
 

@@ -13,7 +13,7 @@
 #define WHEEL_RADIUS_M 0.315
 #define MAX_STEER      0.75 /* rad */
 #define STEP_M         0.5  /* between points of the track once it is read */
-#define POINTS_MOST    65536
+#define MAX_POINTS     65536
 
 /* ---- the track */
 
@@ -22,7 +22,7 @@ static bool spread(const float (*given)[3], uint32_t count, track *t)
 {
     const uint32_t fine = 64;
     double last[3] = {0}, way = 0, next = 0;
-    t->points = malloc(POINTS_MOST * sizeof *t->points);
+    t->points = malloc(MAX_POINTS * sizeof *t->points);
     for (uint32_t i = 0; t->points && i < count * fine; i++) {
         const double s = (double)(i % fine) / fine, s2 = s * s, s3 = s2 * s;
         const double weights[4] = {-0.5 * s3 + s2 - 0.5 * s, 1.5 * s3 - 2.5 * s2 + 1, -1.5 * s3 + 2 * s2 + 0.5 * s,
@@ -33,7 +33,7 @@ static bool spread(const float (*given)[3], uint32_t count, track *t)
                 at[axis] += weights[k] * (double)given[(i / fine + count + (uint32_t)k - 1) % count][axis];
         way += i ? hypot(at[0] - last[0], at[2] - last[2]) : 0;
         memcpy(last, at, sizeof last);
-        if (way < next || t->count == POINTS_MOST)
+        if (way < next || t->count == MAX_POINTS)
             continue;
         for (int axis = 0; axis < 3; axis++)
             t->points[t->count][axis] = (float)at[axis];
@@ -234,7 +234,7 @@ void car_drive(car *c, const track *t, const car_keys *keys, double dt_s)
         c->velocity_m_s[i] = (float)-c->speed_m_s * c->axes[6 + i];
         c->acceleration_m_s2[i] = dt_s > 0 ? (c->velocity_m_s[i] - then[i]) / (float)dt_s : 0;
     }
-    c->turn_rad_s[1] = dt_s > 0 ? (float)(turned(c->heading - before) / dt_s) : 0;
+    c->angular_velocity_rad_s[1] = dt_s > 0 ? (float)(turned(c->heading - before) / dt_s) : 0;
 }
 
 void car_point(const car *c, const double local[3], double world[3])

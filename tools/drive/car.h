@@ -44,7 +44,7 @@ typedef struct car {
     bool autopilot;
     uint32_t nearest; /* point of the track */
     float axes[9];    /* columns: right, up, back in the world */
-    float velocity_m_s[3], acceleration_m_s2[3], turn_rad_s[3];
+    float velocity_m_s[3], acceleration_m_s2[3], angular_velocity_rad_s[3];
 } car;
 
 /* At rest on the track, so far from its first point. */

@@ -82,7 +82,7 @@ static bool open_device(drive *d)
 
 /* ---- 2. a context: Virga on the device --------------------------------------------------------------------------- */
 
-static void say(void *user, virga_log_level level, virga_log_id id, const char *text)
+static void print_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
     (void)user;
     if (level != VIRGA_LOG_INFO)
@@ -108,7 +108,7 @@ static bool create_context(drive *d)
     def.frames_in_flight = HOST_FRAMES;
     def.pipeline_cache = compiled;
     def.pipeline_cache_size = size;
-    def.log = say;
+    def.log = print_log;
     def.wide_lines = d->device.wide_lines;
     const virga_result result = virga_context_create(&def, &d->context);
     free(compiled); /* copied */
@@ -174,8 +174,8 @@ static bool set_rain(drive *d)
 {
     virga_glass *glass = virga_scene_glass(d->rain, 0);
     virga_glass_shape shape = virga_default_glass_shape();
-    virga_glass_windshield(CAR_GLASS_WIDTH_M, CAR_GLASS_HEIGHT_M, CAR_GLASS_RAKE_DEG, CAR_GLASS_BEND_M, PANE_POINTS,
-                           PANE_POINTS, d->pane);
+    virga_glass_fill_windshield(CAR_GLASS_WIDTH_M, CAR_GLASS_HEIGHT_M, CAR_GLASS_RAKE_DEG, CAR_GLASS_BEND_M,
+                                PANE_POINTS, PANE_POINTS, d->pane);
     shape.positions = d->pane;
     shape.columns = shape.rows = PANE_POINTS;
     mask_pane(d);
@@ -184,7 +184,7 @@ static bool set_rain(drive *d)
     if (!fine(d, virga_glass_shape_set(glass, &shape), "windshield"))
         return false;
     d->glass = virga_default_glass_settings();
-    virga_glass_settings_of(VIRGA_GLASS_KIND_CLEAN, &d->glass);
+    virga_glass_apply_kind(VIRGA_GLASS_KIND_CLEAN, &d->glass);
     d->glass.wiper_count = WIPERS;
     d->glass.wipers[0] = wiper(1.12f, 1.0f, 0.8f);
     d->glass.wipers[1] = wiper(0.58f, 0.72f, 0.6f);
@@ -196,7 +196,7 @@ static bool set_rain(drive *d)
     virga_splash_settings splash = virga_default_splash_settings();
     splash.gain = 2; /* 1 is what a camera records */
     for (int state = 0; state < VIRGA_GROUND_STATES; state++)
-        splash.rows[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* what of the car is to have none */
+        splash.rules[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* what of the car is to have none */
     return fine(d, virga_ground_set(virga_scene_ground(d->rain), &ground), "ground") &&
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
@@ -210,7 +210,7 @@ bool set_rate(drive *d, float rate_mm_h)
     rain.gust_m_s = 0.8f;
     rain.streak_gain = 2;
     rain.light_gain = 2;
-    rain.near_m = 1.6f; /* nearer ones are blurs: none falls in the car */
+    rain.near_fade_m = 1.6f; /* nearer ones are blurs: none falls in the car */
     rain.lighting = d->lighting;
     return fine(d, virga_rain_set(virga_scene_rain(d->rain), &rain), "rain");
 }
@@ -281,7 +281,7 @@ static uint32_t fill_occluders(drive *d)
         *cover = of_car[i];
         cover->material = part == CAR_COVER && still ? VIRGA_MATERIAL_STEEL : VIRGA_MATERIAL_GLASS;
         cover->ground = false;
-        cover->moves = true;
+        cover->is_dynamic = true;
         for (int row = 0; row < 3; row++) {
             for (int column = 0; column < 3; column++)
                 cover->world_from_mesh[4 * row + column] = d->car.axes[3 * column + row];
@@ -302,7 +302,7 @@ static virga_scene_pane place_windshield(const drive *d)
         pane.pose.world_from_pane[6 + i] = -d->car.axes[6 + i];
         pane.velocity_m_s[i] = d->car.velocity_m_s[i];
         pane.acceleration_m_s2[i] = d->car.acceleration_m_s2[i];
-        pane.turn_rad_s[i] = d->car.turn_rad_s[i];
+        pane.angular_velocity_rad_s[i] = d->car.angular_velocity_rad_s[i];
     }
     return pane;
 }
@@ -342,15 +342,15 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 {
     const virga_view view = look(d, dt_s);
     const virga_scene_pane pane = place_windshield(d);
-    virga_scene_frame frame = {.dt_s = dt_s, .view = &view, .panes = &pane, .panes_later = true};
+    virga_scene_frame frame = {.dt_s = dt_s, .view = &view, .panes = &pane, .defer_panes = true};
     frame.occluders = d->occluders;
     frame.occluder_count = fill_occluders(d);
     for (int axis = 0; axis < 3; axis++) {
         frame.camera_m[axis] = d->camera.position_m[axis];
-        frame.focus_m[axis] = d->car.position_m[axis] - 3.0 * (double)d->car.axes[6 + axis];
+        frame.ripple_center_m[axis] = d->car.position_m[axis] - 3.0 * (double)d->car.axes[6 + axis];
     }
     if (!fine(d, virga_frame_begin(d->context, d->device.frame, d->device.completed), "frame") ||
-        !fine(d, virga_scene_light(d->rain, &d->lighting), "light") ||
+        !fine(d, virga_scene_lighting_set(d->rain, &d->lighting), "light") ||
         !fine(d, virga_scene_record(d->rain, cmd, &frame), "step"))
         return false;
 
@@ -403,7 +403,7 @@ bool run_frame(drive *d, double dt_s, bool keep)
 
 /* ---- 6. the end of it -------------------------------------------------------------------------------------------- */
 
-static void tell_cost(const drive *d)
+static void print_cost(const drive *d)
 {
     virga_pass_time times[64];
     virga_memory_stats memory;
@@ -441,7 +441,7 @@ static bool run(drive *d)
         return run_window(d);
     if (!run_file(d) || !fine(d, virga_frame_completed(d->context, d->device.completed), "end"))
         return false;
-    tell_cost(d);
+    print_cost(d);
     return true;
 }
 

@@ -19,7 +19,7 @@ static bool number(const char *text, double low, double high, double *value)
     return end != text && !*end && *value >= low && *value <= high;
 }
 
-static bool take_wipers(drive *d, const char *name)
+static bool parse_wipers(drive *d, const char *name)
 {
     for (d->wiper_speed = 0; d->wiper_speed < WIPER_SPEEDS; d->wiper_speed++)
         if (strcmp(name, wiper_names[d->wiper_speed]) == 0)
@@ -27,7 +27,7 @@ static bool take_wipers(drive *d, const char *name)
     return complain("--wipers", "off, intermittent, slow or fast");
 }
 
-static bool take_option(drive *d, int option, const char *value)
+static bool parse_option(drive *d, int option, const char *value)
 {
     double n = 0, m = 0;
     char *x = value ? strchr(value, 'x') : NULL;
@@ -37,7 +37,7 @@ static bool take_option(drive *d, int option, const char *value)
     case 'o': d->chosen.out = value; return true;
     case 'p': d->chosen.pipelines = value; return true;
     case 'O': d->outside = true; return true;
-    case 'w': return take_wipers(d, value);
+    case 'w': return parse_wipers(d, value);
     case 'r':
         d->rate_mm_h = number(value, 0, 200, &n) ? (float)n : -1;
         return d->rate_mm_h >= 0 || complain("--rain", "0 to 200 mm/h");
@@ -76,7 +76,7 @@ bool read_command_line(drive *d, int argc, char **argv)
     d->rate_mm_h = 30;
     d->wiper_speed = SLOW;
     for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;)
-        if (!take_option(d, option, optarg))
+        if (!parse_option(d, option, optarg))
             return false;
     if (argc - optind > 1)
         return complain(argv[optind + 1], "one model");

@@ -45,7 +45,7 @@ static void multiply(const float a[16], const float b[16], float out[16])
 
 /* ---- uniforms */
 
-static void tell_camera(const stage *s, const stage_camera *camera, struct drive_frame_gpu *to)
+static void fill_camera(const stage *s, const stage_camera *camera, struct drive_frame_gpu *to)
 {
     const stage_camera *last = s->has_last ? &s->last : camera;
     multiply(camera->clip_from_view, camera->view_from_world, to->clip_from_relative);
@@ -61,7 +61,7 @@ static void tell_camera(const stage *s, const stage_camera *camera, struct drive
     }
 }
 
-static void tell_ground(const stage_camera *camera, const virga_ground_maps *maps, struct drive_frame_gpu *to)
+static void fill_ground(const stage_camera *camera, const virga_ground_maps *maps, struct drive_frame_gpu *to)
 {
     for (int axis = 0; axis < 2; axis++) {
         const double cell = floor(maps->low_m[axis] / (double)maps->cell_m + 0.5),
@@ -80,7 +80,7 @@ static void tell_ground(const stage_camera *camera, const virga_ground_maps *map
     to->ripples[2] = 1 / ((float)maps->ripple_texels * maps->ripple_texel_m);
 }
 
-static void tell_lights(const stage_camera *camera, const virga_lighting *lighting, struct drive_frame_gpu *to)
+static void fill_lights(const stage_camera *camera, const virga_lighting *lighting, struct drive_frame_gpu *to)
 {
     to->moved[3] = (float)lighting->light_count;
     for (uint32_t i = 0; i < lighting->light_count && i < DRIVE_LIGHTS; i++) {
@@ -102,7 +102,7 @@ static void tell_lights(const stage_camera *camera, const virga_lighting *lighti
 
 /* Irradiance over pi from radiance in harmonics: bands times 1, 2/3, 1/4 (Ramamoorthi and Hanrahan 2001), and the
  * harmonics' own factors. */
-static void tell_sky(const float sh[9][3], struct drive_frame_gpu *to)
+static void fill_sky(const float sh[9][3], struct drive_frame_gpu *to)
 {
     static const float factors[9] = {0.282095f,         0.488603f * 2 / 3, 0.488603f * 2 / 3,
                                      0.488603f * 2 / 3, 1.092548f / 4,     1.092548f / 4,
@@ -113,7 +113,7 @@ static void tell_sky(const float sh[9][3], struct drive_frame_gpu *to)
 }
 
 /* Rows that turn a point into the shade's own axes: 1 at its ends, and metres above the ground. */
-static void tell_shade(const stage_camera *camera, const stage_shade *shade, struct drive_frame_gpu *to)
+static void fill_shade(const stage_camera *camera, const stage_shade *shade, struct drive_frame_gpu *to)
 {
     const float scales[3] = {shade->half_m[0], 1, shade->half_m[1]};
     for (int row = 0; row < 3; row++) {
@@ -180,11 +180,11 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
 {
     struct drive_frame_gpu *to = s->numbers[slot(s)].mapped;
     memset(to, 0, sizeof *to);
-    tell_camera(s, camera, to);
-    tell_ground(camera, maps, to);
-    tell_lights(camera, lighting, to);
-    tell_sky(lighting->environment_sh, to);
-    tell_shade(camera, &s->shade, to);
+    fill_camera(s, camera, to);
+    fill_ground(camera, maps, to);
+    fill_lights(camera, lighting, to);
+    fill_sky(lighting->environment_sh, to);
+    fill_shade(camera, &s->shade, to);
     if (!s->has_last)
         clear_behind(s, cmd);
     begin_pass(cmd, s->world_pass, s->world_framebuffer, s);
@@ -195,7 +195,7 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_pipeline);
 }
 
-static void place(const stage_camera *camera, const stage_draw *draw, struct drive_surface_gpu *surface)
+static void fill_transform(const stage_camera *camera, const stage_draw *draw, struct drive_surface_gpu *surface)
 {
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++)
@@ -204,7 +204,7 @@ static void place(const stage_camera *camera, const stage_draw *draw, struct dri
     }
 }
 
-static void tell_material(const host_material *material, float sky, struct drive_surface_gpu *surface)
+static void fill_material(const host_material *material, float sky, struct drive_surface_gpu *surface)
 {
     memcpy(surface->base_color, material->base_color, sizeof surface->base_color);
     memcpy(surface->emissive, material->emissive, sizeof material->emissive);
@@ -224,7 +224,7 @@ static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_dra
         const float sky = draw->skies ? draw->skies[i] : draw->sky, through = 1 - material->base_color[3];
         if (sky < 0 || (material->alpha == HOST_ALPHA_GLASS) != glass)
             continue;
-        tell_material(material, sky, surface);
+        fill_material(material, sky, surface);
         surface->traits[3] = primitive->ground ? (float)(1 + primitive->surface) : 0;
         if (glass)
             vkCmdSetBlendConstants(cmd, (const float[4]){through, through, through, 0});
@@ -246,7 +246,7 @@ void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, 
     if (!sets)
         return;
     struct drive_surface_gpu surface;
-    place(camera, draw, &surface);
+    fill_transform(camera, draw, &surface);
     vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &zero);
     vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     draw_primitives(s, cmd, draw, sets, false, &surface);
@@ -340,11 +340,11 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
         host_set_write_buffer(s->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, s->numbers[i].buffer);
         host_set_write_image(s->device, set, 1, s->repeat, environment->sky.view, read);
         host_set_write_image(s->device, set, 2, s->smooth, environment->reflection.view, read);
-        host_set_write_image(s->device, set, 3, s->nearest, maps->wet, general);
+        host_set_write_image(s->device, set, 3, s->nearest, maps->wetness, general);
         host_set_write_image(s->device, set, 4, s->nearest, maps->spots, general);
         host_set_write_image(s->device, set, 5, s->smooth, maps->ripples, general);
         host_set_write_image(s->device, set, 6, s->smooth, s->behind.view, read);
-        host_set_write_image(s->device, set, 7, s->nearest, maps->far_wet, general);
+        host_set_write_image(s->device, set, 7, s->nearest, maps->far_wetness, general);
     }
     host_set_write_image(s->device, s->show_set, 0, s->nearest, s->color.view, read);
 }

@@ -8,11 +8,11 @@ bool open_window(drive *d)
     char *error = d->error;
     const size_t error_size = sizeof d->error;
     uint32_t count = 0;
-    const char **asked = d->chosen.out ? NULL : glfwGetRequiredInstanceExtensions(&count);
+    const char **requested = d->chosen.out ? NULL : glfwGetRequiredInstanceExtensions(&count);
     const char *extensions[MAX_WINDOW_EXTENSIONS + 1];
     count = count < MAX_WINDOW_EXTENSIONS ? count : MAX_WINDOW_EXTENSIONS;
     for (uint32_t i = 0; i < count; i++)
-        extensions[i] = asked[i];
+        extensions[i] = requested[i];
     const VkApplicationInfo application = {
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "drive", .apiVersion = VIRGA_VULKAN_API};
     VkInstanceCreateInfo info = {

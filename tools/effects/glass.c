@@ -33,7 +33,8 @@ static const scene_row wiper_rows[] = {
     NUMBER(scene_wiper, low_deg, -720, 720, NULL, LIVE, "where the arm starts and is parked; 0 is to the right, 90 up"),
     NUMBER(scene_wiper, high_deg, -720, 720, NULL, LIVE, "where the arm turns back"),
     NUMBER(scene_wiper, blade_deg, -180, 180, "0", LIVE, "angle between arm and blade"),
-    NUMBER(scene_wiper, blade_turn, 0, 1, "0", LIVE, "how much the blade keeps its own direction while the arm turns"),
+    NUMBER(scene_wiper, blade_hold_direction, 0, 1, "0", LIVE,
+           "how much the blade keeps its own direction while the arm turns"),
     CHOICE(scene_wiper, drive, wiper_drives, "continuous", LIVE, "parked, continuous, intermittent, or by keys"),
     NUMBER(scene_wiper, sweep_s, 0.1, 60, "0.6", LIVE, "from one end to the other"),
     NUMBER(scene_wiper, pause_s, 0, 3600, "3", LIVE, "rest at the low end (intermittent)"),
@@ -50,7 +51,7 @@ static const scene_row bumps_rows[] = {
     FILE_NAME(scene_bumps, file, 0, "a PNG of heights"),
     NUMBER(scene_bumps, size_mm, 0.1, 100000, NULL, RESTARTS, "that the picture covers; repeated"),
     NUMBER(scene_bumps, depth_mm, 0, 100, NULL, RESTARTS, "of black under white"),
-    NUMBER(scene_bumps, pull, 0, 10, "1", RESTARTS, "how much its low places draw drops on"),
+    NUMBER(scene_bumps, affinity, 0, 10, "1", RESTARTS, "how much its low places draw drops on"),
 };
 static const scene_group bumps_group = SCENE_GROUP(scene_bumps, bumps_rows);
 
@@ -86,7 +87,8 @@ static const scene_row pane_rows[] = {
            "path: from the camera's path; given: by the three settings below"),
     NUMBER(scene_pane, velocity_m_s, -200, 200, "[0, 0, 0]", LIVE, "of the pane, where its motion is given"),
     NUMBER(scene_pane, acceleration_m_s2, -100, 100, "[0, 0, 0]", LIVE, "of the pane, where its motion is given"),
-    NUMBER(scene_pane, turn_deg_s, -3600, 3600, "[0, 0, 0]", LIVE, "of the pane, where its motion is given"),
+    NUMBER(scene_pane, angular_velocity_deg_s, -3600, 3600, "[0, 0, 0]", LIVE,
+           "of the pane, where its motion is given"),
     NUMBER(scene_pane, shelter, 0, 1, "0", LIVE, "share of the rain that does not reach it"),
     NUMBER(scene_pane, frame_m, 0, 2, "0", RESTARTS, "width of a dark frame around it; 0: none"),
     CHOICE(scene_pane, kind, pane_kinds, "paper", LIVE,
@@ -94,29 +96,30 @@ static const scene_row pane_rows[] = {
     OPTIONAL_NUMBER(scene_pane, advancing_deg, 5, 175, LIVE,
                     "contact angle at which a drop's front moves on; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, receding_deg, 1, 175, LIVE, "contact angle at which its rear lets go; else its kind's"),
-    OPTIONAL_NUMBER(scene_pane, run_hold, 0, 1, LIVE,
+    OPTIONAL_NUMBER(scene_pane, kinetic_hold, 0, 1, LIVE,
                     "share of what holds a resting drop that still holds a running one; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, affinity, 0, 2, LIVE, "unevenness of the glass; else its kind's"),
     OPTIONAL_NUMBER(scene_pane, film_um, 0, 100, LIVE, "film that a running drop leaves; else its kind's"),
-    OPTIONAL_NUMBER(scene_pane, tail_mm, 0, 2, LIVE,
+    OPTIONAL_NUMBER(scene_pane, tail_max_radius_mm, 0, 2, LIVE,
                     "largest radius of drops that a running one leaves behind; else its kind's"),
     OPTIONAL_SWITCH(scene_pane, opaque, LIVE, "not glass: drops show what is under them; else its kind's"),
     NUMBER(scene_pane, drag, 0.01, 100, "1", LIVE, "times the resistance of running drops"),
     NUMBER(scene_pane, meander, 0, 1, "0.1", LIVE, "share of steps to the side that even glass has"),
     NUMBER(scene_pane, path_ease, 0, 1, "0.6", LIVE, "how much easier drops run where others ran before"),
-    NUMBER(scene_pane, path_s, 0.1, 600, "8", LIVE, "time in which a path dries"),
-    NUMBER(scene_pane, touch, 0, 2, "1.2", LIVE,
+    NUMBER(scene_pane, path_dry_s, 0.1, 600, "8", LIVE, "time in which a path dries"),
+    NUMBER(scene_pane, merge_distance, 0, 2, "1.2", LIVE,
            "drops flow together at this part of the sum of their radii; 0: only in one cell"),
-    NUMBER(scene_pane, tail_m, 0.001, 1, "0.012", LIVE, "way between drops that a running one leaves behind"),
-    NUMBER(scene_pane, tail_s, 0.1, 3600, "12", LIVE, "time in which one of those shrinks away"),
+    NUMBER(scene_pane, tail_spacing_m, 0.001, 1, "0.012", LIVE, "way between drops that a running one leaves behind"),
+    NUMBER(scene_pane, tail_lifetime_s, 0.1, 3600, "12", LIVE, "time in which one of those shrinks away"),
     NUMBER(scene_pane, film_break_s, 0, 60, "0.8", LIVE, "time after which a film has broken into drops"),
     NUMBER(scene_pane, evaporation_mm_h, 0, 100, "0.5", LIVE, "from what is wet"),
-    NUMBER(scene_pane, mist_mm, 0, 1, "0.6", LIVE, "smaller drops join the film as mist"),
+    NUMBER(scene_pane, mist_max_mm, 0, 1, "0.6", LIVE, "smaller drops join the film as mist"),
     NUMBER(scene_pane, air_share, 0, 2, "0.4", LIVE, "share of the air flow along the pane that pulls at drops"),
     LIST(scene_pane, wipers, wiper_count, &wiper_group, 0, SCENE_FILE_MAX_WIPERS, "[]", "blades that sweep the pane"),
-    NUMBER(scene_pane, particle_mm, 0.2, 5, "1.5", LIVE, "radius of the particles beside blades"),
+    NUMBER(scene_pane, particle_radius_mm, 0.2, 5, "1.5", LIVE, "radius of the particles beside blades"),
     NUMBER(scene_pane, penalty, 0, 1, "0.1", LIVE, "how hard particles push each other apart"),
-    NUMBER(scene_pane, band, 1, 16, "4", LIVE, "width of their band on each side of a blade, in their diameters"),
+    NUMBER(scene_pane, particle_band, 1, 16, "4", LIVE,
+           "width of their band on each side of a blade, in their diameters"),
     NUMBER(scene_pane, hold_back_mm, 0, 20, "2.2", LIVE,
            "drops of that radius keep particles beside them from becoming drops"),
     WHOLE(scene_pane, hold_back_cells, 0, 8, "3", LIVE, "how far they do so, on each side"),
@@ -136,7 +139,8 @@ static const scene_row pane_rows[] = {
     NUMBER(scene_pane, gain, 0, 100, "1", LIVE, "multiplies what drops reflect"),
     NUMBER(scene_pane, cell_m, 0.0005, 0.01, "0.002", RESTARTS,
            "side of a cell, of which one drop has one; 16 bytes each"),
-    NUMBER(scene_pane, affinity_m, 0.0005, 0.1, "0.006", RESTARTS, "width of the spots that the glass is uneven in"),
+    NUMBER(scene_pane, affinity_size_m, 0.0005, 0.1, "0.006", RESTARTS,
+           "width of the spots that the glass is uneven in"),
     WHOLE(scene_pane, max_drops, 256, 262144, "32768", RESTARTS, "drops and particles together; 372 bytes each"),
     WHOLE(scene_pane, max_texels, 64, 4096, "1024", RESTARTS, "of the height map along the longer side"),
     OPTIONAL_GROUP(scene_pane, bumps, &bumps_group, RESTARTS, "a height map of the surface, which steers drops"),
@@ -192,9 +196,10 @@ static bool check_pane(const scene_file *scene, const scene_pane *pane, uint32_t
         return scene_file_refuse(scene, key, error, error_size, "expected shape: mesh beside it");
     snprintf(key, sizeof key, "glass.%u.motion", index);
     if (pane->motion == SCENE_PANE_MOTION_PATH &&
-        !(is_zero(pane->velocity_m_s) && is_zero(pane->acceleration_m_s2) && is_zero(pane->turn_deg_s)))
-        return scene_file_refuse(scene, key, error, error_size,
-                                 "expected given, as velocity_m_s, acceleration_m_s2 or turn_deg_s is there");
+        !(is_zero(pane->velocity_m_s) && is_zero(pane->acceleration_m_s2) && is_zero(pane->angular_velocity_deg_s)))
+        return scene_file_refuse(
+            scene, key, error, error_size,
+            "expected given, as velocity_m_s, acceleration_m_s2 or angular_velocity_deg_s is there");
     snprintf(key, sizeof key, "glass.%u.receding_deg", index);
     if (pane->advancing_deg && pane->receding_deg && *pane->receding_deg > *pane->advancing_deg)
         return scene_file_refuse(scene, key, error, error_size, "expected at most advancing_deg (%g), got %g",
@@ -279,7 +284,7 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
         to->height_m = (float)pane->height_m;
         to->cell_m = (float)pane->cell_m;
         to->max_drops = pane->max_drops;
-        to->affinity_m = (float)pane->affinity_m;
+        to->affinity_size_m = (float)pane->affinity_size_m;
         to->max_texels = pane->max_texels;
         to->height_map = s->options.debug_maps;
     }
@@ -407,14 +412,14 @@ static void write_pane(const glass_pane *pane, jsonl *stats)
     jsonl_string(stats, "name", pane->from->name);
     jsonl_uint64(stats, "drops", g.drops);
     jsonl_uint64(stats, "particles", g.particles);
-    jsonl_uint64(stats, "held", g.held);
+    jsonl_uint64(stats, "particles_waiting", g.particles_waiting);
     jsonl_uint64(stats, "arrived", g.arrived);
     jsonl_uint64(stats, "merged", g.merged);
     jsonl_uint64(stats, "to_particles", g.to_particles);
     jsonl_uint64(stats, "to_drops", g.to_drops);
-    jsonl_uint64(stats, "crowded", g.crowded);
+    jsonl_uint64(stats, "drops_without_slot", g.drops_without_slot);
     jsonl_uint64(stats, "balls", g.balls);
-    jsonl_uint64(stats, "balls_cut", g.balls_cut);
+    jsonl_uint64(stats, "ball_entries_dropped", g.ball_entries_dropped);
     jsonl_begin_object(stats, "water_ul");
     jsonl_number(stats, "landed", (double)g.landed_nl * 1e-3);
     jsonl_number(stats, "drops", (double)g.drops_nl * 1e-3);

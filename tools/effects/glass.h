@@ -29,7 +29,7 @@ typedef struct scene_wiper_key {
 typedef struct scene_wiper {
     double pivot_m[2]; /* on the pane: right and up from its lower left corner, seen from outside */
     double reach_m, blade_m, width_m;
-    double low_deg, high_deg, blade_deg, blade_turn;
+    double low_deg, high_deg, blade_deg, blade_hold_direction;
     uint32_t drive; /* scene_wiper_drive */
     double sweep_s, pause_s, phase_s;
     double film_mm, wear;
@@ -43,7 +43,7 @@ typedef struct scene_bumps {
     char *file;        /* a PNG of numbers (see png_read_numbers), as it can be opened; NULL: smooth */
     double size_mm[2]; /* that the picture covers, along and up; repeated */
     double depth_mm;   /* of black under white */
-    double pull;
+    double affinity;
 } scene_bumps;
 
 /* Drops on a pane. Numbers behind a pointer are NULL where `kind` has them. */
@@ -61,17 +61,17 @@ typedef struct scene_pane {
     double pitch_deg;        /* back */
     double roll_deg;         /* to the left seen from outside */
     uint32_t motion;         /* scene_pane_motion */
-    double velocity_m_s[3], acceleration_m_s2[3], turn_deg_s[3]; /* (given) in the frame of position_m */
+    double velocity_m_s[3], acceleration_m_s2[3], angular_velocity_deg_s[3]; /* (given) in the frame of position_m */
     double shelter;
     double frame_m; /* width of a dark frame around it; 0: none */
     uint32_t kind;  /* virga_glass_kind */
-    double *advancing_deg, *receding_deg, *run_hold, *affinity, *film_um, *tail_mm;
+    double *advancing_deg, *receding_deg, *kinetic_hold, *affinity, *film_um, *tail_max_radius_mm;
     bool *opaque; /* NULL: metal and leaves are */
-    double drag, meander, path_ease, path_s, touch;
-    double tail_m, tail_s, film_break_s, evaporation_mm_h, mist_mm, air_share;
+    double drag, meander, path_ease, path_dry_s, merge_distance;
+    double tail_spacing_m, tail_lifetime_s, film_break_s, evaporation_mm_h, mist_max_mm, air_share;
     scene_wiper *wipers;
     uint32_t wiper_count;
-    double particle_mm, penalty, band, hold_back_mm;
+    double particle_radius_mm, penalty, particle_band, hold_back_mm;
     uint32_t hold_back_cells;
     uint32_t density, blend; /* virga_glass_density, virga_glass_blend */
     bool compress;
@@ -80,7 +80,7 @@ typedef struct scene_pane {
     double threshold, impact_s;
     uint32_t style; /* virga_glass_style */
     double paper_shift, thickness_mm, tint[3], gain;
-    double cell_m, affinity_m;
+    double cell_m, affinity_size_m;
     uint32_t max_drops, max_texels;
     scene_bumps bumps;
 } scene_pane;

@@ -37,7 +37,7 @@ static const scene_row ground_rows[] = {
     WHOLE(scene_ground, cells, 128, 4096, "1024", RESTARTS,
           "cells along the side of the window around the camera, a power of two; 44 bytes each"),
     NUMBER(scene_ground, cell_m, 0.01, 0.1, "0.05", RESTARTS, "side of a cell"),
-    WHOLE(scene_ground, kept_tiles, 0, 65536, "1024", RESTARTS,
+    WHOLE(scene_ground, cached_tiles, 0, 65536, "1024", RESTARTS,
           "tiles of 64 x 64 cells that are kept when they leave the window"),
     WHOLE(scene_ground, far_cells, 0, 2048, "512", RESTARTS,
           "cells along the side of the map of wet ground beyond the window, eight times as wide; 0: none"),
@@ -208,7 +208,7 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
     def->with_ground = from->on;
     def->ground.cells = from->cells;
     def->ground.cell_m = (float)from->cell_m;
-    def->ground.kept_tiles = from->kept_tiles;
+    def->ground.cached_tiles = from->cached_tiles;
     def->ground.far_cells = from->far_cells;
     /* A close-up sees finer waves of a smaller area. */
     def->ground.ripple_texel_m = (float)fmax(0.006 * ripples_ahead(s, 0) / RIPPLES_AHEAD_M, 0.002);
@@ -315,9 +315,9 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
     const double back[2] = {(double)m[2], (double)m[10]}, length = hypot(back[0], back[1]);
     (void)error, (void)error_size;
     frame->materials = g->materials;
-    memcpy(frame->focus_m, camera->position_m, sizeof frame->focus_m);
+    memcpy(frame->ripple_center_m, camera->position_m, sizeof frame->ripple_center_m);
     for (int axis = 0; axis < 2 && length > 1e-3; axis++)
-        frame->focus_m[axis * 2] -= back[axis] / length * ahead_m;
+        frame->ripple_center_m[axis * 2] -= back[axis] / length * ahead_m;
     return true;
 }
 
@@ -357,15 +357,15 @@ static const tool_layer layers[] = {
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);
-    jsonl_number(stats, "elsewhere", (double)now->elsewhere_nl * 1e-3);
+    jsonl_number(stats, "off_ground", (double)now->off_ground_nl * 1e-3);
     jsonl_number(stats, "absorbed", (double)(now->held_nl + now->infiltrated_nl) * 1e-3);
     jsonl_number(stats, "film", (double)now->film_nl * 1e-3);
     jsonl_number(stats, "puddle", (double)now->puddles_nl * 1e-3);
     jsonl_number(stats, "run_off", (double)now->run_off_nl * 1e-3);
     jsonl_number(stats, "evaporated", (double)now->evaporated_nl * 1e-3);
-    jsonl_number(stats, "kept", (double)now->kept_nl * 1e-3);
-    jsonl_number(stats, "forgotten", (double)now->forgotten_nl * 1e-3);
-    jsonl_number(stats, "aloft", (double)(now->flown_nl - now->returned_nl) * 1e-3);
+    jsonl_number(stats, "cached", (double)now->cached_nl * 1e-3);
+    jsonl_number(stats, "evicted", (double)now->evicted_nl * 1e-3);
+    jsonl_number(stats, "in_air", (double)(now->flown_nl - now->returned_nl) * 1e-3);
 }
 
 /* The budget of water, and the ground's cells by what is on them. */

@@ -28,7 +28,7 @@ typedef struct scene_ground {
     bool on;
     uint32_t cells;
     double cell_m;
-    uint32_t kept_tiles;
+    uint32_t cached_tiles;
     uint32_t far_cells;
     double evaporation_mm_h;
     double start_wetness, start_water_mm;

@@ -57,19 +57,19 @@ static const scene_row rain_rows[] = {
     NUMBER(scene_rain, light_gain, 0, 100, "1", LIVE, "multiplies the light of lamps in drops; 1 is physical"),
     NUMBER(scene_rain, min_width_px, 0.5, 4, "1", LIVE, "narrower streaks are drawn this wide with less coverage"),
     NUMBER(scene_rain, soft_m, 0, 1, "0.05", LIVE, "streaks fade over this depth where they meet geometry"),
-    NUMBER(scene_rain, near_m, 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"),
+    NUMBER(scene_rain, near_fade_m, 0, 5, "0.15", LIVE, "drops nearer to the camera than this fade out"),
     NUMBER(scene_rain, oscillation, 0, 4, "1", LIVE, "how much large drops wobble; 1 is physical"),
     NUMBER(scene_rain, haze, 0, 4, "1", LIVE, "extinction by the rain farther off; 1 is physical"),
     NUMBER(scene_rain, haze_sky_m, 0, 100000, "400", LIVE,
            "haze before the sky; 0 where its picture was taken in rain, as --plate"),
     NUMBER(scene_rain, glow, 0, 100, "1", LIVE, "glow of lamps in that haze; 1 is physical"),
-    NUMBER(scene_rain, bodies_min_mm, 0.2, 2, "0.4", LIVE,
+    NUMBER(scene_rain, streak_min_mm, 0.2, 2, "0.4", LIVE,
            "smaller drops are drawn as haze only; they land all the same"),
     WHOLE(scene_rain, occlusion_size, 0, 8192, "1024", RESTARTS,
           "texels along a side of the maps of where no rain falls; 0: it falls through roofs"),
     WHOLE(scene_rain, occlusion_cascades, 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"),
     WHOLE(scene_rain, occlusion_slants, 1, 4, "2", RESTARTS, "maps for drops of different slant"),
-    WHOLE(scene_rain, occlusion_turns, 1, 16, "1", LIVE,
+    WHOLE(scene_rain, occlusion_interval, 1, 16, "1", LIVE,
           "frames in which the maps are drawn by turns; more is quicker, and late"),
     LIST(scene_rain, keys, key_count, &rain_key_group, 0, 100000, "[]",
          "rate and wind by time, in place of the two settings"),
@@ -226,14 +226,14 @@ static void fill_look(const shot *s, const scene_rain *from, virga_rain_settings
     to->light_gain = (float)from->light_gain;
     to->min_width_px = (float)from->min_width_px;
     to->soft_m = (float)from->soft_m;
-    to->near_m = (float)from->near_m;
+    to->near_fade_m = (float)from->near_fade_m;
     to->oscillation = (float)from->oscillation;
     to->haze = (float)from->haze;
     /* Footage has its own haze. */
     to->haze_sky_m = s->options.plate ? 0 : (float)from->haze_sky_m;
     to->glow = (float)from->glow;
-    to->bodies_min_mm = (float)from->bodies_min_mm;
-    to->occlusion_turns = from->occlusion_turns;
+    to->streak_min_mm = (float)from->streak_min_mm;
+    to->occlusion_interval = from->occlusion_interval;
     to->lighting = s->lighting;
 }
 
@@ -300,8 +300,8 @@ static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error,
 {
     rain_state *r = state;
     virga_rain_buffer drops;
-    return shot_ok(s, virga_rain_points(r->rain, cmd, &drops, &r->drops.count, r->drops.origin_m), "reading drops",
-                   error, error_size) &&
+    return shot_ok(s, virga_rain_write_points(r->rain, cmd, &drops, &r->drops.count, r->drops.origin_m),
+                   "reading drops", error, error_size) &&
            shot_record_read(s, cmd, drops.buffer, drops.offset, drops.size, &r->drops, error, error_size);
 }
 
@@ -351,7 +351,7 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "streaks", now.streaks);
     jsonl_uint64(stats, "impacts", now.impacts);
     jsonl_uint64(stats, "impacts_dropped", now.impacts_dropped);
-    jsonl_number(stats, "bodies_radius_m", (double)now.bodies_radius_m);
+    jsonl_number(stats, "real_drop_radius_m", (double)now.real_drop_radius_m);
     jsonl_begin_array(stats, "wind_m_s");
     for (int axis = 0; axis < 3; axis++)
         jsonl_number(stats, NULL, (double)now.wind_m_s[axis]);

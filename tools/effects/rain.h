@@ -33,8 +33,9 @@ typedef struct scene_rain {
     uint32_t max_drops;
     double range_m;
     uint32_t seed;
-    double streak_gain, light_gain, min_width_px, soft_m, near_m, oscillation, haze, haze_sky_m, glow, bodies_min_mm;
-    uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_turns;
+    double streak_gain, light_gain, min_width_px, soft_m, near_fade_m, oscillation, haze, haze_sky_m, glow,
+        streak_min_mm;
+    uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_interval;
     scene_rain_key *keys; /* by rising time; linear between them, constant outside; none: rate and wind as above */
     uint32_t key_count;
 } scene_rain;

@@ -31,17 +31,17 @@ static const scene_row splash_rows[] = {
     WHOLE(scene_splash, max_splashes, 256, 1048576, "65536", RESTARTS,
           "alive at once; the oldest make room; 64 bytes each"),
     WHOLE(scene_splash, max_droplets, 256, 4194304, "131072", RESTARTS, "in the air at once; 264 bytes each"),
-    NUMBER(scene_splash, droplets_m, 0, 1000, "2.5", LIVE, "splashes nearer than this have droplets"),
+    NUMBER(scene_splash, droplet_range_m, 0, 1000, "2.5", LIVE, "splashes nearer than this have droplets"),
     NUMBER(scene_splash, bounce, 0, 1, "0.25", LIVE,
            "share of the drop's velocity along the surface that its droplets keep"),
-    NUMBER(scene_splash, pile_s, 0.001, 0.2, "0.012", LIVE, "a pile that is older lets its droplet go"),
-    NUMBER(scene_splash, pile_m, 0.001, 0.2, "0.008", LIVE, "a pile that is longer lets its droplet go"),
-    NUMBER(scene_splash, dot_mm, 0.05, 5, "0.5", LIVE, "droplets as large make a dot where they fall"),
+    NUMBER(scene_splash, pile_max_s, 0.001, 0.2, "0.012", LIVE, "a pile that is older lets its droplet go"),
+    NUMBER(scene_splash, pile_max_m, 0.001, 0.2, "0.008", LIVE, "a pile that is longer lets its droplet go"),
+    NUMBER(scene_splash, dot_min_mm, 0.05, 5, "0.5", LIVE, "droplets as large make a dot where they fall"),
     NUMBER(scene_splash, gain, 0, 100, "1", LIVE, "multiplies coverage; 1 is what a camera records"),
     NUMBER(scene_splash, light_gain, 0, 100, "1", LIVE, "multiplies the light of lamps in splashes"),
     NUMBER(scene_splash, min_width_px, 0.5, 4, "1", LIVE, "narrower things are drawn this wide with less coverage"),
     NUMBER(scene_splash, soft_m, 0, 1, "0.002", LIVE, "splashes fade over this depth where they meet geometry"),
-    NUMBER(scene_splash, near_m, 0, 5, "0.05", LIVE, "what is nearer to the camera fades out"),
+    NUMBER(scene_splash, near_fade_m, 0, 5, "0.05", LIVE, "what is nearer to the camera fades out"),
 };
 static const scene_group splash_group = SCENE_GROUP(scene_splash, splash_rows);
 
@@ -118,16 +118,16 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     virga_rain_get(p->rain, &rain);
     settings.mode = (virga_splash_mode)from->mode;
     settings.style = (virga_splash_style)from->style;
-    settings.droplets_m = (float)from->droplets_m;
+    settings.droplet_range_m = (float)from->droplet_range_m;
     settings.bounce = (float)from->bounce;
-    settings.pile_s = (float)from->pile_s;
-    settings.pile_m = (float)from->pile_m;
-    settings.dot_mm = (float)from->dot_mm;
+    settings.pile_max_s = (float)from->pile_max_s;
+    settings.pile_max_m = (float)from->pile_max_m;
+    settings.dot_min_mm = (float)from->dot_min_mm;
     settings.gain = (float)from->gain;
     settings.light_gain = (float)from->light_gain;
     settings.min_width_px = (float)from->min_width_px;
     settings.soft_m = (float)from->soft_m;
-    settings.near_m = (float)from->near_m;
+    settings.near_fade_m = (float)from->near_fade_m;
     settings.air_density = rain.air_density;
     settings.lighting = s->lighting;
     return shot_ok(s, virga_splash_set(p->splash, &settings), "setting the splashes", error, error_size);
@@ -276,7 +276,7 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "droplets_alive", now.droplets_alive);
     jsonl_uint64(stats, "droplets", now.droplets);
     jsonl_uint64(stats, "fallen", now.fallen);
-    jsonl_uint64(stats, "crowded", now.crowded);
+    jsonl_uint64(stats, "splashes_without_droplets", now.splashes_without_droplets);
     jsonl_uint64(stats, "sprites", now.sprites);
     jsonl_end(stats);
 }

@@ -16,11 +16,11 @@ typedef struct scene_splash {
     uint32_t mode;  /* scene_splash_mode */
     uint32_t style; /* scene_splash_style */
     uint32_t max_splashes, max_droplets;
-    double droplets_m;
+    double droplet_range_m;
     double bounce;
-    double pile_s, pile_m;
-    double dot_mm;
-    double gain, light_gain, min_width_px, soft_m, near_m;
+    double pile_max_s, pile_max_m;
+    double dot_min_mm;
+    double gain, light_gain, min_width_px, soft_m, near_fade_m;
 } scene_splash;
 
 /* The splashes of a scene. */

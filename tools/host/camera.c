@@ -170,14 +170,14 @@ static void projection(const host_camera_path *path, uint32_t width, uint32_t he
 void host_camera_at(const host_camera_path *path, double time_s, uint32_t width, uint32_t height,
                     const float jitter_px[2], host_camera *camera)
 {
-    static const float centre[2] = {0.0f, 0.0f};
+    static const float center[2] = {0.0f, 0.0f};
     double value[CHANNELS], axes[3][3];
     evaluate(path, time_s, value);
     basis(&value[0], &value[3], value[6], axes);
 
     memset(camera, 0, sizeof *camera);
     memcpy(camera->position_m, value, sizeof camera->position_m);
-    memcpy(camera->jitter_px, jitter_px ? jitter_px : centre, sizeof camera->jitter_px);
+    memcpy(camera->jitter_px, jitter_px ? jitter_px : center, sizeof camera->jitter_px);
     camera->near_m = path->near_m;
     camera->far_m = path->far_m;
     camera->width = width;
@@ -189,7 +189,7 @@ void host_camera_at(const host_camera_path *path, double time_s, uint32_t width,
     }
     camera->view_from_world[15] = 1.0f;
     projection(path, width, height, camera->jitter_px, camera->clip_from_view);
-    projection(path, width, height, centre, camera->clip_from_view_plain);
+    projection(path, width, height, center, camera->clip_from_view_plain);
 }
 
 void host_matrix_multiply(const float a[16], const float b[16], float out[16])

@@ -164,15 +164,15 @@ bool host_renderer_set_environment(host_renderer *r, const host_environment *env
 
 void host_renderer_set_ground(host_renderer *r, const virga_ground_maps *maps)
 {
-    const bool other = maps && maps->wet != r->ground.wet;
+    const bool other = maps && maps->wetness != r->ground.wetness;
     r->ground = maps ? *maps : (virga_ground_maps){0};
     if (other) {
         const VkImageLayout general = VK_IMAGE_LAYOUT_GENERAL;
-        host_set_write_image(r->device, r->frame_set, 4, r->point_sampler, maps->wet, general);
+        host_set_write_image(r->device, r->frame_set, 4, r->point_sampler, maps->wetness, general);
         host_set_write_image(r->device, r->frame_set, 5, r->point_sampler, maps->spots, general);
         host_set_write_image(r->device, r->frame_set, 6, r->volume_sampler, maps->ripples, general);
-        if (maps->far_wet)
-            host_set_write_image(r->device, r->frame_set, 8, r->point_sampler, maps->far_wet, general);
+        if (maps->far_wetness)
+            host_set_write_image(r->device, r->frame_set, 8, r->point_sampler, maps->far_wetness, general);
     }
 }
 
@@ -292,7 +292,7 @@ static void fill_ground(const virga_ground_maps *maps, const host_camera *camera
     frame->ground_low[3] = 1.0f / maps->cell_m;
     frame->ground_wrap[2] = (float)maps->cells;
     frame->ground_wrap[3] = maps->reach_m / maps->cell_m;
-    if (maps->far_wet) {
+    if (maps->far_wetness) {
         frame->ground_far[1] = 1.0f / maps->far_cell_m;
         frame->ground_far[3] = (float)maps->far_cells;
     }

@@ -175,7 +175,7 @@ void host_skylight_destroy(host_device *device, host_skylight *s)
 /* ---- where -------------------------------------------------------------------------------------------------- */
 
 /* The view from a direction of the sky onto the ball around the box: depth 0 at REACH_M above it, 1 at its far side. */
-static void look(const float d[3], const float centre[3], float radius, float m[16])
+static void look(const float d[3], const float center[3], float radius, float m[16])
 {
     float side[3] = {d[2], 0.0f, -d[0]}; /* never zero: no direction is straight up */
     float length = sqrtf(side[0] * side[0] + side[2] * side[2]);
@@ -190,9 +190,9 @@ static void look(const float d[3], const float centre[3], float radius, float m[
         m[i * 4] = side[i] / radius;
         m[i * 4 + 1] = up[i] / radius;
         m[i * 4 + 2] = -d[i] / range;
-        m[12] -= side[i] * centre[i] / radius;
-        m[13] -= up[i] * centre[i] / radius;
-        m[14] += d[i] * centre[i] / range;
+        m[12] -= side[i] * center[i] / radius;
+        m[13] -= up[i] * center[i] / radius;
+        m[14] += d[i] * center[i] / range;
     }
 }
 
@@ -218,10 +218,10 @@ bool host_skylight_place(host_skylight *s, const double camera_m[3], const float
     memcpy(s->low, low, sizeof low);
     memcpy(s->size, size, sizeof size);
 
-    float centre[3], radius = 0.0f;
+    float center[3], radius = 0.0f;
     const float voxels[3] = {HOST_SKYLIGHT_SIDE, HOST_SKYLIGHT_HEIGHT, HOST_SKYLIGHT_SIDE};
     for (int i = 0; i < 3; i++) {
-        centre[i] = low[i] + 0.5f * size[i];
+        center[i] = low[i] + 0.5f * size[i];
         radius += 0.25f * size[i] * size[i];
         s->gpu.low[i] = low[i];
         s->gpu.voxel[i] = size[i] / voxels[i];
@@ -230,7 +230,7 @@ bool host_skylight_place(host_skylight *s, const double camera_m[3], const float
     /* Half a voxel of bias, so that voxels close to a slope do not shade themselves. */
     s->gpu.low[3] = 0.5f * s->gpu.voxel[0] / (2.0f * radius + REACH_M);
     for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
-        look(s->gpu.direction[i], centre, radius, s->gpu.map_from_world[i]);
+        look(s->gpu.direction[i], center, radius, s->gpu.map_from_world[i]);
     return true;
 }
 

@@ -196,7 +196,7 @@ static bool read_header(header *header, ply_points *points)
     return false;
 }
 
-static bool take_values(const header *header, ply_points *points)
+static bool read_values(const header *header, ply_points *points)
 {
     size_t row = (size_t)points->property_count * 4;
     size_t there = (size_t)(header->end - header->next);
@@ -219,7 +219,7 @@ bool ply_read(const char *path, ply_points *points, char *error, size_t error_si
     if (!file_read(path, MAX_FILE, &data, &size, error, error_size))
         return false;
     header header = {.path = path, .next = data, .end = (char *)data + size, .error = error, .error_size = error_size};
-    bool ok = read_header(&header, points) && take_values(&header, points);
+    bool ok = read_header(&header, points) && read_values(&header, points);
     free(data);
     if (!ok)
         *points = (ply_points){0};

@@ -33,7 +33,7 @@ static bool refuse(char *error, size_t error_size, const char *verb, const char 
     return false;
 }
 
-static void take_bytes(void *user, void *data, int size)
+static void append_bytes(void *user, void *data, int size)
 {
     file_write(user, data, (size_t)size);
 }
@@ -49,7 +49,7 @@ bool png_write(const char *path, uint32_t width, uint32_t height, uint32_t chann
         return refuse(error, error_size, "write", path, "larger than 1 GiB");
     if (!file_start(&file, path, error, error_size))
         return false;
-    if (stbi_write_png_to_func(take_bytes, &file, (int)width, (int)height, (int)channels, pixels, 0))
+    if (stbi_write_png_to_func(append_bytes, &file, (int)width, (int)height, (int)channels, pixels, 0))
         return file_finish(&file, error, error_size);
     file_abandon(&file);
     return refuse(error, error_size, "write", path, "no memory");

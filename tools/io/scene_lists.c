@@ -39,8 +39,8 @@ static bool add_list(const scene_item *item, void *user)
     }
     scene_list *list = &out->lists[out->count++];
     *list = (scene_list){.count = scene_list_length(row, item->owner),
-                         .least = row->min_count,
-                         .most = row->max_count,
+                         .min_entries = row->min_count,
+                         .max_entries = row->max_count,
                          .used = scene_list_is_used(item),
                          .row = row,
                          .owner = item->owner};
@@ -166,8 +166,8 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
     scene_list list;
     if (!find_one(scene, path, &list, error, error_size))
         return false;
-    if (list.count >= list.most)
-        return scene_settings_fail(error, error_size, "%s: a scene has %u at most", path, list.most);
+    if (list.count >= list.max_entries)
+        return scene_settings_fail(error, error_size, "%s: a scene has %u at most", path, list.max_entries);
     const scene_group *group = list.row->group;
     char **entries = scene_list_entries(list.row, list.owner);
     char *grown = realloc(*entries, (list.count + (size_t)1) * group->size);
@@ -193,8 +193,8 @@ bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t er
     scene_list list;
     if (!find_one(scene, path, &list, error, error_size))
         return false;
-    if (list.count <= list.least)
-        return scene_settings_fail(error, error_size, "%s: a scene has %u at least", path, list.least);
+    if (list.count <= list.min_entries)
+        return scene_settings_fail(error, error_size, "%s: a scene has %u at least", path, list.min_entries);
     const scene_group *group = list.row->group;
     scene_free_group(group, *scene_list_entries(list.row, list.owner) + (list.count - (size_t)1) * group->size);
     scene_list_set_length(list.row, list.owner, list.count - 1);

@@ -57,7 +57,7 @@ typedef struct virga_glass_def {
     uint32_t max_drops;
 
     /* [0.0005; 0.1] width (m) of the spots in which the glass is uneven. Default 0.006. */
-    float affinity_m;
+    float affinity_size_m;
 
     /* [64; 4096] texels of the height map along the longer side of the pane. The map is made as large as the pane
      * appears on the picture, in tiles of 8, up to this. 34 bytes per texel. Default 1024. */
@@ -110,7 +110,7 @@ typedef struct virga_glass_shape {
 
     /* [0; 10] how much more affinity the low parts of the bump map have: standard deviations of the glass's affinity
      * per standard deviation of the heights. Default 1. */
-    float bump_pull;
+    float bump_affinity;
 } virga_glass_shape;
 
 VIRGA_API virga_glass_shape virga_default_glass_shape(void);
@@ -120,17 +120,17 @@ VIRGA_API virga_glass_shape virga_default_glass_shape(void);
  * right seen from outside, y up, and z points where the car drives to. The middle of the lower edge is at the frame's
  * origin. Writes columns x rows x 3 floats, as virga_glass_shape takes them. Writes nothing if columns or rows are not
  * [2; 1025], or if a number is not finite. */
-VIRGA_API void virga_glass_windshield(float width_m, float height_m, float rake_deg, float bend_m, uint32_t columns,
-                                      uint32_t rows, float *positions);
+VIRGA_API void virga_glass_fill_windshield(float width_m, float height_m, float rake_deg, float bend_m,
+                                           uint32_t columns, uint32_t rows, float *positions);
 
 /* Fills positions and a mask from a mesh that has texture coordinates in metres, (0, 0) at the pane's lower left. Each
  * grid point gets the point of the triangle that covers it, or else of the nearest one. `mask` gets columns x rows
  * bytes. The largest grid with hardly a triangle takes seconds. VIRGA_ERROR_INVALID if an index is out of range, if no
  * triangle covers anything, if columns and rows are not [2; 1025], or if width_m and height_m are not (0; 10]. */
-VIRGA_API virga_result virga_glass_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
-                                             const uint32_t *indices, uint32_t index_count, float width_m,
-                                             float height_m, uint32_t columns, uint32_t rows, float *grid,
-                                             uint8_t *mask);
+VIRGA_API virga_result virga_glass_fill_from_mesh(const float *positions, const float *uvs_m, uint32_t vertex_count,
+                                                  const uint32_t *indices, uint32_t index_count, float width_m,
+                                                  float height_m, uint32_t columns, uint32_t rows, float *grid,
+                                                  uint8_t *mask);
 
 /* Reads the rectangle that stands for the pane where drops are caught (virga_rain_pane): of the pane's width and
  * height, around the middle of its corners, in its own frame. along_u and along_v have unit length. */
@@ -168,7 +168,7 @@ typedef struct virga_glass_wiper {
 
     /* [0; 1] how much the blade keeps its own direction while the arm turns (a parallel linkage). 0: it turns with the
      * arm. 1: it keeps the direction that it has at low_deg. Default 0. */
-    float blade_turn;
+    float blade_hold_direction;
 
     /* Default continuous. */
     virga_glass_drive drive;
@@ -263,7 +263,7 @@ typedef struct virga_glass_settings {
     float drag;
 
     /* [0; 1] share of the force that holds a resting drop which still holds a running one. Default 0.6. */
-    float run_hold;
+    float kinetic_hold;
 
     /* [0; 2] unevenness of the glass: standard deviation of the logarithm of the cells' affinity. Default 0.5. */
     float affinity;
@@ -275,23 +275,23 @@ typedef struct virga_glass_settings {
     float path_ease;
 
     /* [0.1; 600] time in which a path dries (s). Default 8. */
-    float path_s;
+    float path_dry_s;
 
     /* [0; 2] drops merge when the distance of their middles is below this share of the sum of the radii of their bases.
      * 1 is where the bases meet; up to 1.3 the picture shows a neck between them. 0: only within one cell, as in Goto
      * et al. Default 1.2. */
-    float touch;
+    float merge_distance;
 
     /* ---- What drops leave behind. */
 
     /* [0.001; 1] distance between the small drops that a running drop leaves behind (m). Default 0.012. */
-    float tail_m;
+    float tail_spacing_m;
 
     /* [0; 2] their largest radius (mm). 0: there are none. Default 0.5. */
-    float tail_mm;
+    float tail_max_radius_mm;
 
     /* [0.1; 3600] time in which one of them shrinks away (s). Default 12. */
-    float tail_s;
+    float tail_lifetime_s;
 
     /* [0; 100] thickness of the film that a running drop leaves (micrometres). It breaks into fine drops. Default 6. */
     float film_um;
@@ -303,7 +303,7 @@ typedef struct virga_glass_settings {
     float evaporation_mm_h;
 
     /* [0; 1] landing drops of a smaller diameter (mm) join the film as mist. Default 0.6. */
-    float mist_mm;
+    float mist_max_mm;
 
     /* ---- Air. */
 
@@ -318,14 +318,14 @@ typedef struct virga_glass_settings {
     uint32_t wiper_count;
 
     /* [0.2; 5] radius of the particles beside blades (mm). Each has the water of a hemisphere. Default 1.5. */
-    float particle_mm;
+    float particle_radius_mm;
 
     /* [0; 1] particles that overlap push each other farther than just apart, by this factor times their overlap.
      * Default 0.1. */
     float penalty;
 
     /* [1; 16] width of the band of particles on each side of a blade, in diameters of a particle. Default 4. */
-    float band;
+    float particle_band;
 
     /* [0; 20] a drop of that radius (mm), within hold_back_cells of a particle, keeps it from becoming a drop. Where
      * drops of that size do not run yet, the drops that just run do so instead. Default 2.2. */
@@ -390,11 +390,11 @@ typedef struct virga_glass_settings {
 VIRGA_API virga_glass_settings virga_default_glass_settings(void);
 
 /* Sets the contact angles of a kind of surface in `settings`, and the settings that go with them. */
-VIRGA_API void virga_glass_settings_of(virga_glass_kind kind, virga_glass_settings *settings);
+VIRGA_API void virga_glass_apply_kind(virga_glass_kind kind, virga_glass_settings *settings);
 
 /* ---- life ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates, and builds pipelines when virga_context_def.pipelines says so. VIRGA_DEGRADED: pools (max_drops,
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools (max_drops,
  * max_texels) were made smaller to fit the context's memory_budget; the log says how small. Errors as
  * virga_context_create; *glass is NULL then. */
 VIRGA_API virga_result virga_glass_create(virga_context *context, const virga_glass_def *def, virga_glass **glass);
@@ -408,7 +408,7 @@ VIRGA_API void virga_glass_destroy(virga_glass **glass);
 VIRGA_API virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *shape);
 
 /* Returns VIRGA_OK if its pipelines for stepping and preparing are built, VIRGA_NOT_READY if some are missing, or the
- * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS it is
+ * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_DEFERRED or _AS_JOBS it is
  * always VIRGA_OK. Costs nothing. */
 VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
 
@@ -416,8 +416,8 @@ VIRGA_API virga_result virga_glass_ready(const virga_glass *glass);
  * VIRGA_ERROR_INVALID, and nothing changes.
  *
  * A density, blend or style that this pane has not had yet needs three more pipelines; so do more than five steps of
- * compression. They are built as virga_context_def.pipelines says, and the pane is not drawn until they are there.
- * Their errors are those of virga_glass_create, and then nothing changes. */
+ * compression. They are built as virga_context_def.pipeline_build_mode says, and the pane is not drawn until they are
+ * there. Their errors are those of virga_glass_create, and then nothing changes. */
 VIRGA_API virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings);
 
 /* Reads the current settings. */
@@ -447,7 +447,7 @@ typedef struct virga_glass_step_info {
     float acceleration_m_s2[3];
 
     /* [-100; 100] angular velocity of the pane, about the world's axes. */
-    float turn_rad_s[3];
+    float angular_velocity_rad_s[3];
 
     /* [-1000; 1000] velocity of the air in the world. */
     float wind_m_s[3];
@@ -461,7 +461,7 @@ typedef struct virga_glass_step_info {
     /* [0; 100] kg/m^3. 0: VIRGA_AIR_DENSITY. */
     float air_density;
 
-    /* (optional) Drops that hit this pane, as virga_rain_hits returns them: virga_impacts_gpu and at most 8192
+    /* (optional) Drops that hit this pane, as virga_rain_find_hits returns them: virga_impacts_gpu and at most 8192
      * virga_impact_gpu, with positions (u, v, -) on the pane. They land in addition to those of the rate. Ready to be
      * read by compute shaders. */
     VkBuffer impacts;
@@ -508,8 +508,8 @@ typedef struct virga_glass_pose {
 
     /* The same two in the previous frame, for motion vectors (virga_temporal). If the rotation is all zero, the pane
      * has not moved since. */
-    double before_position_m[3];
-    float before_world_from_pane[9];
+    double previous_position_m[3];
+    float previous_world_from_pane[9];
 } virga_glass_pose;
 
 /* Makes the height map of what a view sees of the pane at `time_s`: normally virga_glass_time, or a part of a tick
@@ -568,14 +568,14 @@ typedef struct virga_glass_stats {
     uint64_t to_particles, to_drops;
 
     /* Drops that found no free slot: their water joined the film. */
-    uint64_t crowded;
+    uint64_t drops_without_slot;
 
     /* Now. held: particles that wait to become drops (section 4.6). */
-    uint32_t drops, particles, held;
+    uint32_t drops, particles, particles_waiting;
 
     /* Of the newest prepare: metaballs; and entries of the lists of tiles that found no room. If there are any, tiles
      * with more than an equal share of the entries show no drops. */
-    uint32_t balls, balls_cut;
+    uint32_t balls, ball_entries_dropped;
 } virga_glass_stats;
 
 VIRGA_API void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats);

@@ -8,10 +8,10 @@
  * Water is counted in whole nanolitres. All that has landed is on the ground, in it, run off or evaporated, to the last
  * nanolitre.
  *
- * Window. The cells are a square window around the camera. When it moves, tiles of 64 x 64 cells that leave it are kept
- * with their water, up to def.kept_tiles of them. Beyond that, the tiles that left longest ago are dropped; their water
- * is counted as forgotten. There is one cell per (x, z): where surfaces lie above one another, it is that of the
- * highest one that is ground.
+ * Window. The cells are a square window around the camera. When it moves, tiles of 64 x 64 cells that leave it are
+ * cached with their water, up to def.cached_tiles of them. Beyond that, the tiles that left longest ago are dropped;
+ * their water is counted as evicted. There is one cell per (x, z): where surfaces lie above one another, it is that of
+ * the highest one that is ground.
  *
  * Far map. Beyond the window there is a wider map, which counts no water (def.far_cells). It shows ground that has
  * stood in the rain for as long as the ground effect has lived, in the open or under cover. Cells that come into the
@@ -58,9 +58,9 @@ typedef struct virga_ground_def {
     /* [0.01; 0.1] side of a cell (m). Default 0.05. */
     float cell_m;
 
-    /* [0; 60000] tiles that are kept when they leave the window, 64 KiB each. Raised to twice the number of tiles in
+    /* [0; 60000] tiles that are cached when they leave the window, 64 KiB each. Raised to twice the number of tiles in
      * the window, so that a camera cut and a cut back lose nothing. Default 1024. */
-    uint32_t kept_tiles;
+    uint32_t cached_tiles;
 
     /* [0; 2048] cells along a side of the far map; one of its cells is 8 x cell_m wide. Raised to twice the side of the
      * window, else rounded down to a multiple of 64. 32 bytes of device memory per cell. All meshes are drawn into it
@@ -90,7 +90,7 @@ typedef struct virga_ground_def {
     uint32_t max_spawns;
 
     /* [0; 4194240] droplets of splashes that may fall back in one step (step_info.returns). Default 131072. */
-    uint32_t max_returns;
+    uint32_t max_returned_droplets;
 
     /* [1; 64] the same as the rain's. Default 16. */
     uint32_t max_ticks_per_step;
@@ -108,8 +108,8 @@ typedef struct virga_ground_material {
     float infiltration_mm_h; /* [0; 10000] speed at which water sinks out of a wet cell */
     float drying;            /* [0; 10] factor of the settings' evaporation */
     float manning_n;         /* [0.005; 1] roughness to flow, s m^(-1/3) */
-    float bumps_mm;          /* [0; 50] standard deviation of its unevenness: decides where puddles gather */
-    float bump_m;            /* [0.2; 50] width of a bump */
+    float bump_height_mm;          /* [0; 50] standard deviation of its unevenness: decides where puddles gather */
+    float bump_width_m;            /* [0.2; 50] width of a bump */
     bool drain;              /* removes all water that reaches it */
 } virga_ground_material;
 
@@ -141,8 +141,8 @@ typedef struct virga_ground_settings {
  * their sources are in engine/ground/materials.c. */
 VIRGA_API virga_ground_settings virga_default_ground_settings(void);
 
-/* Allocates, and builds pipelines when virga_context_def.pipelines says so. VIRGA_DEGRADED: pools (cells, kept_tiles,
- * ripple_texels) were made smaller to fit the context's memory_budget; the log says how small. Errors as
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools (cells,
+ * cached_tiles, ripple_texels) were made smaller to fit the context's memory_budget; the log says how small. Errors as
  * virga_context_create; *ground is NULL then. */
 VIRGA_API virga_result virga_ground_create(virga_context *context, const virga_ground_def *def, virga_ground **ground);
 
@@ -151,7 +151,7 @@ VIRGA_API virga_result virga_ground_create(virga_context *context, const virga_g
 VIRGA_API void virga_ground_destroy(virga_ground **ground);
 
 /* Returns VIRGA_OK if its pipelines for stepping are built, VIRGA_NOT_READY if some are missing, or the error of one
- * that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS it is always
+ * that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_DEFERRED or _AS_JOBS it is always
  * VIRGA_OK. Costs nothing. */
 VIRGA_API virga_result virga_ground_ready(const virga_ground *ground);
 
@@ -184,14 +184,14 @@ typedef struct virga_ground_step_info {
     double camera_m[3];
 
     /* Middle of the ripple map: a point on the ground some metres ahead of the camera, where ripples are visible. */
-    double focus_m[3];
+    double ripple_center_m[3];
 
     /* All meshes of the host. Where the window moves, those with `ground` are drawn into its height map. Where the far
      * map moves, all that stand still are drawn into its own, for what they keep dry. */
     const virga_occluder *meshes;
     uint32_t mesh_count;
 
-    /* (optional) It is read where the window moves, see virga_ground_survey. */
+    /* (optional) It is read where the window moves, see virga_ground_refresh_heights. */
     virga_ground_material_map materials;
 
     /* As virga_rain_impacts returns them: a virga_impacts_gpu and the impacts after it. */
@@ -216,13 +216,13 @@ typedef struct virga_ground_step_info {
 
     /* (optional) Droplets of splashes that fell back: laid out as impacts, with is_return set. Their water lands in the
      * first tick of the step. Give each of them to exactly one step, and that step must have ticks. */
-    VkBuffer returns;
+    VkBuffer returned_droplets;
 
     /* As those of the impacts. */
-    VkDeviceSize returns_offset, returns_size;
+    VkDeviceSize returned_droplets_offset, returned_droplets_size;
 
     /* [0; 1000] rain that falls on level open ground during the step. For ground on which no impacts are counted: cells
-     * that come into the window, and the far map. See virga_rain_fall_get. 0: such ground stays as it started, and
+     * that come into the window, and the far map. See virga_rain_rainfall_get. 0: such ground stays as it started, and
      * dries. */
     float open_rain_mm_h;
 
@@ -241,21 +241,21 @@ typedef struct virga_ground_step_info {
 VIRGA_API virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
 
 /* Draws the height map of the whole window again in the next step. Call it after meshes have changed. Water stays. */
-VIRGA_API void virga_ground_survey(virga_ground *ground);
+VIRGA_API void virga_ground_refresh_heights(virga_ground *ground);
 
 /* What materials read.
  *
- * `wet` and `spots` have cells x cells texels (`spots` is twice as wide), and wrap around: the texel of a position is
- * the number of its cell, floor(x / cell_m), modulo `cells`. They stay in VK_IMAGE_LAYOUT_GENERAL. The views are the
+ * `wetness` and `spots` have cells x cells texels (`spots` is twice as wide), and wrap around: the texel of a position
+ * is the number of its cell, floor(x / cell_m), modulo `cells`. They stay in VK_IMAGE_LAYOUT_GENERAL. The views are the
  * same for the whole life of the ground, so bind them once. Where they lie (low_m, ripple_low_m, far_low_m) changes
- * every frame. `wet`, `spots` and `far_wet` are fetched by texel, so any sampler will do; `ripples` may be filtered.
- * All zero for NULL. */
+ * every frame. `wetness`, `spots` and `far_wetness` are fetched by texel, so any sampler will do; `ripples` may be
+ * filtered. All zero for NULL. */
 typedef struct virga_ground_maps {
     /* R16G16B16A16_SFLOAT. r: wetness [0; 1]. g: depth of water (mm). b: slope variance of ripples. a: height of the
      * ground above base_m (m).
      * Water that is hidden between blades of grass and clods of earth has no depth here: all that a material holds
      * back, if that is 1 mm or more; none of it, if that is 0.35 mm or less. */
-    VkImageView wet;
+    VkImageView wetness;
 
     /* R32_UINT: two texels per cell, 8 x 8 bits of dark spots, row by row. */
     VkImageView spots;
@@ -282,10 +282,10 @@ typedef struct virga_ground_maps {
      * the far map before it. 0: there is none (def.cells 128), and nothing to blend. */
     float reach_m;
 
-    /* R16G16B16A16_SFLOAT, as `wet`, but b holds minus the share of dark spots where there is no water. Texel (0, 0)
-     * lies at far_low_m; it does not wrap. One more row, y = far_cells, has VIRGA_GROUND_MATERIALS texels: level open
-     * ground by material, for what lies beyond. */
-    VkImageView far_wet;
+    /* R16G16B16A16_SFLOAT, as `wetness`, but b holds minus the share of dark spots where there is no water. Texel (0,
+     * 0) lies at far_low_m; it does not wrap. One more row, y = far_cells, has VIRGA_GROUND_MATERIALS texels: level
+     * open ground by material, for what lies beyond. */
+    VkImageView far_wetness;
 
     /* Along its side. 0: there is only that one row, y = 0. */
     uint32_t far_cells;
@@ -325,7 +325,7 @@ VIRGA_API void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer,
 
 /* The newest statistics of completed frames. Water is in nanolitres, since creation or, in the last group, now. While
  * `measure` is on, and as long as rain drops no impact for lack of room:
- *     start + landed = film + puddles + held + kept + infiltrated + run_off + evaporated + forgotten */
+ *     start + landed = film + puddles + held + cached + infiltrated + run_off + evaporated + evicted */
 typedef struct virga_ground_stats {
     /* 0: none yet. */
     uint64_t frame_index;
@@ -335,22 +335,22 @@ typedef struct virga_ground_stats {
 
     /* Landed on cells; and landed elsewhere: on what is not ground, or outside the window. Without water that flew up
      * in a splash and has not fallen back. */
-    uint64_t landed_nl, elsewhere_nl;
+    uint64_t landed_nl, off_ground_nl;
 
     /* Flown up in splashes, and fallen back. The difference is in the air. */
     uint64_t flown_nl, returned_nl;
 
     /* Gone: sunk in, run into drains, evaporated, dropped with tiles. */
-    uint64_t infiltrated_nl, run_off_nl, evaporated_nl, forgotten_nl;
+    uint64_t infiltrated_nl, run_off_nl, evaporated_nl, evicted_nl;
 
-    /* Now: on wet and dry cells, in puddles, in pores, and all water of kept tiles. */
-    uint64_t film_nl, puddles_nl, held_nl, kept_nl;
+    /* Now: on wet and dry cells, in puddles, in pores, and all water of cached tiles. */
+    uint64_t film_nl, puddles_nl, held_nl, cached_nl;
 
     /* Cells now, by state (VIRGA_GROUND_NONE to VIRGA_GROUND_PUDDLE_10). */
     uint32_t cells[VIRGA_GROUND_STATES];
 
-    /* Tiles outside the window that are kept now. */
-    uint32_t tiles_kept;
+    /* Tiles outside the window that are cached now. */
+    uint32_t tiles_cached;
 } virga_ground_stats;
 
 VIRGA_API void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats);

@@ -28,7 +28,7 @@ typedef enum virga_material {
     VIRGA_MATERIAL_PLASTIC = 14,
     VIRGA_MATERIAL_TILE = 15,
     VIRGA_MATERIAL_DRAIN = 16,
-    VIRGA_MATERIAL_OWN = 17 /* first free number: from here to VIRGA_GROUND_MATERIALS - 1 they are the host's */
+    VIRGA_MATERIAL_CUSTOM = 17 /* first free number: from here to VIRGA_GROUND_MATERIALS - 1 they are the host's */
 } virga_material;
 
 #ifdef __cplusplus

@@ -46,7 +46,7 @@ typedef struct virga_occluder {
 
     /* The mesh moves: cars, people, and above all the camera's own car. It then leaves no dry patch behind, because the
      * ground beyond the window ignores it as shelter. Default false. */
-    bool moves;
+    bool is_dynamic;
 } virga_occluder;
 
 #ifdef __cplusplus

@@ -70,11 +70,11 @@ typedef struct virga_rain_def {
      * per stride. 0: unused. Default 12, 32, 0, 0. */
     uint32_t occluder_strides[4];
 
-    /* [0; 8] panes per frame that virga_rain_hits can be called for. Costs 512 KiB each, and 4 bytes per slot for all.
-     * Default 0. */
+    /* [0; 8] panes per frame that virga_rain_find_hits can be called for. Costs 512 KiB each, and 4 bytes per slot for
+     * all. Default 0. */
     uint32_t max_panes;
 
-    /* Allocates the buffer of virga_rain_points: 48 bytes per slot. Default false. */
+    /* Allocates the buffer of virga_rain_write_points: 48 bytes per slot. Default false. */
     bool points;
 
     /* Allocates what it takes to move drops in a host's 3D wind (settings.wind_texture). Default false. */
@@ -140,7 +140,7 @@ typedef struct virga_rain_settings {
     float soft_m;
 
     /* [0; 5] drops nearer to the camera than this fade out (m). Default 0.15. */
-    float near_m;
+    float near_fade_m;
 
     /* [0; 4] amplitude of the shape oscillation of large drops. 1 is physical. Default 1. */
     float oscillation;
@@ -160,20 +160,20 @@ typedef struct virga_rain_settings {
 
     /* [0.2; 2] drops of a smaller diameter (mm) are drawn as haze only, never as streaks. They land all the same.
      * Default 0.4. */
-    float bodies_min_mm;
+    float streak_min_mm;
 
     /* [0; 255] material of surfaces that have none (depth maps of the host). Default 0. */
     uint32_t default_material;
 
-    /* [1; 16] calls of virga_rain_occlusion in which all occlusion maps are redrawn once; each call draws an equal part
-     * of them. Divides the cost, and delays the effect of moving things and of wind by as many calls. All maps are
+    /* [1; 16] calls of virga_rain_draw_occlusion in which all occlusion maps are redrawn once; each call draws an equal
+     * part of them. Divides the cost, and delays the effect of moving things and of wind by as many calls. All maps are
      * drawn at once where one would no longer reach around the camera. Default 1: all maps in each call. */
-    uint32_t occlusion_turns;
+    uint32_t occlusion_interval;
 } virga_rain_settings;
 
 VIRGA_API virga_rain_settings virga_default_rain_settings(void);
 
-/* Allocates, and builds pipelines when virga_context_def.pipelines says so. VIRGA_DEGRADED: pools (max_drops,
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools (max_drops,
  * max_streaks, max_impacts, occlusion_size) were made smaller to fit the context's memory_budget; the log says how
  * small. Errors as virga_context_create; *rain is NULL then. */
 VIRGA_API virga_result virga_rain_create(virga_context *context, const virga_rain_def *def, virga_rain **rain);
@@ -183,7 +183,7 @@ VIRGA_API virga_result virga_rain_create(virga_context *context, const virga_rai
 VIRGA_API void virga_rain_destroy(virga_rain **rain);
 
 /* Returns VIRGA_OK if its pipelines for stepping and preparing are built, VIRGA_NOT_READY if some are missing, or the
- * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS it is
+ * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_DEFERRED or _AS_JOBS it is
  * always VIRGA_OK. Costs nothing. */
 VIRGA_API virga_result virga_rain_ready(const virga_rain *rain);
 
@@ -203,27 +203,27 @@ VIRGA_API VkDeviceSize virga_rain_estimate(const virga_rain_def *def);
 /* Draws the meshes into the occlusion maps around the camera position. Outside rendering. Call it every frame if
  * occluders move, else when the camera has moved. Without a call the last maps stay in use, as far as they reach.
  *
- * Costs one draw of depth and normal per mesh and map; more where a mesh has holes (cover). settings.occlusion_turns
+ * Costs one draw of depth and normal per mesh and map; more where a mesh has holes (cover). settings.occlusion_interval
  * spreads that over several calls. VIRGA_NOT_READY if the rain was created without occlusion. */
-VIRGA_API virga_result virga_rain_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
-                                            const virga_occluder *occluders, uint32_t count);
+VIRGA_API virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, const double camera_m[3],
+                                                 const virga_occluder *occluders, uint32_t count);
 
 /* One map that the host draws itself: an orthographic view, sheared along the fall of the drops. */
 typedef struct virga_occlusion_view {
     float clip_from_world[16]; /* depth 0 at the top, 1 at the bottom */
     double origin_m[3];        /* subtract it from world positions before the matrix, to keep precision */
-    uint32_t layer;            /* of the image that is given to virga_rain_occlusion_import */
+    uint32_t layer;            /* of the image that is given to virga_rain_import_occlusion */
 } virga_occlusion_view;
 
 /* Plans the maps for a camera position and fills their views. `views` has room for VIRGA_RAIN_MAX_MAPS. Returns the
  * number of views. */
-VIRGA_API uint32_t virga_rain_occlusion_views(virga_rain *rain, const double camera_m[3], virga_occlusion_view *views);
+VIRGA_API uint32_t virga_rain_plan_occlusion(virga_rain *rain, const double camera_m[3], virga_occlusion_view *views);
 
 /* Uses depth that the host has drawn with the views that were planned last. `depth` is a square 2D array image of a
  * depth format or R32, with one layer per view. It is sampled in place of the rain's own maps until
- * virga_rain_occlusion is called. `before` must be a layout that compute shaders can sample. Surfaces get
+ * virga_rain_draw_occlusion is called. `before` must be a layout that compute shaders can sample. Surfaces get
  * settings.default_material, and a normal from the slope of the depth. */
-VIRGA_API virga_result virga_rain_occlusion_import(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth);
+VIRGA_API virga_result virga_rain_import_occlusion(virga_rain *rain, VkCommandBuffer cmd, const virga_image *depth);
 
 /* The maps in use, for display and checks. */
 typedef struct virga_rain_occlusion_map {
@@ -236,8 +236,8 @@ typedef struct virga_rain_occlusion_map {
     float height_m;            /* from depth 0 down to depth 1 */
 } virga_rain_occlusion_map;
 
-/* Reads which maps virga_rain_occlusion drew last, or the host has given. The rain's own maps are ready to be read by
- * compute shaders; for other stages the host records a barrier. Costs nothing. Thread-safety: as the rain. */
+/* Reads which maps virga_rain_draw_occlusion drew last, or the host has given. The rain's own maps are ready to be read
+ * by compute shaders; for other stages the host records a barrier. Costs nothing. Thread-safety: as the rain. */
 VIRGA_API void virga_rain_occlusion_map_get(const virga_rain *rain, virga_rain_occlusion_map *map);
 
 /* ---- time ----------------------------------------------------------------------------------------------------- */
@@ -270,14 +270,14 @@ VIRGA_API void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_
 VIRGA_API void virga_rain_wind(const virga_rain *rain, float wind_m_s[3]);
 
 /* The rain of the newest tick, as it falls on level open ground. */
-typedef struct virga_rain_fall {
+typedef struct virga_rainfall {
     float rate_mm_h; /* eased while settings change */
     float drop_m;    /* mean diameter of the landing drops, by surface: sum of d^3 over sum of d^2. 0: no drops land */
     float reach_m;   /* distance from the camera up to which they land: def.range_m */
-} virga_rain_fall;
+} virga_rainfall;
 
 /* Reads it. Costs nothing. All zero for NULL. Thread-safety: as the rain. */
-VIRGA_API void virga_rain_fall_get(const virga_rain *rain, virga_rain_fall *fall);
+VIRGA_API void virga_rain_rainfall_get(const virga_rain *rain, virga_rainfall *fall);
 
 /* ---- picture -------------------------------------------------------------------------------------------------- */
 
@@ -347,8 +347,8 @@ typedef struct virga_rain_pane {
  * Drops under a cover of the occlusion maps do not count. Where a slot stands for several drops, they are scattered
  * around it; the first of them has the id of the streak. The pane does not stop the drops: hide their streaks by depth.
  * VIRGA_NOT_READY before the first step of a frame. */
-VIRGA_API virga_result virga_rain_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
-                                       virga_rain_buffer *hits);
+VIRGA_API virga_result virga_rain_find_hits(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane *pane,
+                                            virga_rain_buffer *hits);
 
 /* Reads where the drops of the newest tick are: def.max_drops (rounded up; see `count`) x virga_drop_gpu
  * (virga/shared/drop.h), with positions relative to `origin_m`. */
@@ -357,8 +357,8 @@ VIRGA_API void virga_rain_drops(const virga_rain *rain, virga_rain_buffer *drops
 /* Writes all that is known of the drop of each slot (virga/shared/point.h: velocity, size, weight, whether it is under
  * cover), relative to `origin_m`. Outside rendering, after a step, in the frame of that step. Leaves the buffer ready
  * to be read by transfers, compute and vertex shaders. VIRGA_NOT_READY without def.points, or before the first step. */
-VIRGA_API virga_result virga_rain_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points,
-                                         uint32_t *count, double origin_m[3]);
+VIRGA_API virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virga_rain_buffer *points,
+                                               uint32_t *count, double origin_m[3]);
 
 /* The newest statistics of completed frames. They are late by the frames in flight, see virga_frame_completed. */
 typedef struct virga_rain_stats {
@@ -371,7 +371,8 @@ typedef struct virga_rain_stats {
     uint32_t streaks;         /* of the newest prepare of that frame */
     uint64_t impact_water_nl; /* water (1e-9 l) that landed in this step, with weights */
     uint64_t total_water_nl;  /* water that has landed since creation */
-    float bodies_radius_m;    /* within this distance of the camera each slot is one real drop, at the current rate */
+    float real_drop_radius_m;    /* within this distance of the camera each slot is one real drop, at the current rate
+                                  * */
     float wind_m_s[3];        /* wind of the newest tick, including the gust */
 } virga_rain_stats;
 

@@ -34,13 +34,13 @@ typedef struct virga_scene_def {
     /* Needs the ground. Default false. */
     bool with_splash;
 
-    /* tick_s and max_ticks_per_step are copied from `rain`, max_spawns and max_returns from `ground`. */
+    /* tick_s and max_ticks_per_step are copied from `rain`, max_spawns and max_returned_droplets from `ground`. */
     virga_splash_def splash;
 
     /* (optional) pane_count definitions, distant panes first; they are copied. Ticks are copied from `rain`. The first
      * pane gets the seed of the rain, each further one a seed that is one higher. The first rain.max_panes of them
-     * catch the drops that are seen to fall (virga_rain_hits): with their ids, and none under cover. The others get
-     * drops of their own, at the rate of the rain. Default NULL. */
+     * catch the drops that are seen to fall (virga_rain_find_hits): with their ids, and none under cover. The others
+     * get drops of their own, at the rate of the rain. Default NULL. */
     const virga_glass_def *panes;
 
     /* [0; VIRGA_SCENE_MAX_PANES]. Default 0. */
@@ -77,7 +77,7 @@ VIRGA_API virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index);
 /* Gives all effects the same light, in place of their own `lighting`; their other settings stay. It may be called at
  * any time and applies at once. Costs microseconds, so lamps may move every frame. Returns the first error
  * of the effects, else their last remark. */
-VIRGA_API virga_result virga_scene_light(virga_scene *scene, const virga_lighting *lighting);
+VIRGA_API virga_result virga_scene_lighting_set(virga_scene *scene, const virga_lighting *lighting);
 
 /* Where a pane is at the end of the frame, and how it moves. All zero: at rest in the open, at the world's origin and
  * with the world's axes. A host that draws more than one view, or wants panes to show the picture of this very frame,
@@ -92,7 +92,7 @@ typedef struct virga_scene_pane {
     float acceleration_m_s2[3];
 
     /* [-100; 100] angular velocity about the world's axes. */
-    float turn_rad_s[3];
+    float angular_velocity_rad_s[3];
 
     /* [0; 1] share of the rain that does not reach the pane, in addition to what covers keep off. Above 0 the pane gets
      * drops of its own. */
@@ -111,7 +111,7 @@ typedef struct virga_scene_frame {
 
     /* Middle of the ripple map: a point on the ground some metres ahead of the camera. All zero means the world's
      * origin. Not used without ground. */
-    double focus_m[3];
+    double ripple_center_m[3];
 
     /* (optional) All of the host's meshes near the camera. They are drawn into the occlusion maps and, where the window
      * of the ground moves, into its height map. NULL: the last maps stay, and cells that come into the window have no
@@ -133,7 +133,7 @@ typedef struct virga_scene_frame {
     /* false: panes are prepared in virga_scene_record, which reads view->color if it is given. So it must hold a
      * picture by then; in a game that of the previous frame is fine. true: panes are stepped, but not prepared. Call
      * virga_scene_prepare_panes once the picture is there. Default false. */
-    bool panes_later;
+    bool defer_panes;
 } virga_scene_frame;
 
 /* Returns VIRGA_OK if the pipelines of all effects for stepping and preparing are built, see virga_rain_ready. */
@@ -148,7 +148,7 @@ VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
  * recorded. */
 VIRGA_API virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame);
 
-/* Prepares the panes of a frame with `panes_later`, at their own time. Outside rendering, once view->color holds the
+/* Prepares the panes of a frame with `defer_panes`, at their own time. Outside rendering, once view->color holds the
  * picture behind them, after virga_scene_record and before virga_scene_draw. `panes`: one per pane of the scene, as in
  * the frame. Costs one virga_glass_prepare per pane. Returns the first error of them, else the last remark;
  * VIRGA_ERROR_INVALID for NULL; and VIRGA_OK for a scene without panes, where there is nothing to do. */

@@ -1,7 +1,7 @@
 /* virga/splash.h - splashes that depend on what drops fall on: piles, crowns, cones, disks, and flying droplets.
  *
  * The three models are those of Mizukami et al., "Rendering of water splash". Which one a drop makes, and how large,
- * depends on the material and on the water that it falls on (virga_splash_row, table 1 of the paper).
+ * depends on the material and on the water that it falls on (virga_splash_rule, table 1 of the paper).
  *
  *  - Scattering: piles rise from a circle. Each has a droplet for its tip, which leaves it in the end.
  *  - Crown-cone, on deep water: a crown rises and falls. A cone rises in its middle, and one droplet leaves it at its
@@ -17,8 +17,8 @@
  *     virga_splash_prepare(splash, cmd, &view, time_s);
  *
  * and inside rendering, after the opaque scene and before the rain, virga_splash_draw. The ground needs the rules that
- * say what splashes (virga_splash_rules) and, one step later, the water that fell back (virga_splash_returns).
- * virga/scene.h does all of that.
+ * say what splashes (virga_splash_rules) and, one step later, the water that fell back
+ * (virga_splash_returned_droplets). virga/scene.h does all of that.
  *
  * Deterministic: the same spawns in the same ticks give the same bits.
  * Thread-safety: as virga/vulkan.h says. */
@@ -58,7 +58,7 @@ typedef struct virga_splash_def {
 
     /* [max_spawns; 4194240] droplets that may fall back in one step, 64 bytes each; further ones wait in the air for
      * the next step. The ground's must be as large. Default 131072. */
-    uint32_t max_returns;
+    uint32_t max_returned_droplets;
 
     /* [1; 64] the same as the rain's. Default 16. */
     uint32_t max_ticks_per_step;
@@ -87,17 +87,17 @@ typedef enum virga_splash_style {
 /* What a drop makes on a material in a state. Ranges are {minimum, maximum}; values in between are random. Counts are
  * uniform. Angle and speed follow a normal distribution that has the ends of the range at two standard deviations, and
  * is cut there. */
-typedef struct virga_splash_row {
+typedef struct virga_splash_rule {
     uint32_t model;          /* VIRGA_SPLASH_NONE to _DISK, virga/shared/splash_rule.h */
-    float least_diameter_mm; /* [0; 10] smaller drops make no splash */
-    float least_depth_mm;    /* [0; 100] drops on less water than that make no splash */
+    float min_diameter_mm; /* [0; 10] smaller drops make no splash */
+    float min_depth_mm;    /* [0; 100] drops on less water than that make no splash */
     float share[2];          /* [0; 1] of the drop's water that flies up (paper) */
     float count[2];          /* [0; 64] droplets (paper) */
     float angle_deg[2];      /* [0; 90] above the surface */
     float speed_m_s[2];      /* [0; 10] */
     float strength;          /* [0; 4] factor of the number of droplets (physical) */
-    float circle;            /* [0; 10] radius of the circle on which piles stand, in diameters of the drop */
-} virga_splash_row;
+    float circle_radius;            /* [0; 10] radius of the circle on which piles stand, in diameters of the drop */
+} virga_splash_rule;
 
 typedef struct virga_splash_settings {
     uint32_t size, cookie;
@@ -110,11 +110,11 @@ typedef struct virga_splash_settings {
 
     /* By material and state of the cell. State VIRGA_GROUND_NONE is for what is not ground. Defaults and their sources:
      * engine/splash/splash_table.c. */
-    virga_splash_row rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES];
+    virga_splash_rule rules[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES];
 
     /* [0.001; 0.2] s and [0.001; 0.2] m, the paper's unit time and unit distance: a pile that exceeds one of them
      * releases its droplet (section 4.1, step 5). Default 0.012 and 0.008. */
-    float pile_s, pile_m;
+    float pile_max_s, pile_max_m;
 
     /* [0; 1] share of the drop's velocity along the surface that its droplets keep (section 4.5). Default 0.25. */
     float bounce;
@@ -126,10 +126,10 @@ typedef struct virga_splash_settings {
 
     /* [0; 1000] distance from the camera (m) up to which splashes have droplets. Farther ones are drawn as a whole:
      * beyond a few metres a droplet is a hundredth of a pixel wide. Default 2.5. */
-    float droplets_m;
+    float droplet_range_m;
 
     /* [0.05; 5] droplets of at least this diameter (mm) make a dot where they fall. Default 0.5. */
-    float dot_mm;
+    float dot_min_mm;
 
     /* [0.3; 2] kg/m^3. Default 1.204. */
     float air_density;
@@ -149,13 +149,13 @@ typedef struct virga_splash_settings {
     float soft_m;
 
     /* [0; 5] things nearer to the camera than this fade out (m). Default 0.05. */
-    float near_m;
+    float near_fade_m;
 } virga_splash_settings;
 
 VIRGA_API virga_splash_settings virga_default_splash_settings(void);
 
-/* Allocates, and builds pipelines when virga_context_def.pipelines says so. VIRGA_DEGRADED: pools (max_splashes,
- * max_droplets) were made smaller to fit the context's memory_budget; the log says how small. Errors as
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools
+ * (max_splashes, max_droplets) were made smaller to fit the context's memory_budget; the log says how small. Errors as
  * virga_context_create; *splash is NULL then. */
 VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_splash_def *def, virga_splash **splash);
 
@@ -164,13 +164,13 @@ VIRGA_API virga_result virga_splash_create(virga_context *context, const virga_s
 VIRGA_API void virga_splash_destroy(virga_splash **splash);
 
 /* Returns VIRGA_OK if its pipelines for stepping and preparing are built, VIRGA_NOT_READY if some are missing, or the
- * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_IN_STEPS or _AS_JOBS it is
+ * error of one that could not be built. See virga_pipelines_build. Without VIRGA_PIPELINES_DEFERRED or _AS_JOBS it is
  * always VIRGA_OK. Costs nothing. */
 VIRGA_API virga_result virga_splash_ready(const virga_splash *splash);
 
-/* Applies new settings at once. What is in the air keeps what it started with; wind, air density, pile_s and pile_m
- * apply to it too. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity or a wrong cookie: VIRGA_ERROR_INVALID,
- * and nothing changes. */
+/* Applies new settings at once. What is in the air keeps what it started with; wind, air density, pile_max_s and
+ * pile_max_m apply to it too. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity or a wrong cookie:
+ * VIRGA_ERROR_INVALID, and nothing changes. */
 VIRGA_API virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings);
 
 /* Reads the current settings. */
@@ -191,9 +191,9 @@ typedef struct virga_splash_buffer {
 VIRGA_API void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules);
 
 /* Reads the water that fell back in the newest step, for virga_ground_step_info.returns of the next one: a
- * virga_impacts_gpu with is_return, then def.max_returns x virga_impact_gpu. `buffer` is VK_NULL_HANDLE before the
- * first step. */
-VIRGA_API void virga_splash_returns(const virga_splash *splash, virga_splash_buffer *returns);
+ * virga_impacts_gpu with is_return, then def.max_returned_droplets x virga_impact_gpu. `buffer` is VK_NULL_HANDLE
+ * before the first step. */
+VIRGA_API void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buffer *returned_droplets);
 
 /* Arguments of one step. */
 typedef struct virga_splash_step_info {
@@ -266,14 +266,14 @@ typedef struct virga_splash_stats {
     uint32_t splashes_alive, droplets_alive;
 
     /* Splashes that found no room for their droplets (or had none, behind one that found no room). */
-    uint64_t crowded;
+    uint64_t splashes_without_droplets;
 
     /* Of the newest prepare. */
     uint32_t sprites;
 
     /* Of the newest prepare: those that found no room. There is room for max_droplets sprites, and for a tenth as many
      * sheets. */
-    uint32_t sprites_cut, sheets_cut;
+    uint32_t sprites_dropped, sheets_dropped;
 } virga_splash_stats;
 
 VIRGA_API void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats);

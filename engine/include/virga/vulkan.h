@@ -10,7 +10,7 @@
  * A frame:
  *
  *     virga_frame_begin(context, frame_index, completed_index);
- *     virga_rain_occlusion(rain, cmd, ...);      // outside rendering
+ *     virga_rain_draw_occlusion(rain, cmd, ...);      // outside rendering
  *     virga_rain_step(rain, cmd, ...);           // outside rendering
  *     virga_rain_prepare(rain, cmd, ...);        // outside rendering, once per view
  *     ... host begins rendering its scene ...
@@ -93,17 +93,17 @@ typedef struct virga_device_memory {
 
 /* When the pipelines of effects are built. A scene with all effects has about 100 pipelines (140 with three targets).
  * A driver needs 1 to 80 ms for each one that is not in its caches. */
-typedef enum virga_pipelines_when {
+typedef enum virga_pipeline_build_mode {
     /* Inside create and attach, on the calling thread, before they return. For loading screens. */
-    VIRGA_PIPELINES_AT_ONCE = 0,
+    VIRGA_PIPELINES_IMMEDIATE = 0,
 
     /* Create and attach return at once. Each call of virga_pipelines_build builds as many as it is allowed to, e.g. one
      * per frame. */
-    VIRGA_PIPELINES_IN_STEPS = 1,
+    VIRGA_PIPELINES_DEFERRED = 1,
 
     /* Create and attach give each pipeline to the host's job system as a job, see virga_pipeline_jobs. */
     VIRGA_PIPELINES_AS_JOBS = 2,
-} virga_pipelines_when;
+} virga_pipeline_build_mode;
 
 /* The host's job system.
  *
@@ -159,8 +159,8 @@ typedef struct virga_context_def {
     const void *pipeline_cache;
     size_t pipeline_cache_size;
 
-    /* When pipelines are built. Default VIRGA_PIPELINES_AT_ONCE. */
-    virga_pipelines_when pipelines;
+    /* When pipelines are built. Default VIRGA_PIPELINES_IMMEDIATE. */
+    virga_pipeline_build_mode pipeline_build_mode;
 
     /* Required with VIRGA_PIPELINES_AS_JOBS; must be all zero otherwise. */
     virga_pipeline_jobs pipeline_jobs;
@@ -212,8 +212,8 @@ VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t co
 
 /* Builds pipelines that wait, and collects those that jobs have built.
  *
- * With VIRGA_PIPELINES_IN_STEPS it builds up to `most` of them, oldest first, on this thread. With jobs it builds none.
- * *left (optional) gets the number of pipelines that are still missing.
+ * With VIRGA_PIPELINES_DEFERRED it builds up to `max_count` of them, oldest first, on this thread. With jobs it builds
+ * none. *left (optional) gets the number of pipelines that are still missing.
  *
  * While pipelines of an effect are missing, its recording calls record nothing and return VIRGA_NOT_READY. No simulated
  * time passes for it.
@@ -221,9 +221,9 @@ VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t co
  * Returns VIRGA_OK if none is missing, VIRGA_NOT_READY if some are. Returns VULKAN, HOST_MEMORY, DEVICE_MEMORY or
  * DEVICE_LOST if one could not be built; its effect returns the same error from then on.
  *
- * Costs what the driver needs for the pipelines; microseconds where `most` is 0. The render pass of a target must live
- * until its pipelines are built. */
-VIRGA_API virga_result virga_pipelines_build(virga_context *context, uint32_t most, uint32_t *left);
+ * Costs what the driver needs for the pipelines; microseconds where `max_count` is 0. The render pass of a target must
+ * live until its pipelines are built. */
+VIRGA_API virga_result virga_pipelines_build(virga_context *context, uint32_t max_count, uint32_t *remaining);
 
 /* Reads the pipeline cache. Call it with `data` NULL to get the size in bytes, then with a buffer of *size bytes. */
 VIRGA_API virga_result virga_pipeline_cache_get(virga_context *context, size_t *size, void *data);
@@ -277,7 +277,7 @@ typedef struct virga_image {
     /* Format of `view`. VK_FORMAT_R32G32B32A32_SFLOAT is read without filtering, all others with linear filtering. */
     VkFormat format;
 
-    /* Read by virga_rain_occlusion_import only. */
+    /* Read by virga_rain_import_occlusion only. */
     VkExtent3D extent;
     uint32_t layers;
 
@@ -406,7 +406,7 @@ typedef struct virga_temporal {
 
     /* [0; 1] time from the previous frame's draw time to this one's (s). 0: open_camera_s, or shutter_s if that is 0
      * too. Default 0. */
-    double ago_s;
+    double frame_interval_s;
 
     /* Scale of motion vectors, see the table. Not 0. Default 1, 1. */
     float motion_scale[2];

@@ -128,7 +128,8 @@ void emit_drop(uint slot)
     const float radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
     for (int i = 0; i < VIRGA_GLASS_DROP_BALLS; i++)
         radii[i] = 0.0;
-    middles[0] = mix(vec2(at.before[0], at.before[1]), vec2(at.position[0], at.position[1]), look.share);
+    middles[0] =
+        mix(vec2(at.previous_position[0], at.previous_position[1]), vec2(at.position[0], at.position[1]), look.share);
     radii[0] = radius;
     sub_peak = 1.0;
     const vec2 sag = particle ? vec2(0.0) : sag_at(middles[0], radius);

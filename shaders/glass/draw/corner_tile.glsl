@@ -6,7 +6,7 @@ layout(scalar, set = 0, binding = 19) readonly buffer Corners { uint corners[]; 
 // Four vertices per quad: lower left, lower right, upper left, upper right.
 Corner emit_tile_corner(uint vertex)
 {
-    const uint at = look.box_word + vertex / 4u * 2u, number = corners[at], box = corners[at + 1u];
+    const uint at = look.bounds_offset + vertex / 4u * 2u, number = corners[at], box = corners[at + 1u];
     const float side = float(VIRGA_GLASS_TILE);
     vec2 low = max(vec2(box & 15u, box >> 4 & 15u) - 1.0 - look.beside, 0.0);
     vec2 high = min(vec2(box >> 8 & 15u, box >> 12 & 15u) + look.beside, side);

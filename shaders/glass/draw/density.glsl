@@ -13,7 +13,7 @@ layout(constant_id = 0) const uint MODE = 0u;
 #define PAPER ((MODE & 128u) != 0u)     // the paper's style, which shows densities only
 #define HEIGHTS ((MODE & 160u) != 128u) // heights are needed: not the paper's style, or the host reads the map
 #define MASKED ((MODE & 512u) != 0u)    // (paper) there may be cells without glass
-#define FEW_STEPS ((MODE & 256u) != 0u) // at most VIRGA_GLASS_FEW_STEPS steps of compression
+#define USUAL_STEPS ((MODE & 256u) != 0u) // at most VIRGA_GLASS_USUAL_STEPS steps of compression
 #else
 #define DENSITY look.density
 #endif
@@ -83,7 +83,7 @@ float density_inverse(float v)
 #ifdef DENSITY_SPECIAL
 // Compression: Goto et al. 2009, equation 2, repeated with a rising V0. The loop has a constant length; Texel in
 // height.glsl says why.
-#define MAX_STEPS (FEW_STEPS ? VIRGA_GLASS_FEW_STEPS : 16u)
+#define MAX_STEPS (USUAL_STEPS ? VIRGA_GLASS_USUAL_STEPS : 16u)
 float compressed(float v)
 {
     float from = look.compress_from;

@@ -61,7 +61,7 @@ vec2 motion_in_water(mat2 change, vec2 scene_was, vec2 shown_was)
 // now.
 vec2 shown_before(Path path, vec3 d)
 {
-    const vec3 flat_normal = cross(along_u, along_v), d_before = normalize(position - to_vec(look.eye_before));
+    const vec3 flat_normal = cross(along_u, along_v), d_before = normalize(position - to_vec(look.previous_eye));
     Path before = path;
     pass_through(before, d_before, flat_normal);
     const float distance = HAS_DEPTH ? scene_distance(d) : 0.0;

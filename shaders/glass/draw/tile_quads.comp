@@ -42,6 +42,6 @@ void main()
     corners[3u * index] = uvec2(first, first + 1u);
     corners[3u * index + 1u] = uvec2(first + 2u);
     corners[3u * index + 2u] = uvec2(first + 1u, first + 3u);
-    corners[look.box_word / 2u + index] = uvec2(i, uint(findLSB(columns)) | uint(findLSB(rows)) << 4 |
+    corners[look.bounds_offset / 2u + index] = uvec2(i, uint(findLSB(columns)) | uint(findLSB(rows)) << 4 |
                                                        uint(findMSB(columns)) << 8 | uint(findMSB(rows)) << 12);
 }

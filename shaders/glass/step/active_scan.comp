@@ -16,7 +16,7 @@ layout(scalar, set = 0, binding = 14) readonly buffer Impacts { virga_impacts_gp
 
 uint[3] groups_of(uint invocations)
 {
-    return uint[3]((invocations + VIRGA_GLASS_FEW_GROUP - 1u) / VIRGA_GLASS_FEW_GROUP, 1u, 1u);
+    return uint[3]((invocations + VIRGA_GLASS_SMALL_GROUP - 1u) / VIRGA_GLASS_SMALL_GROUP, 1u, 1u);
 }
 
 void main()
@@ -24,16 +24,16 @@ void main()
     const uvec2 found = scan_picks(state.alive_groups[0], tick.pane.max_drops);
     if (gl_LocalInvocationIndex != 0u)
         return;
-    state.awake = found.x + found.y;
-    state.awake_particles = found.y;
-    state.awake_groups = groups_of(found.x + found.y);
+    state.active_count = found.x + found.y;
+    state.active_particles = found.y;
+    state.active_groups = groups_of(found.x + found.y);
     state.particle_groups = groups_of(found.y);
     state.impacts = tick.impacts == 0u ? 0u : min(head.count, tick.impacts);
     const uint all = landing_count() + found.x + found.y + tick.blade_count * VIRGA_GLASS_BINS;
     state.seed_groups = groups_of(all);
     state.settle_groups = groups_of(max(all, state.alive));
     for (uint i = 0u; i < VIRGA_GLASS_ROUNDS; i++) { // one round more than moves: the last one records
-        state.round_groups[3u * i] = i <= state.most_rounds ? state.awake_groups[0] : 0u;
+        state.round_groups[3u * i] = i <= state.max_rounds ? state.active_groups[0] : 0u;
         state.round_groups[3u * i + 1u] = state.round_groups[3u * i + 2u] = 1u;
     }
 }

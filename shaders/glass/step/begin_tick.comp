@@ -35,7 +35,7 @@ uint loss(uint water, uint kind, uint random, float a)
 // Whether a drop is so small that no force on this pane can move it. Most are; they need not read their cell.
 bool is_stuck(float mass, float a)
 {
-    const float strongest = mass * tick.most_pull + tick.air_drag * a * a * tick.most_air * tick.most_air;
+    const float strongest = mass * tick.max_acceleration + tick.air_drag * a * a * tick.max_air_m_s * tick.max_air_m_s;
     return strongest < tick.hold * a * MIN_HOLD * (1.0 - tick.path_ease);
 }
 
@@ -52,10 +52,10 @@ void integrate_motion(uint slot, uint kind, uint water, float mass, float a)
     velocity *= min(1.0, max_speed / max(length(velocity), 1e-12));
     drops[slot].velocity = to_array(velocity);
     if (on_mesh) {
-        const float ahead_m = drops[slot].ahead_m + length(velocity) * tick.tick_s;
-        drops[slot].ahead_m = ahead_m;
-        if (ahead_m >= tick.pane.cell_m)
-            atomicMax(state.most_rounds, uint(ahead_m / tick.pane.cell_m + 0.01));
+        const float progress_m = drops[slot].progress_m + length(velocity) * tick.tick_s;
+        drops[slot].progress_m = progress_m;
+        if (progress_m >= tick.pane.cell_m)
+            atomicMax(state.max_rounds, uint(progress_m / tick.pane.cell_m + 0.01));
     } else
         drops[slot].position = to_array(at + velocity * tick.tick_s);
 }
@@ -81,9 +81,9 @@ uint update_drop(uint slot, inout uint water, inout uint lost)
     drops[slot].age_s += tick.tick_s;
     const bool changed = (kind & VIRGA_GLASS_CHANGED) != 0u;
     if (ran || !on_mesh || changed) // a merge may have shifted it
-        drops[slot].before = drops[slot].position;
-    if (ran || !on_mesh || (kind & (VIRGA_GLASS_CHANGED | VIRGA_GLASS_LOOKS)) != 0u) {
-        kind = (kind & (VIRGA_GLASS_KIND | VIRGA_GLASS_TAIL)) | (changed ? VIRGA_GLASS_LOOKS : 0u);
+        drops[slot].previous_position = drops[slot].position;
+    if (ran || !on_mesh || (kind & (VIRGA_GLASS_CHANGED | VIRGA_GLASS_MERGE_CHECK)) != 0u) {
+        kind = (kind & (VIRGA_GLASS_KIND | VIRGA_GLASS_TAIL)) | (changed ? VIRGA_GLASS_MERGE_CHECK : 0u);
         drops[slot].kind = kind;
     }
     lost = loss(water, kind, drops[slot].random, a);
@@ -100,7 +100,7 @@ uint update_drop(uint slot, inout uint water, inout uint lost)
         integrate_motion(slot, kind, water, mass, a);
     if (ran && to_vec2(drops[slot].velocity) == vec2(0.0))
         drops[slot].kind = kind | VIRGA_GLASS_CHANGED; // stopped
-    const bool is_active = changed || (moves && drops[slot].ahead_m >= tick.pane.cell_m) || near_blade(slot);
+    const bool is_active = changed || (moves && drops[slot].progress_m >= tick.pane.cell_m) || near_blade(slot);
     return !on_mesh ? SECOND_KIND : is_active ? FIRST_KIND : NOT_PICKED;
 }
 
@@ -119,6 +119,6 @@ void main()
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         count(VIRGA_GLASS_EVAPORATED, evaporated);
-        atomicMax(state.most_nl, max_nl);
+        atomicMax(state.max_nl, max_nl);
     }
 }

@@ -14,17 +14,17 @@ void main()
     const uint slot = live_slot();
     if (slot == NONE)
         return;
-    const uint captor = drops[slot].captor;
-    if (captor == NONE)
+    const uint absorbed_by = drops[slot].absorbed_by;
+    if (absorbed_by == NONE)
         return;
-    if (drops[captor].captor != NONE) {
+    if (drops[absorbed_by].absorbed_by != NONE) {
         drops[slot].kind |= VIRGA_GLASS_CHANGED;
         return;
     }
     const virga_glass_drop_gpu drop = drops[slot];
     if (kind_of(drop) != VIRGA_GLASS_DROP)
         return;
-    transfer_water(drop.captor, drop);
+    transfer_water(drop.absorbed_by, drop);
     clear_slot(slot);
     occupants[drop.cell] = 0u;
     passed[drop.cell] = tick.tick;

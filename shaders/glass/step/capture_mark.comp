@@ -27,13 +27,14 @@ void test_pair(uint slot, uint water, vec2 middle, float radius, bool running, u
     const uint other_water = drops[other].water_nl;
     const bool lighter = other_water < water || (other_water == water && other > slot);
     const bool young_tail = (drops[other].kind & VIRGA_GLASS_TAIL) != 0u && drops[other].age_s < YOUNG_S;
-    const float touch = running || is_running(drops[other].kind) ? min(RUN_TOUCH, tick.touch) : tick.touch;
+    const float touch =
+        running || is_running(drops[other].kind) ? min(RUN_TOUCH, tick.merge_distance) : tick.merge_distance;
     if (length(drop_center(other) - middle) >= touch * (radius + base_radius(other_water)) || (!running && young_tail))
         return;
     if (lighter)
-        atomicMin(drops[other].captor, slot);
+        atomicMin(drops[other].absorbed_by, slot);
     else if (!running)
-        atomicMin(drops[slot].captor, other);
+        atomicMin(drops[slot].absorbed_by, other);
 }
 
 void main()
@@ -42,13 +43,13 @@ void main()
     if (slot == NONE)
         return;
     const uint kind = drops[slot].kind;
-    if ((kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP || (kind & (VIRGA_GLASS_RUNNING | VIRGA_GLASS_LOOKS)) == 0u)
+    if ((kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_DROP || (kind & (VIRGA_GLASS_RUNNING | VIRGA_GLASS_MERGE_CHECK)) == 0u)
         return;
     const uint water = drops[slot].water_nl;
-    const float radius = base_radius(water), max_radius = is_running(kind) ? radius : base_radius(state.most_nl);
+    const float radius = base_radius(water), max_radius = is_running(kind) ? radius : base_radius(state.max_nl);
     const vec2 middle = drop_center(slot);
     // A drop's center may lie outside its cell, where merges have shifted it: mostly up to half a cell.
-    const float touch = is_running(kind) ? min(RUN_TOUCH, tick.touch) : tick.touch;
+    const float touch = is_running(kind) ? min(RUN_TOUCH, tick.merge_distance) : tick.merge_distance;
     const int reach =
         int(min(ceil(touch * (radius + max_radius) / tick.pane.cell_m + (is_running(kind) ? 0.0 : 0.5)), MAX_REACH));
     const ivec2 center_cell = cell_at(middle), last = ivec2(tick.pane.columns, tick.pane.rows) - 1;

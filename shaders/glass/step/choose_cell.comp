@@ -26,18 +26,18 @@ void leave_trail(uint slot, uint entry, uint cell, inout virga_glass_drop_gpu dr
         mark_film(cell);
     }
     drop.water_nl -= left;
-    drop.tail_m += tick.pane.cell_m;
+    drop.tail_spacing_m += tick.pane.cell_m;
     const uint seed = landing_count() + entry;
     const uint hash = virga_hash3(drop.random, tick.tick, 2u);
-    if (tick.tail_radius_m <= 0.0 || drop.tail_m < tick.tail_m * (0.4 + 1.2 * virga_unit(hash)) ||
+    if (tick.tail_max_radius_m <= 0.0 || drop.tail_spacing_m < tick.tail_spacing_m * (0.4 + 1.2 * virga_unit(hash)) ||
         seeds[seed].water_nl != 0u)
         return;
-    const float radius = tick.tail_radius_m * (0.35 + 0.65 * virga_unit(virga_hash1(hash)));
+    const float radius = tick.tail_max_radius_m * (0.35 + 0.65 * virga_unit(virga_hash1(hash)));
     const uint water =
         min(uint(tick.drop_nl_of_m3 * radius * radius * radius), uint(tick.tail_share * float(drop.water_nl)));
     if (water == 0u)
         return;
-    drop.tail_m = 0.0;
+    drop.tail_spacing_m = 0.0;
     drop.water_nl -= water;
     const vec2 shift = vec2(virga_unit(virga_hash2(hash, 1u)), virga_unit(virga_hash2(hash, 2u))) - 0.5;
     seeds[seed] =
@@ -118,7 +118,7 @@ void run_off(inout virga_glass_drop_gpu drop)
 void claim_next_cell(uint slot, inout virga_glass_drop_gpu drop)
 {
     const ivec2 cell = cell_coordinates(drop.cell), direction = choose_direction(drop, cell);
-    drop.ahead_m -= tick.pane.cell_m * length(vec2(direction));
+    drop.progress_m -= tick.pane.cell_m * length(vec2(direction));
     drop.kind |= VIRGA_GLASS_RUNNING;
     if (on_pane(cell + direction)) {
         drop.target = cell_number(cell + direction);
@@ -135,23 +135,23 @@ void main()
     if (round_index == 0u)
         seeds[landing_count() + gl_GlobalInvocationID.x].water_nl = 0u;
     const uint kind = drops[slot].kind & VIRGA_GLASS_KIND;
-    const bool moves = round_index < rounds && kind == VIRGA_GLASS_DROP && drops[slot].ahead_m >= tick.pane.cell_m;
+    const bool moves = round_index < rounds && kind == VIRGA_GLASS_DROP && drops[slot].progress_m >= tick.pane.cell_m;
     if (kind == VIRGA_GLASS_PARTICLE)
         return;
     if (!moves && drops[slot].target == NONE) {
-        if (drops[slot].captor != NONE)
-            drops[slot].captor = NONE;
+        if (drops[slot].absorbed_by != NONE)
+            drops[slot].absorbed_by = NONE;
         return;
     }
     virga_glass_drop_gpu drop = drops[slot];
     record_move(slot, gl_GlobalInvocationID.x, drop);
     if (round_index < rounds) {
-        drop.captor = drop.target; // its claim is cleared by the next pass
+        drop.absorbed_by = drop.target; // its claim is cleared by the next pass
         drop.target = NONE;
     } else
-        drop.captor = NONE; // the last claims are cleared in split_drops.comp
+        drop.absorbed_by = NONE; // the last claims are cleared in split_drops.comp
     if (moves && to_vec2(drop.velocity) == vec2(0.0))
-        drop.ahead_m = 0.0; // a drop at rest has no direction
+        drop.progress_m = 0.0; // a drop at rest has no direction
     else if (moves)
         claim_next_cell(slot, drop);
     drops[slot] = drop;

@@ -13,8 +13,8 @@ uint seed_of(uint entry) { return landing_count() + entry; }
 
 void empty_bin(uint bin)
 {
-    const uint seed = seed_of(state.awake) + bin, i = bin / VIRGA_GLASS_BINS;
-    const uint particles = min(state.bins_nl[bin] / max(tick.particle_nl, 1u), uint(VIRGA_GLASS_MOST_PARTS));
+    const uint seed = seed_of(state.active_count) + bin, i = bin / VIRGA_GLASS_BINS;
+    const uint particles = min(state.bins_nl[bin] / max(tick.particle_nl, 1u), uint(VIRGA_GLASS_MAX_PARTS));
     seeds[seed].water_nl = 0u;
     if (particles == 0u)
         return;

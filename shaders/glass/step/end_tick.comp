@@ -54,8 +54,8 @@ void main()
     const uint target = drops[slot].target;
     if (target != NONE && target != OUTSIDE)
         claims[cell_count() + target] = NONE; // claims of particles that became drops
-    if (target != NONE || drops[slot].captor != NONE)
-        drops[slot].target = drops[slot].captor = NONE;
+    if (target != NONE || drops[slot].absorbed_by != NONE)
+        drops[slot].target = drops[slot].absorbed_by = NONE;
     if (drops[slot].merged_nl == 0u && (drops[slot].kind & VIRGA_GLASS_RUNNING) == 0u)
         return;
     virga_glass_drop_gpu drop = drops[slot];

@@ -16,7 +16,7 @@ void main()
     const uint slot = active_slot();
     if (slot == NONE)
         return;
-    const uint old_target = drops[slot].captor;
+    const uint old_target = drops[slot].absorbed_by;
     if (old_target < OUTSIDE && (drops[slot].kind & VIRGA_GLASS_KIND) != VIRGA_GLASS_PARTICLE)
         claims[claim_of(old_target, round_index + 1u)] = NONE;
     const uint target = drops[slot].target;

@@ -22,6 +22,6 @@ void main()
     if (i < all && film_blocks[i] != 0u) {
         const uint index = atomicAdd(state.film_blocks, 1u);
         film_blocks[all + index] = i;
-        atomicMax(state.measure_groups[0], index / VIRGA_GLASS_MEASURED + 1u);
+        atomicMax(state.measure_groups[0], index / VIRGA_GLASS_BLOCKS_PER_GROUP + 1u);
     }
 }

@@ -37,7 +37,7 @@ float retention_force(float a, uint cell, uint packed_cell)
 vec2 next_velocity(vec2 velocity, vec2 force, float hold, float mass, float a)
 {
     const bool runs = length(velocity) > 1e-4;
-    const float held = runs ? tick.run_hold * hold : hold;
+    const float held = runs ? tick.kinetic_hold * hold : hold;
     if (!runs && length(force) <= held)
         return vec2(0.0);
     const float drag = max(tick.drag * a, 1e-12), share = 1.0 - exp(-drag * tick.tick_s / mass);

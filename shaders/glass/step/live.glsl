@@ -3,7 +3,7 @@
 // cost software Vulkan as much as busy ones, so such passes have small workgroups.
 #include "shared/compact.h"
 #ifdef FEW
-layout(local_size_x = VIRGA_GLASS_FEW_GROUP) in;
+layout(local_size_x = VIRGA_GLASS_SMALL_GROUP) in;
 #else
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 #endif
@@ -23,4 +23,7 @@ layout(scalar, set = 0, binding = 16) readonly buffer Active
 uint live_slot() { return gl_GlobalInvocationID.x < state.alive ? listed[gl_GlobalInvocationID.x] : NONE; }
 
 uint slot_of_active(uint i) { return listed[active_entries[i]]; }
-uint active_slot() { return gl_GlobalInvocationID.x < state.awake ? slot_of_active(gl_GlobalInvocationID.x) : NONE; }
+uint active_slot()
+{
+    return gl_GlobalInvocationID.x < state.active_count ? slot_of_active(gl_GlobalInvocationID.x) : NONE;
+}

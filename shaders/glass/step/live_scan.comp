@@ -16,13 +16,13 @@ uint[3] groups_of(uint invocations)
 
 void main()
 {
-    const uvec2 found = scan_picks(state.census_groups[0], tick.pane.max_drops);
+    const uvec2 found = scan_picks(state.live_list_groups[0], tick.pane.max_drops);
     if (gl_LocalInvocationIndex != 0u)
         return;
     state.alive = found.y;
     state.free = tick.pane.max_drops - found.y;
     state.free_listed = found.x;
-    state.most_rounds = 0u;
-    state.most_nl = 0u;
+    state.max_rounds = 0u;
+    state.max_nl = 0u;
     state.alive_groups = groups_of(found.y);
 }

@@ -10,7 +10,7 @@
 
 #define BLOCK VIRGA_GLASS_FILM_BLOCK // cells of a block: as many as a workgroup has invocations
 
-shared uint water[3], counts[3], has_film[VIRGA_GLASS_MEASURED]; // 1: a cell of the block has film
+shared uint water[3], counts[3], has_film[VIRGA_GLASS_BLOCKS_PER_GROUP]; // 1: a cell of the block has film
 
 void add(uint index, uint amount)
 {
@@ -24,7 +24,7 @@ void add(uint index, uint amount)
 uint block_of(uint k)
 {
     const uvec2 counts = film_block_counts();
-    const uint index = gl_WorkGroupID.x * VIRGA_GLASS_MEASURED + k, all = counts.x * counts.y;
+    const uint index = gl_WorkGroupID.x * VIRGA_GLASS_BLOCKS_PER_GROUP + k, all = counts.x * counts.y;
     const uint block = film_blocks[all + min(index, all - 1u)];
     return index < state.film_blocks ? block : NONE;
 }
@@ -49,7 +49,7 @@ void add_drop(uint slot)
     const uint type = (kind & VIRGA_GLASS_KIND) == VIRGA_GLASS_PARTICLE ? 1u : 0u;
     atomicAdd(water[type], drops[slot].water_nl + drops[slot].merged_nl);
     atomicAdd(counts[type], 1u);
-    if ((kind & VIRGA_GLASS_HELD) != 0u)
+    if ((kind & VIRGA_GLASS_WAITING) != 0u)
         atomicAdd(counts[2], 1u);
 }
 
@@ -58,11 +58,11 @@ void main()
     const uint lane = gl_LocalInvocationIndex, i = gl_GlobalInvocationID.x;
     if (lane < 3u)
         water[lane] = counts[lane] = 0u;
-    if (lane < VIRGA_GLASS_MEASURED)
+    if (lane < VIRGA_GLASS_BLOCKS_PER_GROUP)
         has_film[lane] = 0u;
     barrier();
     uint sum = 0u;
-    for (uint k = 0u; k < VIRGA_GLASS_MEASURED; k++) {
+    for (uint k = 0u; k < VIRGA_GLASS_BLOCKS_PER_GROUP; k++) {
         const uint here = film_of_lane(block_of(k));
         if (here != 0u)
             has_film[k] = 1u;
@@ -75,7 +75,7 @@ void main()
     if (i < state.shown)
         add_drop(listed[i]);
     barrier();
-    if (lane < VIRGA_GLASS_MEASURED) {
+    if (lane < VIRGA_GLASS_BLOCKS_PER_GROUP) {
         const uint block = block_of(lane);
         if (has_film[lane] == 0u && block != NONE)
             film_blocks[block] = 0u;
@@ -87,5 +87,5 @@ void main()
     if (lane == 1u && counts[1] != 0u)
         atomicAdd(state.particles, counts[1]);
     if (lane == 2u && counts[2] != 0u)
-        atomicAdd(state.held, counts[2]);
+        atomicAdd(state.particles_waiting, counts[2]);
 }

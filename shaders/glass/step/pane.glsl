@@ -22,7 +22,7 @@ layout(scalar, set = 0, binding = 12) readonly buffer Surface { uint surface[]; 
 #define FILM_BLOCKS_BINDING 17
 #include "glass/film_blocks.glsl"
 
-#define NONE VIRGA_GLASS_NOWHERE
+#define NONE VIRGA_GLASS_NONE
 #define OUTSIDE 0xfffffffeu // target of a drop that runs over the edge
 #define KG_OF_NL 0.9982e-9
 
@@ -73,7 +73,7 @@ vec3 cell_normal(uint packed_cell)
 float cell_wet(uint cell)
 {
     const uint last = passed[cell];
-    return last == 0u ? 0.0 : exp(-float(tick.tick - last) * tick.tick_s / tick.path_s);
+    return last == 0u ? 0.0 : exp(-float(tick.tick - last) * tick.tick_s / tick.path_dry_s);
 }
 
 // ---- the pane's frame

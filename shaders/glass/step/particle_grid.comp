@@ -11,7 +11,7 @@
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= state.awake_particles)
+    if (i >= state.active_particles)
         return;
     const uint slot = slot_of_active(i);
     const vec2 at = to_vec2(drops[slot].position);

@@ -46,7 +46,7 @@ ivec3 push_apart(uint particle, uint head, vec2 at)
 void main()
 {
     const uint particle = gl_GlobalInvocationID.x;
-    if (particle >= state.awake_particles)
+    if (particle >= state.active_particles)
         return;
     const uint slot = slot_of_active(particle);
     const vec2 at = moved[moved_at(particle, round_number)];
@@ -54,7 +54,7 @@ void main()
     // In a crowd every particle is pushed from many sides: it moves by the mean push, or rounds would overshoot.
     vec2 to = at + vec2(push.xy) * (UNIT_M * (push.z > 2 ? 2.0 / float(push.z) : 1.0));
     bool pushed = false;
-    to = push_by_blades(to, to_vec2(drops[slot].before), pushed);
+    to = push_by_blades(to, to_vec2(drops[slot].previous_position), pushed);
     if (pushed)
         drops[slot].kind |= VIRGA_GLASS_PUSHED;
     moved[moved_at(particle, round_number + 1u)] = to;

@@ -2,7 +2,7 @@
 // rate, then of the host's list), tails that active drops left behind, particles out of the blades' bins.
 #include "particles.glsl"
 
-uint seed_count() { return landing_count() + state.awake + tick.blade_count * VIRGA_GLASS_BINS; }
+uint seed_count() { return landing_count() + state.active_count + tick.blade_count * VIRGA_GLASS_BINS; }
 
 #define NO_RANK 0x7fffffffu
 #define JOINS 0x80000000u // with the slot of the drop that the water joins

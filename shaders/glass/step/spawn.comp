@@ -9,7 +9,7 @@
 #include "seeds.glsl"
 #include "shared/compact.h"
 
-layout(local_size_x = VIRGA_GLASS_FEW_GROUP) in;
+layout(local_size_x = VIRGA_GLASS_SMALL_GROUP) in;
 layout(scalar, set = 0, binding = 4) readonly buffer List
 {
     virga_list_gpu list;
@@ -19,17 +19,17 @@ layout(scalar, set = 0, binding = 4) readonly buffer List
 // Sets everything but the sums that other invocations may add to at the same time.
 void init_drop(uint slot, virga_glass_seed_gpu seed, vec2 at, uint water, uint id)
 {
-    drops[slot].position = drops[slot].before = to_array(at);
+    drops[slot].position = drops[slot].previous_position = to_array(at);
     drops[slot].velocity = seed.velocity;
     drops[slot].water_nl = water;
     drops[slot].kind = seed.kind | (seed.kind == VIRGA_GLASS_DROP ? VIRGA_GLASS_CHANGED : 0u);
     drops[slot].cell = drops[slot].from_cell = seed.cell;
-    drops[slot].ahead_m = 0.0;
-    drops[slot].tail_m = 0.0;
+    drops[slot].progress_m = 0.0;
+    drops[slot].tail_spacing_m = 0.0;
     drops[slot].age_s = 0.0;
     drops[slot].id = id;
     drops[slot].random = virga_hash2(id, tick.pane.seed);
-    drops[slot].target = drops[slot].captor = NONE;
+    drops[slot].target = drops[slot].absorbed_by = NONE;
     if (seed.cell != NONE)
         occupants[seed.cell] = slot + 1u;
 }
@@ -40,7 +40,7 @@ void add_to_film(vec2 at, uint water)
     atomicAdd(film[cell_number(cell)], water);
     mark_film(cell_number(cell));
     passed[cell_number(cell)] = tick.tick;
-    count(VIRGA_GLASS_CROWDED, 1u);
+    count(VIRGA_GLASS_WITHOUT_SLOT, 1u);
 }
 
 // Spawns the particles of one seed, each shifted a little at random (Goto et al. 2009, section 4.4).

@@ -10,7 +10,7 @@
 #include "blades.glsl"
 #include "shared/impact.h"
 
-layout(local_size_x = VIRGA_GLASS_FEW_GROUP) in;
+layout(local_size_x = VIRGA_GLASS_SMALL_GROUP) in;
 layout(scalar, set = 0, binding = 14) readonly buffer Impacts
 {
     virga_impacts_gpu head;

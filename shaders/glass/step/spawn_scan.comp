@@ -31,7 +31,7 @@ uint slots_needed(uint i)
 // these are new.
 uint slots_to_scan(uint spawned)
 {
-    const uint listed_groups = state.census_groups[0] * VIRGA_GLASS_GROUP;
+    const uint listed_groups = state.live_list_groups[0] * VIRGA_GLASS_GROUP;
     if (spawned > state.free_listed)
         return listed_groups + spawned - state.free_listed;
     const uint last = state.alive > 0u ? listed[state.alive - 1u] + 1u : 0u;
@@ -59,15 +59,15 @@ void main()
         ranks[i] = occupant != 0u ? JOINS | (occupant - 1u) : needed != 0u ? rank : NO_RANK;
         rank += needed;
     }
-    const uint spawned = min(total.x, state.free), beyond = state.census_groups[0] * VIRGA_GLASS_GROUP;
+    const uint spawned = min(total.x, state.free), beyond = state.live_list_groups[0] * VIRGA_GLASS_GROUP;
     for (uint i = state.free_listed + lane; i < spawned; i += VIRGA_GLASS_GROUP)
         listed[state.alive + i] = beyond + i - state.free_listed;
     barrier(); // until all have read how far the list went
     if (lane == 0u) {
         const uint scanned = slots_to_scan(spawned);
-        state.placed = spawned;
+        state.spawned = spawned;
         state.shown = state.alive + spawned; // the first free slots of the list are used
         state.shown_groups = groups_of(state.shown);
-        state.census_groups = groups_of(scanned);
+        state.live_list_groups = groups_of(scanned);
     }
 }

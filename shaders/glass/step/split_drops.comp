@@ -18,7 +18,7 @@ uint seed_of(uint entry) { return landing_count() + entry; }
 void split_drop(uint slot, uint entry, uint blade, virga_glass_drop_gpu drop)
 {
     const uint water = drop.water_nl + drop.merged_nl;
-    const uint particles = min((water + tick.particle_nl / 2u) / tick.particle_nl, uint(VIRGA_GLASS_MOST_PARTS));
+    const uint particles = min((water + tick.particle_nl / 2u) / tick.particle_nl, uint(VIRGA_GLASS_MAX_PARTS));
     occupants[drop.cell] = 0u;
     count(VIRGA_GLASS_TO_PARTS, 1u);
     if (particles == 0u) {
@@ -47,7 +47,7 @@ void split_drop(uint slot, uint entry, uint blade, virga_glass_drop_gpu drop)
     drop.merged_momentum = drop.merged_nl_10um = int[2](0, 0);
     drop.velocity = float[2](0.0, 0.0);
     drop.kind = VIRGA_GLASS_PARTICLE;
-    drop.captor = drop.target = NONE;
+    drop.absorbed_by = drop.target = NONE;
     drops[slot] = drop;
 }
 
@@ -66,9 +66,9 @@ void main()
     drop.target = NONE;
     const float radius = min(base_radius(drop.water_nl + drop.merged_nl), 0.004);
     for (uint i = 0u; i < tick.blade_count; i++)
-        if (is_swept(i, to_vec2(drop.before), cell_middle(drop.cell), 0.7 * radius)) {
+        if (is_swept(i, to_vec2(drop.previous_position), cell_middle(drop.cell), 0.7 * radius)) {
             bool pushed = false;
-            drop.position = to_array(push_by_blades(cell_middle(drop.cell), to_vec2(drop.before), pushed));
+            drop.position = to_array(push_by_blades(cell_middle(drop.cell), to_vec2(drop.previous_position), pushed));
             split_drop(slot, entry, i, drop);
             return;
         }

@@ -13,7 +13,7 @@
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= state.awake_particles)
+    if (gl_GlobalInvocationID.x >= state.active_particles)
         return;
     const uint slot = slot_of_active(gl_GlobalInvocationID.x);
     const virga_glass_drop_gpu drop = drops[slot];
@@ -29,7 +29,7 @@ void main()
     }
     occupants[drop.target] = slot + 1u;
     drops[slot].cell = drops[slot].from_cell = drop.target;
-    drops[slot].ahead_m = 0.0;
-    drops[slot].tail_m = 0.0;
+    drops[slot].progress_m = 0.0;
+    drops[slot].tail_spacing_m = 0.0;
     drops[slot].kind = VIRGA_GLASS_DROP | VIRGA_GLASS_CHANGED;
 }

@@ -30,7 +30,7 @@ bool near_large_drop(ivec2 cell)
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= state.awake_particles)
+    if (i >= state.active_particles)
         return;
     const uint slot = slot_of_active(i);
     const vec2 at = moved[moved_at(i, 0u)]; // the array that the last of an even number of rounds wrote
@@ -48,7 +48,7 @@ void main()
     }
     if (in_a_band)
         return;
-    drops[slot].kind |= VIRGA_GLASS_HELD; // until it wins a cell
+    drops[slot].kind |= VIRGA_GLASS_WAITING; // until it wins a cell
     if (near_large_drop(cell))
         return;
     drops[slot].target = cell_number(cell);

@@ -28,7 +28,7 @@ void write_draws(uint lines)
     const uint last = BUCKETS - 1u, thin = order[count_index(last, 0u)] + order[total_index(last)];
     const uint first = 6u * list.second_kind;
     prepared.lines = virga_draw_gpu(2u * lines, 1u, first, 0, 0u);
-    prepared.thin = virga_draw_gpu(6u * (thin - lines), 1u, first + 2u * lines, 0, 0u);
+    prepared.thin_quads = virga_draw_gpu(6u * (thin - lines), 1u, first + 2u * lines, 0, 0u);
 }
 
 void main()

@@ -17,7 +17,7 @@ layout(location = 4) noperspective out vec2 motion; // px, see streak_write.comp
 #endif
 
 struct Streak {
-    vec3 centre, rim; // radiance
+    vec3 center, rim; // radiance
     float alpha, half_width, body_px, way_px;
     float wave_turns, wave_turns_at_tail, wave_size;
     vec3 middle_line; // see line_equation
@@ -41,7 +41,7 @@ Streak streak_corner(uint vertex)
     const bool at_head = (vertex & 2u) != 0u;
 
     Streak streak;
-    streak.centre = vec3(light[0], light[1].x);
+    streak.center = vec3(light[0], light[1].x);
     streak.rim = vec3(light[1].y, light[2]);
     streak.alpha = width_alpha.y;
     streak.half_width = 0.5 * width_alpha.x;
@@ -72,7 +72,7 @@ Streak streak_corner(uint vertex)
     return streak;
 }
 
-float streak_turns(Streak streak)
+float streak_phase(Streak streak)
 {
     return streak.wave_turns_at_tail + streak.wave_turns * streak.along / max(streak.way_px, 1.0);
 }

@@ -43,7 +43,7 @@ uint kind_of_streak(uint slot_index)
     const vec2 moved = (head.xy / head_w - tail.xy / tail_w) * 0.5 * vec2(view.viewport[2], view.viewport[3]);
     const float path_px = min(head.w, tail.w) < NEAR_W ? 0.0 : length(moved);
     const float body_px = diameter / (depth * view.pixel_angle);
-    const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.bodies_min_m &&
+    const bool visible = !is_outside(head + beyond, tail - beyond, margin) && diameter >= look.streak_min_m &&
                          weight * streak_coverage(body_px, body_px, look.parts * path_px, blur) > MIN_COVERAGE;
     return !visible ? NOT_PICKED : width_px > max(WIDE_PX, blur) ? SECOND_KIND : FIRST_KIND;
 }

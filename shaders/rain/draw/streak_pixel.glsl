@@ -7,9 +7,10 @@
 layout(location = 4) noperspective in vec2 motion;
 #endif
 
-// The light varies as the drop oscillates: a cosine of `turns`, as a cubic approximation (error 1.1 % of its height).
-float streak_wave(float turns, float size)
+// The light varies as the drop oscillates: a cosine of `oscillations`, as a cubic approximation (error 1.1 % of its
+// height).
+float streak_wave(float oscillations, float size)
 {
-    const float triangle = 4.0 * abs(fract(turns) - 0.5) - 1.0;
+    const float triangle = 4.0 * abs(fract(oscillations) - 0.5) - 1.0;
     return 1.0 + size * triangle * (1.5 - 0.5 * triangle * triangle);
 }

@@ -19,9 +19,9 @@ void main()
     const uvec2 found = scan_picks(tick.groups, look.max_streaks);
     if (gl_LocalInvocationIndex != 0u)
         return;
-    prepared.wide = virga_draw_gpu(6u * list.second_kind, 1u, 0u, 0, 0u);
+    prepared.wide_quads = virga_draw_gpu(6u * list.second_kind, 1u, 0u, 0, 0u);
     prepared.lines = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
-    prepared.thin = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
+    prepared.thin_quads = virga_draw_gpu(0u, 1u, 0u, 0, 0u);
     prepared.streaks = list.count;
     prepared.dropped = found.x + found.y - list.count;
 }

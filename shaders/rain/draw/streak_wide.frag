@@ -10,7 +10,7 @@
 #include "gpu/streak_profile.glsl"
 
 layout(location = 0) noperspective in vec4 streak_position;
-layout(location = 1) flat in vec4 centre_alpha;
+layout(location = 1) flat in vec4 center_alpha;
 layout(location = 2) flat in vec4 rim_wave;
 layout(location = 3) flat in vec3 shape;
 layout(location = 5) flat in vec4 depth_terms; // with HAS_DEPTH, see soft_edge
@@ -46,7 +46,7 @@ void main()
     const vec2 across = vec2(dFdx(streak_position.x), dFdy(streak_position.x));
     const float half_width = shape.x, body_px = shape.y, path_px = shape.z;
     const float u = min(abs(streak_position.x) / half_width, 1.0);
-    float alpha = centre_alpha.a * streak_profile(abs(streak_position.x), half_width) *
+    float alpha = center_alpha.a * streak_profile(abs(streak_position.x), half_width) *
                   streak_length(streak_begun(streak_position.y, path_px, body_px), streak_ends(path_px, body_px));
     if (HAS_DEPTH)
         alpha *= soft_edge(streak_position.w, depth_terms);
@@ -54,11 +54,11 @@ void main()
         discard;
 
     const float width_blend = clamp(half_width - 0.75, 0.0, 1.0);
-    vec3 light = mix(centre_alpha.rgb, rim_wave.rgb, width_blend * u * u + (1.0 - width_blend) * 0.5);
+    vec3 light = mix(center_alpha.rgb, rim_wave.rgb, width_blend * u * u + (1.0 - width_blend) * 0.5);
     const vec3 d = normalize(pixel_ray(gl_FragCoord.xy));
     const vec2 direction = normalize(vec2(across.y, -across.x) + vec2(0.0, 1e-6));
     const float along = body_px > 0.0 ? clamp((streak_position.y - 0.5 * path_px) / (0.5 * body_px), -1.0, 1.0) : 0.0;
-    const vec3 lamps = max(centre_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
+    const vec3 lamps = max(center_alpha.rgb - environment(d, vec2(0.97, 0.90)), vec3(0.0));
     const float lens_blend = clamp((half_width - 0.5 * WIDE_PX) / WIDE_PX, 0.0, 1.0);
     light = mix(light, wide_light(streak_position.x / half_width, along, direction, d) + lamps, lens_blend);
     radiance = vec4(light * streak_wave(streak_position.z, rim_wave.w) * alpha, alpha);

@@ -9,7 +9,7 @@
 
 // x: px from the center line; y: px from the tail; z: turns of the wave; w: view depth
 layout(location = 0) noperspective out vec4 streak_position;
-layout(location = 1) flat out vec4 centre_alpha;
+layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_wave; // .w: size of the wave
 layout(location = 3) flat out vec3 shape;    // x: half width; y: length of the drop; z: length of the path (px)
 layout(location = 5) flat out vec4 depth_terms;
@@ -18,8 +18,8 @@ void main()
 {
     const Streak streak = streak_corner(uint(gl_VertexIndex));
     gl_Position = streak.position;
-    streak_position = vec4(streak.across, streak.along, streak_turns(streak), streak.distance);
-    centre_alpha = vec4(streak.centre, streak.alpha);
+    streak_position = vec4(streak.across, streak.along, streak_phase(streak), streak.distance);
+    center_alpha = vec4(streak.center, streak.alpha);
     rim_wave = vec4(streak.rim, streak.wave_size);
     shape = vec3(streak.half_width, streak.body_px, streak.way_px);
     if (HAS_DEPTH)

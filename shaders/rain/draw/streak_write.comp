@@ -59,7 +59,7 @@ virga_streak_gpu empty_streak()
     streak.distance = float[2](1.0, 1.0);
     streak.width_alpha = 0u;
     streak.body_wave = 0u;
-    streak.turns = 0u;
+    streak.oscillations = 0u;
     streak.order = 0u;
     streak.light = uint[3](0u, 0u, 0u);
     streak.id = 0u;
@@ -143,9 +143,9 @@ void set_light(inout virga_streak_gpu streak, vec3 middle)
     const vec3 glitter = lamps(middle, d);
     // Near the middle rays are deflected by up to 16 degrees, at the rim by 50 and more (Legendre moments: their
     // cosines).
-    const vec3 centre = environment(d, vec2(0.97, 0.90)) + glitter;
+    const vec3 center = environment(d, vec2(0.97, 0.90)) + glitter;
     const vec3 rim = environment(d, vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3)) + 0.6 * glitter;
-    streak.light = uint[3](halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
+    streak.light = uint[3](halves(center.r, center.g), halves(center.b, rim.r), halves(rim.g, rim.b));
 }
 
 // The phase of an oscillation at a time after the tick, in turns. A tick is counted in 2^-32 turns, and these integers
@@ -162,9 +162,10 @@ void set_wave(inout virga_streak_gpu streak, float diameter_mm, float body_px, f
 {
     const float radius = 0.5e-3 * diameter_mm;
     const float hz = sqrt(8.0 * 0.0728 / (998.2 * radius * radius * radius)) / 6.2831853;
-    const float turns = hz * (times.y - times.x);
-    streak.turns = halves(turns, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + oscillation_phase(hz, times.x)));
-    const float waves_blurred = blur * turns / max(path_px, 1.0);
+    const float oscillations = hz * (times.y - times.x);
+    streak.oscillations =
+        halves(oscillations, fract(virga_unit(virga_hash2(tick.seed, streak.id)) + oscillation_phase(hz, times.x)));
+    const float waves_blurred = blur * oscillations / max(path_px, 1.0);
     const float size = clamp(0.16 * (diameter_mm - 0.8), 0.0, 0.45) / (1.0 + 4.0 * waves_blurred * waves_blurred);
     streak.body_wave = halves(max(body_px, blur), size * look.oscillation);
 }
@@ -175,7 +176,7 @@ void write_motion(uint index, vec3 head, vec3 tail, vec3 velocity)
     if (look.motion == 0u)
         return;
     const mat4 now = to_mat(view.clip_from_rel), before = to_mat(view.previous_clip_from_rel);
-    const vec3 path = velocity * view.ago_s;
+    const vec3 path = velocity * view.frame_interval_s;
     const vec4 clip_head = project(now, head), clip_tail = project(now, tail);
     const vec2 at_head = motion_px(clip_head, project(before, head - path));
     const vec2 at_tail = clip_tail.w < NEAR_W ? at_head : motion_px(clip_tail, project(before, tail - path));
@@ -224,7 +225,7 @@ virga_streak_gpu make_streak(uint slot_index, uint index)
     const float diameter = classes[size_class].diameter_m, mm = diameter * 1e3;
     const float width_px = diameter / (depth * view.pixel_angle), body_px = width_px * axis_ratio(mm);
     const float distance_m = length(0.5 * (path.head + path.tail) + to_vec(view.origin_offset));
-    const float near = view.near_m > 0.0 ? clamp(distance_m / view.near_m - 1.0, 0.0, 1.0) : 1.0;
+    const float near = view.near_fade_m > 0.0 ? clamp(distance_m / view.near_fade_m - 1.0, 0.0, 1.0) : 1.0;
     const float weight = near * drop_weight(at_tick, slot_level(slot_index), size_class, class_rank >> 16);
     const float path_px = path_in_px(path);
     const float whole = coverage(width_px, body_px, look.parts * path_px, blur, weight);

@@ -54,9 +54,9 @@ void main()
     const uint size_class = slot.class_rank & 0xffffu;
     const uvec4 low = travels[2u * size_class], high = travels[2u * size_class + 1u];
 
-    uvec2 x = from_camera(slot.place[0], low.x, high.x, shift);
-    uvec2 y = from_camera(slot.place[1], low.y, high.y, shift);
-    uvec2 z = from_camera(slot.place[2], low.z, high.z, shift);
+    uvec2 x = from_camera(slot.lattice[0], low.x, high.x, shift);
+    uvec2 y = from_camera(slot.lattice[1], low.y, high.y, shift);
+    uvec2 z = from_camera(slot.lattice[2], low.z, high.z, shift);
     if (SWAYS && tick.sway != 0u) {
         const virga_sway_gpu sway = sways[slot_index];
         x = add64(x, uvec2(sway.offset_low[0], sway.offset_high[0]));

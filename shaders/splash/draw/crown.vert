@@ -80,7 +80,7 @@ void main()
     // Columns alternate between left and right of the one farthest from the camera.
     const uint vertex = uint(gl_VertexIndex), column = vertex >> 5, j = column >> 1;
     const int from = (column & 1u) == 0u ? int(j) : -int(j) - 1;
-    const float farthest = atan(dot(now.centre, s.across), dot(now.centre, s.side) + 1e-9);
+    const float farthest = atan(dot(now.center, s.across), dot(now.center, s.side) + 1e-9);
     const float step_angle = 6.2831853 / float(VIRGA_CROWN_COLUMNS);
     const float angle = farthest + float(from + int((vertex >> 4) & 1u)) * step_angle;
     const float up = float(vertex & 15u) / float(VIRGA_CROWN_ROWS);
@@ -90,10 +90,10 @@ void main()
     normal = cross(around, rise);
     upward = dot(rise, rise) > 0.0 ? normalize(rise) : now.normal;
     normal = dot(normal, normal) > 0.0 ? normalize(normal) : now.normal;
-    position = now.centre + p;
+    position = now.center + p;
 #ifdef MOTION
-    const Shape then = shape_of(splash, view.ago_s);
-    before = project(to_mat(view.previous_clip_from_rel), then.crown.centre + sheet_point(then, angle, up)).xyw;
+    const Shape then = shape_of(splash, view.frame_interval_s);
+    before = project(to_mat(view.previous_clip_from_rel), then.crown.center + sheet_point(then, angle, up)).xyw;
 #endif
     // The upper part is there for the fraction of the time in which the sheet is that high.
     const float min_height = s.min_height / max(s.height, 1e-6);
@@ -103,7 +103,7 @@ void main()
     const float fade = disk ? 1.0 - smoothstep(0.7, 1.0, now.share) : 1.0;
     gl_Position = project(to_mat(view.clip_from_rel), position);
     const bool seen = s.height > 0.0;
-    sheet = vec4(up, visible, fade * near_fade(now.centre) * min(now.weight, 1.0) * min(look.gain, 4.0), gl_Position.w);
+    sheet = vec4(up, visible, fade * near_fade(now.center) * min(now.weight, 1.0) * min(look.gain, 4.0), gl_Position.w);
     if (!seen)
         gl_Position = DRAWN_NOWHERE;
 }

@@ -38,9 +38,9 @@ vec3 crown_corner(uint pyramid, uint corner, float ago_s)
     const vec3 outward = cos(angle) * side + sin(angle) * cross(side, crown.normal);
     // The paper's crown stays on its initial circle; in the physical mode it widens.
     const uint row = VIRGA_DROPLET_MATERIAL(splash.kind) * VIRGA_GROUND_STATES + VIRGA_DROPLET_STATE(splash.kind);
-    const float radius = look.physical != 0u ? crown.radius : rules.rules[row].circle * crown.diameter;
+    const float radius = look.physical != 0u ? crown.radius : rules.rules[row].circle_radius * crown.diameter;
     const float height = crown.height * (0.8 + 0.4 * virga_unit(virga_hash2(crown.random, 32u + spoke)));
-    const vec3 base = crown.centre + radius * outward, tip = base + height * crown.normal + 0.35 * height * outward;
+    const vec3 base = crown.center + radius * outward, tip = base + height * crown.normal + 0.35 * height * outward;
     return corner_of(base, tip, height > 0.0 ? 0.28 * crown.diameter : 0.0, corner);
 }
 
@@ -69,7 +69,9 @@ void main()
     const uint vertex = uint(gl_VertexIndex);
     position = pyramid_corner(vertex >> 3, vertex & 7u, 0.0);
 #ifdef MOTION
-    before = project(to_mat(view.previous_clip_from_rel), pyramid_corner(vertex >> 3, vertex & 7u, view.ago_s)).xyw;
+    before =
+        project(to_mat(view.previous_clip_from_rel), pyramid_corner(vertex >> 3, vertex & 7u, view.frame_interval_s))
+            .xyw;
 #endif
     shade = vec2(0.6 * min(look.gain, 1.6) * near_fade(position), 0.0);
     gl_Position = project(to_mat(view.clip_from_rel), position);

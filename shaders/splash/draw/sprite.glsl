@@ -120,8 +120,8 @@ Sprite puff_sprite(virga_splash_gpu splash, float ago_s)
     if (alone && t < 1.0)
         area += 2.5 * crown.diameter * crown.diameter * (1.0 - t);
     sprite.kind = VIRGA_SPRITE_PUFF;
-    sprite.tail = crown.centre;
-    sprite.head = crown.centre + crown.normal * up;
+    sprite.tail = crown.center;
+    sprite.head = crown.center + crown.normal * up;
     sprite.normal = crown.normal;
     sprite.widths = vec2(across);
     sprite.body = across;
@@ -265,7 +265,7 @@ Projected project_sprite(Sprite sprite)
 // Whether a splash's sheet is large enough on the picture to be drawn as a sheet.
 bool is_sheet(virga_splash_gpu splash, Crown crown)
 {
-    const float distance = project(to_mat(view.clip_from_rel), crown.centre).w;
+    const float distance = project(to_mat(view.clip_from_rel), crown.center).w;
     const float size = crown.model == VIRGA_SPLASH_DISK  ? crown.radius
                        : crown.model == VIRGA_SPLASH_DOT ? 1.5 * crown.diameter
                                                          : crown_height(splash.diameter_m, splash_weber(splash));

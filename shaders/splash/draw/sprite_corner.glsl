@@ -16,7 +16,7 @@ layout(location = 5) noperspective out vec2 motion; // px
 
 // x: px from the center line; y: px from the tail; z: view depth
 layout(location = 0) noperspective out vec4 sprite_position;
-layout(location = 1) flat out vec4 centre_alpha;
+layout(location = 1) flat out vec4 center_alpha;
 layout(location = 2) flat out vec4 rim_kind;
 // x, y: half widths at head and tail; z: length of the path; w: length of the body (px)
 layout(location = 3) flat out vec4 shape;
@@ -50,7 +50,7 @@ void set_corner(uint vertex)
     motion = at_head ? moved.xy : moved.zw;
 #endif
     sprite_position = vec4(across, at_head ? path_px + margin : -margin, at_head ? depths.z : depths.w, 0.0);
-    centre_alpha = vec4(light[0], light[1].x, alpha_body.x);
+    center_alpha = vec4(light[0], light[1].x, alpha_body.x);
     rim_kind = vec4(light[1].y, light[2], float(kind));
     shape = vec4(0.5 * widths, path_px, alpha_body.y);
     const vec2 shares = unpackHalf2x16(rest.z);

@@ -50,7 +50,7 @@ bool is_shown_otherwise(virga_splash_gpu splash, Crown crown)
 
 bool on_picture(Crown crown)
 {
-    const vec4 clip = project(to_mat(view.clip_from_rel), crown.centre);
+    const vec4 clip = project(to_mat(view.clip_from_rel), crown.center);
     const float margin = 2.0 * crown.radius + 2.0 * crown.height;
     const vec2 m = margin / view.pixel_angle * 2.0 / vec2(view.viewport[2], view.viewport[3]);
     return clip.w > NEAR_W && all(lessThan(abs(clip.xy) - clip.w, m));

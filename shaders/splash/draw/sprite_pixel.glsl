@@ -10,7 +10,7 @@ layout(location = 5) noperspective in vec2 motion;
 #endif
 
 layout(location = 0) noperspective in vec4 sprite_position;
-layout(location = 1) flat in vec4 centre_alpha;
+layout(location = 1) flat in vec4 center_alpha;
 layout(location = 2) flat in vec4 rim_kind;
 layout(location = 3) flat in vec4 shape;
 layout(location = 4) flat in vec4 axis_chance;
@@ -125,5 +125,5 @@ float puff_cover()
 float sprite_cover()
 {
     const float cover = PUFFS ? puff_cover() : LINES || rim_kind.w < 0.5 ? droplet_cover() : pile_cover();
-    return min(centre_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * (HAS_DEPTH ? soft_edge(sprite_position.z) : 1.0);
+    return min(center_alpha.a * cover, PUFFS ? MAX_OPACITY : 1.0) * (HAS_DEPTH ? soft_edge(sprite_position.z) : 1.0);
 }

@@ -24,16 +24,16 @@ uvec3 light_of(vec3 middle, float torn)
     const vec3 d = normalize(middle);
     const vec2 at_rim = vec2(view.phase_moment[1], view.phase_moment[2]) * vec2(0.75, 0.3);
     const vec3 glitter = FULL ? lamps(middle, d) : vec3(0.0);
-    const vec3 centre = torn_light(environment(d, vec2(0.97, 0.90)), torn) + glitter;
+    const vec3 center = torn_light(environment(d, vec2(0.97, 0.90)), torn) + glitter;
     const vec3 rim = torn_light(environment(d, at_rim), torn) + 0.6 * glitter;
-    return uvec3(halves(centre.r, centre.g), halves(centre.b, rim.r), halves(rim.g, rim.b));
+    return uvec3(halves(center.r, center.g), halves(center.b, rim.r), halves(rim.g, rim.b));
 }
 
 // Motion of both ends since the previous frame. Something that did not exist then comes from where it began.
 void write_motion(uint index, Slot slot, Sprite sprite)
 {
     const mat4 now = to_mat(view.clip_from_rel), previous = to_mat(view.previous_clip_from_rel);
-    const Sprite before = sprite_of(slot, view.ago_s);
+    const Sprite before = sprite_of(slot, view.frame_interval_s);
     sprites[4u * look.max_sprites + index] =
         floatBitsToUint(vec4(motion_px(project(now, sprite.head), project(previous, before.head)),
                              motion_px(project(now, sprite.tail), project(previous, before.tail))));

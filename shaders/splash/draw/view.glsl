@@ -63,7 +63,7 @@ vec4 pile_tip(virga_droplet_gpu droplet, float time_s)
 
 float droplet_weight(virga_droplet_gpu droplet) { return unpackHalf2x16(droplet.weight_free).x; }
 
-float near_fade(vec3 p) { return view.near_m > 0.0 ? clamp(length(p) / view.near_m - 1.0, 0.0, 1.0) : 1.0; }
+float near_fade(vec3 p) { return view.near_fade_m > 0.0 ? clamp(length(p) / view.near_fade_m - 1.0, 0.0, 1.0) : 1.0; }
 
 // ---- crowns and sheets
 
@@ -71,7 +71,7 @@ float near_fade(vec3 p) { return view.near_m > 0.0 ? clamp(length(p) / view.near
 uint splash_slot(uint entry) { return ring_slot(state.first_splash, state.end_splash, look.max_splashes, entry); }
 
 struct Crown {
-    vec3 centre; // relative to the camera
+    vec3 center; // relative to the camera
     vec3 normal;
     vec2 lean;
     float radius, height; // at that time
@@ -100,7 +100,7 @@ Crown crown_at(virga_splash_gpu splash, float time_s)
 {
     Crown crown;
     const float age = splash_age(splash, time_s), weber = splash_weber(splash);
-    crown.centre = to_vec(splash.position) + to_vec(view.origin_offset);
+    crown.center = to_vec(splash.position) + to_vec(view.origin_offset);
     crown.normal = to_vec(splash.normal);
     crown.lean = unpackHalf2x16(splash.lean);
     crown.model = VIRGA_DROPLET_MODEL(splash.kind);

@@ -13,8 +13,8 @@ layout(local_size_x = VIRGA_SPLASH_GROUP) in;
 
 void main()
 {
-    const uint word = gl_GlobalInvocationID.x, kind = word < words_of(SPRITES).count ? SPRITES : SHEETS;
-    const Words words = words_of(kind);
+    const uint word = gl_GlobalInvocationID.x, kind = word < word_range_of(SPRITES).count ? SPRITES : SHEETS;
+    const WordRange words = word_range_of(kind);
     if (word < words.first + words.count)
         write_word(word, 32u * (word - words.first), words.entry, lists[kind]);
 }

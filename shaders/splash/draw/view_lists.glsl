@@ -1,16 +1,16 @@
 // view_lists.glsl - the two lists of a view, sprites and sheets: which words of picks belong to each, and where their
 // entries are.
-struct Words {
+struct WordRange {
     uint first, count;    // first word of picks, and the number of words
     uint entry, capacity; // first entry in the list buffer, and room for entries
 };
 
-Words words_of(uint kind)
+WordRange word_range_of(uint kind)
 {
     const uint sprites = state.sprite_groups[0] * GROUP_WORDS, sheets = state.splash_groups[0] * GROUP_WORDS;
     if (kind == SPRITES)
-        return Words(0u, sprites, 0u, look.max_sprites);
-    return Words(sprites, sheets, look.max_sprites, look.max_crowns);
+        return WordRange(0u, sprites, 0u, look.max_sprites);
+    return WordRange(sprites, sheets, look.max_sprites, look.max_crowns);
 }
 
 // Entries at the front that have no sprite: the paper's pyramids read their droplets directly.

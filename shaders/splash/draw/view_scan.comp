@@ -30,9 +30,9 @@ void draw_sprites(virga_list_gpu head)
     const uint each = is_film() ? 6u : 12u, second = head.second_kind;
     const uint quads = first_of_set(state.view_groups[0], head), puffs = first_of_set(3u * state.view_groups[0], head);
     const uint first_line = 18u * look.max_sprites + VIRGA_CROWN_INDICES;
-    prepared.wide = virga_splash_draw_gpu(each * second, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
+    prepared.wide_quads = virga_splash_draw_gpu(each * second, 1u, is_film() ? 0u : 6u * look.max_sprites, 0, 0u);
     prepared.lines = virga_splash_draw_gpu(2u * (quads - second), 1u, first_line + 2u * second, 0, 0u);
-    prepared.thin = virga_splash_draw_gpu(6u * (puffs - quads), 1u, 6u * quads, 0, 0u);
+    prepared.thin_quads = virga_splash_draw_gpu(6u * (puffs - quads), 1u, 6u * quads, 0, 0u);
     prepared.puffs = virga_splash_draw_gpu(6u * (head.count - puffs), 1u, 6u * puffs, 0, 0u);
     prepared.sprites = head.count;
 }
@@ -48,8 +48,8 @@ void draw_sheets(virga_list_gpu head)
 
 void main()
 {
-    const uint kind = gl_WorkGroupID.x, all = words_of(SPRITES).count + words_of(SHEETS).count;
-    const Words words = words_of(kind);
+    const uint kind = gl_WorkGroupID.x, all = word_range_of(SPRITES).count + word_range_of(SHEETS).count;
+    const WordRange words = word_range_of(kind);
     const uvec2 found = scan_words(words.first, words.count, words.capacity);
     const virga_list_gpu head = list_head(found, words.capacity);
     const bool listed_here = all <= FEW_WORDS;

@@ -12,7 +12,7 @@
 #include "fall_buffers.glsl"
 #include "returns.glsl"
 #include "fall_compact.glsl"
-#define STEP_WORDS (VIRGA_SPLASH_FEW / 32)
+#define STEP_WORDS (VIRGA_SPLASH_SINGLE_GROUP_DROPLETS / 32)
 #include "fly.glsl"
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
@@ -56,7 +56,8 @@ void step_few(uint lane, uint end)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, end_droplet = state.end_droplet, returned = state.returns;
-    const uint words = (end_droplet + 31u) / 32u, few = end_droplet <= VIRGA_SPLASH_FEW ? end_droplet : 0u;
+    const uint words = (end_droplet + 31u) / 32u,
+               few = end_droplet <= VIRGA_SPLASH_SINGLE_GROUP_DROPLETS ? end_droplet : 0u;
     step_few(lane, few);
     const uint run = (words + VIRGA_SPLASH_LANES - 1u) / VIRGA_SPLASH_LANES;
     const uint begin = min(lane * run, words), end = min(begin + run, words);
@@ -70,8 +71,9 @@ void main()
         marks[i].zw = before;
         before += uvec2(bitCount(word.xy));
     }
-    const uint reserved_returns = min(returned + spawns_to_come(), tick.max_returns);
-    const uint fallen = min(all.x, tick.max_returns - reserved_returns); // if there are more, they wait in the air
+    const uint reserved_returns = min(returned + spawns_to_come(), tick.max_returned_droplets);
+    // if there are more, they wait in the air
+    const uint fallen = min(all.x, tick.max_returned_droplets - reserved_returns);
     memoryBarrierBuffer();
     barrier();
     for (uint slot = lane; slot < few; slot += VIRGA_SPLASH_LANES) // not read as texels, because they were written here
@@ -93,7 +95,7 @@ void main()
     returns_head.count = returned + fallen;
     returns_head.dropped = 0u;
     returns_head.group_count = uint[3]((returned + fallen + 63u) / 64u, 1u, 1u);
-    returns_head.capacity = tick.max_returns;
+    returns_head.capacity = tick.max_returned_droplets;
     returns_head.origin = tick.anchor;
     returns_head.tick_s = tick.tick_s;
     returns_head.ticks = tick.tick_in_step + 1u;

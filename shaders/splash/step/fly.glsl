@@ -18,9 +18,10 @@ float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s,
         return rise.y <= 0.0 ? rise.x / max(rise.x - rise.y, 1e-6) : 2.0;
     const vec3 base = to_vec(droplet.base);
     const float length_before = distance(from, base), length_after = distance(to, base);
-    const float by_time = (tick.pile_s - before_s) / part_s;
-    const float by_way =
-        length_after > tick.pile_m ? (tick.pile_m - length_before) / max(length_after - length_before, 1e-9) : 2.0;
+    const float by_time = (tick.pile_max_s - before_s) / part_s;
+    const float by_way = length_after > tick.pile_max_m
+                             ? (tick.pile_max_m - length_before) / max(length_after - length_before, 1e-9)
+                             : 2.0;
     return max(min(by_time, by_way), 0.0);
 }
 

@@ -20,5 +20,5 @@ void main()
         return;
     start_splash(
         spawns[index], spawn_ranks[index],
-        Starts(state.tick_splash, state.tick_droplet, state.returns_before, state.first_splash, state.crowded_from));
+        Starts(state.tick_splash, state.tick_droplet, state.returns_before, state.first_splash, state.full_from));
 }

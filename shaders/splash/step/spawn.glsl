@@ -49,11 +49,11 @@ uint droplet_count(virga_spawn_gpu spawn)
         return 0u;
     if (!is_physical())
         return clamp(whole_between(rule.count[0], rule.count[1], hash), 1u,
-                     min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
+                     min(spawn.water_nl, uint(VIRGA_SPLASH_MAX_COUNT)));
     // A crown on deep water sheds few droplets from its rim, and its cone one more.
     const bool cone = spawn_model(spawn) == VIRGA_SPLASH_CROWN_CONE;
     const float mean = 5.0 * splash_excess(spawn.diameter_m, drop_speed(spawn), is_wet(spawn)) * rule.strength;
     const float share = 0.5 + virga_unit(hash); // varies from drop to drop
     const uint rim = uint(floor(mean * share * (cone ? 0.25 : 1.0) + virga_unit(virga_hash1(hash))));
-    return clamp(rim + (cone ? 1u : 0u), 1u, min(spawn.water_nl, uint(VIRGA_SPLASH_MOST_COUNT)));
+    return clamp(rim + (cone ? 1u : 0u), 1u, min(spawn.water_nl, uint(VIRGA_SPLASH_MAX_COUNT)));
 }

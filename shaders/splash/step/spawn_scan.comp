@@ -17,7 +17,7 @@
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
 
-shared uint crowded_rank, crowded_droplets, expired;
+shared uint full_rank, droplets_at_full, expired;
 
 // Releases the oldest splashes that are over. Returns the first that is not.
 uint forget_splashes(uint lane)
@@ -60,7 +60,7 @@ void main()
             sum += uvec2(1u, spawn_ranks[i].y);
         }
     if (lane == 0u)
-        crowded_rank = NO_SLOT;
+        full_rank = NO_SLOT;
     uvec2 found;
     uvec2 index = scan_group(sum, found);
     const uint room = tick.max_droplets - staying;
@@ -69,17 +69,17 @@ void main()
             continue;
         const uint droplets = spawn_ranks[i].y;
         if (index.y + droplets > room)
-            atomicMin(crowded_rank, index.x);
+            atomicMin(full_rank, index.x);
         spawn_ranks[i] = uvec2(index.x, min(index.y, 0xffffffu) | droplets << 24);
         index += uvec2(1u, droplets);
     }
     barrier();
     if (lane == 0u)
-        crowded_droplets = found.y;
+        droplets_at_full = found.y;
     barrier();
     for (uint i = begin; i < end; i++)
-        if (spawns[i].tick == tick.tick && spawn_ranks[i].x == crowded_rank)
-            crowded_droplets = first_droplet(spawn_ranks[i].y); // at most one invocation
+        if (spawns[i].tick == tick.tick && spawn_ranks[i].x == full_rank)
+            droplets_at_full = first_droplet(spawn_ranks[i].y); // at most one invocation
     barrier();
     const uint end_after = end_splash + found.x, block = uint(VIRGA_SPLASH_BLOCK - 1);
     if (end_after - (first_splash & ~block) > tick.max_splashes)
@@ -87,21 +87,21 @@ void main()
     const bool few = all <= VIRGA_SPLASH_LANES;
     if (few && lane < all && spawns[lane].tick == tick.tick)
         start_splash(spawns[lane], spawn_ranks[lane],
-                     Starts(end_splash, staying, returned, first_splash, crowded_rank));
+                     Starts(end_splash, staying, returned, first_splash, full_rank));
     if (lane != 0u)
         return;
-    const uint crowded = crowded_rank == NO_SLOT ? 0u : found.x - crowded_rank, droplets = staying + crowded_droplets;
+    const uint crowded = full_rank == NO_SLOT ? 0u : found.x - full_rank, droplets = staying + droplets_at_full;
     state.first_splash = first_splash;
     state.end_splash = end_after;
     state.tick_splash = end_splash;
     state.tick_droplet = staying;
     state.end_droplet = droplets;
-    state.crowded_from = crowded_rank;
+    state.full_from = full_rank;
     state.returns_before = returned;
-    state.returns = min(returned + crowded, tick.max_returns);
+    state.returns = min(returned + crowded, tick.max_returned_droplets);
     state.spawn_groups = uint[3](few ? 0u : (all + VIRGA_SPLASH_GROUP - 1u) / VIRGA_SPLASH_GROUP, 1u, 1u);
-    state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_FEW ? 0u : droplets);
+    state.droplet_groups = ring_groups(0u, droplets <= VIRGA_SPLASH_SINGLE_GROUP_DROPLETS ? 0u : droplets);
     state.splash_groups = ring_groups(first_splash, end_after);
-    count(VIRGA_SPLASH_CROWDED, crowded);
-    count(VIRGA_SPLASH_DROPLETS, crowded_droplets);
+    count(VIRGA_SPLASH_WITHOUT_DROPLETS, crowded);
+    count(VIRGA_SPLASH_DROPLETS, droplets_at_full);
 }

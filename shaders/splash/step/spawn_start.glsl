@@ -4,7 +4,7 @@
 struct Starts {
     uint splash, droplet, returned;
     uint first_splash; // the oldest splash that is kept
-    uint crowded_from; // rank among this tick's spawns from which on there is no room for droplets
+    uint full_from; // rank among this tick's spawns from which on there is no room for droplets
 };
 
 // Random streams of a splash, and of each of its droplets.
@@ -88,7 +88,7 @@ float physical_speed(virga_spawn_gpu spawn, uint n, uint hash)
 }
 
 // A pile on the circle: the bases are evenly spaced, each with a normal deviation of up to six tenths of the spacing.
-void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 centre, uint i, uint n)
+void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame frame, vec3 center, uint i, uint n)
 {
     const virga_splash_rule_gpu rule = rule_of(spawn);
     const uint hash = virga_hash2(spawn.random, DROPLET_HASH + 4u * i);
@@ -106,13 +106,13 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
     if (crown)
         speed *= 0.4; // deep water absorbs more of it
     const vec3 outward = cos(azimuth) * frame.side + sin(azimuth) * frame.across;
-    vec3 base = centre + rule.circle * spawn.diameter_m * outward, start = base;
+    vec3 base = center + rule.circle_radius * spawn.diameter_m * outward, start = base;
     const vec3 velocity = speed * (cos(elevation) * outward + sin(elevation) * frame.normal) + lean_of(spawn);
     if (crown) {
         // They leave the rim while the crown rises.
         const float weber = weber_number(spawn), t = 0.15 + 0.3 * virga_unit(virga_hash2(hash, 2u));
         const float height = crown_height(spawn.diameter_m, weber);
-        base = centre + crown_radius(spawn.diameter_m, weber) * crown_spread(t) * outward;
+        base = center + crown_radius(spawn.diameter_m, weber) * crown_spread(t) * outward;
         start = base + height * crown_rise(t) * frame.normal;
         droplet.age_s -= t * crown_time(height);
     }
@@ -122,14 +122,14 @@ void start_pile(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, Frame fr
 }
 
 // The droplet of the cone moves vertically.
-void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 centre)
+void start_cone(inout virga_droplet_gpu droplet, virga_spawn_gpu spawn, vec3 center)
 {
     const virga_splash_rule_gpu rule = rule_of(spawn);
     const uint hash = virga_hash2(spawn.random, CONE_HASH);
     const float weber = weber_number(spawn);
     const float speed = is_physical() ? cone_speed(spawn.diameter_m, weber, virga_unit(hash))
                                       : normal_between(rule.speed[0], rule.speed[1], hash);
-    droplet.base = float[3](centre.x, centre.y, centre.z);
+    droplet.base = float[3](center.x, center.y, center.z);
     droplet.position = droplet.base;
     droplet.velocity = float[3](0.0, speed, 0.0);
     droplet.age_s -= crown_time(crown_height(spawn.diameter_m, weber)); // it starts when the crown is over
@@ -143,7 +143,7 @@ uint part_of(virga_spawn_gpu spawn, uint i, uint n)
     return cone ? 8u * n : 10u + (30u * ((u * u) >> 16) >> 16);
 }
 
-void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
+void start_droplets(virga_spawn_gpu spawn, vec3 center, uint first, uint n)
 {
     const Frame frame = surface_frame(to_vec(spawn.normal));
     const vec2 slopes = slopes_of(frame.normal);
@@ -168,9 +168,9 @@ void start_droplets(virga_spawn_gpu spawn, vec3 centre, uint first, uint n)
         droplet.id = spawn.id;
         droplet.weight_free = halves(spawn.weight, 0.0);
         if (cone && i == 0u)
-            start_cone(droplet, spawn, centre);
+            start_cone(droplet, spawn, center);
         else
-            start_pile(droplet, spawn, frame, centre, i, n);
+            start_pile(droplet, spawn, frame, center, i, n);
         const uvec4 texels[4] = texels_of(droplet);
         for (uint j = 0u; j < 4u; j++)
             droplets[4u * (first + i) + j] = texels[j];
@@ -192,17 +192,17 @@ vec3 shown_beside(virga_spawn_gpu spawn, uint droplets)
 
 void start_splash(virga_spawn_gpu spawn, uvec2 rank, Starts starts)
 {
-    const vec3 centre = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
-    const bool crowded = rank.x >= starts.crowded_from;
+    const vec3 center = to_vec(spawn.position) + (to_vec(spawns_head.origin) - to_vec(tick.anchor));
+    const bool crowded = rank.x >= starts.full_from;
     const uint n = crowded ? 0u : droplet_count_of(rank.y);
-    write_splash(starts.splash + rank.x, starts.first_splash, spawn, centre + shown_beside(spawn, n), n);
+    write_splash(starts.splash + rank.x, starts.first_splash, spawn, center + shown_beside(spawn, n), n);
     count(VIRGA_SPLASH_BY_MODEL + spawn_model(spawn) * VIRGA_SPLASH_MATERIALS + ((spawn.kind >> 8) & 31u), 1u);
     count(VIRGA_SPLASH_FLOWN, spawn.water_nl);
     if (n > 0u)
-        start_droplets(spawn, centre, starts.droplet + first_droplet(rank.y), n);
-    const uint at = starts.returned + (rank.x - starts.crowded_from);
-    if (crowded && at < tick.max_returns) {
-        write_return(at, centre, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
+        start_droplets(spawn, center, starts.droplet + first_droplet(rank.y), n);
+    const uint at = starts.returned + (rank.x - starts.full_from);
+    if (crowded && at < tick.max_returned_droplets) {
+        write_return(at, center, to_vec(spawn.velocity), 0.0, spawn.id, (spawn.kind >> 8) & 31u, spawn.water_nl);
         count(VIRGA_SPLASH_RETURNED, spawn.water_nl);
     }
 }

@@ -16,9 +16,9 @@ layout(location = 2) out vec2 out_uv;
 
 void main()
 {
-    vec4 place = vec4(in_position, 1.0);
-    out_relative = vec3(dot(surface.from_mesh[0], place), dot(surface.from_mesh[1], place),
-                        dot(surface.from_mesh[2], place));
+    vec4 position = vec4(in_position, 1.0);
+    out_relative = vec3(dot(surface.from_mesh[0], position), dot(surface.from_mesh[1], position),
+                        dot(surface.from_mesh[2], position));
     out_normal = vec3(dot(surface.from_mesh[0].xyz, in_normal), dot(surface.from_mesh[1].xyz, in_normal),
                       dot(surface.from_mesh[2].xyz, in_normal));
     out_uv = in_uv;

@@ -78,7 +78,7 @@ static bool set_pane(pane *p, const struct row *row, virga_glass_style style)
     p->settings = virga_default_glass_settings();
     p->settings.style = style;
     if (row->bare)
-        p->settings.film_um = p->settings.mist_mm = 0;
+        p->settings.film_um = p->settings.mist_max_mm = 0;
     p->settings.wiper_count = 2;
     for (int i = 0; i < 2; i++) {
         virga_glass_wiper *w = &p->settings.wipers[i];
@@ -143,7 +143,7 @@ static bool get_wet(bench *b, pane *p, uint32_t balls, virga_glass_stats *stats)
 {
     bool good = true;
     p->rate_mm_h = balls > 50000 ? 100 : MIN_MM_H;
-    for (int i = 1; good && i <= MAX_WARMUP && stats->balls < balls && !interrupt_asked(); i++) {
+    for (int i = 1; good && i <= MAX_WARMUP && stats->balls < balls && !interrupt_requested(); i++) {
         good = frame(b, p);
         virga_glass_stats_get(p->glass, stats);
         if (i % AIM_WARMUP == 0)
@@ -203,7 +203,7 @@ static bool measure(bench *b, const struct row *row)
     double fill = 1;
     bool good =
         open_pane(b, row, &p) && set_pane(&p, row, VIRGA_GLASS_STYLE_PAPER) && get_wet(b, &p, row->balls, &stats);
-    if (good && interrupt_asked())
+    if (good && interrupt_requested())
         good = false;
     if (good)
         printf("%u metaballs%s asked for: %u, of %u drops and %u particles after %u ticks, in rain of %.1f mm/h at 20 "
@@ -242,7 +242,7 @@ static bool run(bench *b, const options *parsed)
 {
     uint32_t only;
     bool good = read_balls(parsed, &only);
-    for (size_t i = 0; good && !interrupt_asked() && i < sizeof rows / sizeof rows[0]; i++)
+    for (size_t i = 0; good && !interrupt_requested() && i < sizeof rows / sizeof rows[0]; i++)
         if (!only || rows[i].balls == only)
             good = measure(b, &rows[i]);
     return good;

@@ -54,7 +54,8 @@ static void move_drop(const glass_pane *pane, const virga_glass_drop_gpu *from, 
     turn_to_world(&pane->now.pose, local, slide);
     for (int i = 0; i < 3; i++) {
         const int y = (i + 1) % 3, z = (i + 2) % 3;
-        const double spin = (double)pane->now.turn_rad_s[y] * arm[z] - (double)pane->now.turn_rad_s[z] * arm[y];
+        const double spin =
+            (double)pane->now.angular_velocity_rad_s[y] * arm[z] - (double)pane->now.angular_velocity_rad_s[z] * arm[y];
         to->position[i] = (float)(pane->now.pose.position_m[i] + arm[i]);
         to->velocity[i] = (float)(slide[i] + (double)pane->now.velocity_m_s[i] + spin);
     }
@@ -70,7 +71,7 @@ static uint32_t copy_drops(const glass_pane *pane, uint32_t index, drop_row *to)
             continue;
         drop_row *drop = &to[count++];
         move_drop(pane, &from[i], drop);
-        drop->radius_m = kind == VIRGA_GLASS_PARTICLE ? (float)(pane->from->particle_mm * 1e-3)
+        drop->radius_m = kind == VIRGA_GLASS_PARTICLE ? (float)(pane->from->particle_radius_mm * 1e-3)
                                                       : (float)base_radius(&pane->settings, from[i].water_nl * 1e-12);
         drop->id = from[i].id;
         drop->age_s = from[i].age_s;

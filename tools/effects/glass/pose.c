@@ -115,7 +115,7 @@ static void move_along_path(const shot *s, const scene_pane *pane, double time_s
     velocity_at(s, pane, span[1], after, ignored);
     for (int axis = 0; axis < 3; axis++) {
         out->velocity_m_s[axis] = (float)velocity[axis];
-        out->turn_rad_s[axis] = ahead ? 0 : (float)turn[axis];
+        out->angular_velocity_rad_s[axis] = ahead ? 0 : (float)turn[axis];
         out->acceleration_m_s2[axis] = moves ? (float)((after[axis] - before[axis]) / (span[1] - span[0])) : 0;
     }
 }
@@ -126,11 +126,11 @@ static void move_as_given(const shot *s, const scene_pane *pane, double time_s, 
     double velocity[3], acceleration[3], turn[3];
     to_world(&f, pane, pane->velocity_m_s, velocity);
     to_world(&f, pane, pane->acceleration_m_s2, acceleration);
-    to_world(&f, pane, pane->turn_deg_s, turn);
+    to_world(&f, pane, pane->angular_velocity_deg_s, turn);
     for (int axis = 0; axis < 3; axis++) {
         out->velocity_m_s[axis] = (float)velocity[axis];
         out->acceleration_m_s2[axis] = (float)acceleration[axis];
-        out->turn_rad_s[axis] = (float)(turn[axis] * M_PI / 180);
+        out->angular_velocity_rad_s[axis] = (float)(turn[axis] * M_PI / 180);
     }
 }
 
@@ -152,6 +152,6 @@ void glass_pose_moving(const shot *s, const scene_pane *pane, double camera_s, v
     const double shot_start = host_camera_shot_start(&eye, camera_s);
     glass_pose(s, pane, camera_s, pose);
     glass_pose(s, pane, fmax(camera_s - 1 / s->scene->frames.fps, shot_start), &before);
-    memcpy(pose->before_position_m, before.position_m, sizeof before.position_m);
-    memcpy(pose->before_world_from_pane, before.world_from_pane, sizeof before.world_from_pane);
+    memcpy(pose->previous_position_m, before.position_m, sizeof before.position_m);
+    memcpy(pose->previous_world_from_pane, before.world_from_pane, sizeof before.world_from_pane);
 }

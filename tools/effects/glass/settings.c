@@ -23,7 +23,7 @@ static void fill_wiper(const scene_wiper *from, double preroll_s, double time_s,
     to->low_deg = (float)from->low_deg;
     to->high_deg = (float)from->high_deg;
     to->blade_deg = (float)from->blade_deg;
-    to->blade_turn = (float)from->blade_turn;
+    to->blade_hold_direction = (float)from->blade_hold_direction;
     to->drive = (virga_glass_drive)from->drive;
     to->sweep_s = (float)from->sweep_s;
     to->pause_s = (float)from->pause_s;
@@ -41,11 +41,11 @@ static void fill_kind(const scene_pane *from, virga_glass_settings *to)
         float *value;
     } rows[] = {{from->advancing_deg, &to->advancing_deg},
                 {from->receding_deg, &to->receding_deg},
-                {from->run_hold, &to->run_hold},
+                {from->kinetic_hold, &to->kinetic_hold},
                 {from->affinity, &to->affinity},
                 {from->film_um, &to->film_um},
-                {from->tail_mm, &to->tail_mm}};
-    virga_glass_settings_of((virga_glass_kind)from->kind, to);
+                {from->tail_max_radius_mm, &to->tail_max_radius_mm}};
+    virga_glass_apply_kind((virga_glass_kind)from->kind, to);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].given)
             *rows[i].value = (float)*rows[i].given;
@@ -58,17 +58,17 @@ static void fill_motion(const scene_pane *from, virga_glass_settings *to)
     to->drag = (float)from->drag;
     to->meander = (float)from->meander;
     to->path_ease = (float)from->path_ease;
-    to->path_s = (float)from->path_s;
-    to->touch = (float)from->touch;
-    to->tail_m = (float)from->tail_m;
-    to->tail_s = (float)from->tail_s;
+    to->path_dry_s = (float)from->path_dry_s;
+    to->merge_distance = (float)from->merge_distance;
+    to->tail_spacing_m = (float)from->tail_spacing_m;
+    to->tail_lifetime_s = (float)from->tail_lifetime_s;
     to->film_break_s = (float)from->film_break_s;
     to->evaporation_mm_h = (float)from->evaporation_mm_h;
-    to->mist_mm = (float)from->mist_mm;
+    to->mist_max_mm = (float)from->mist_max_mm;
     to->air_share = (float)from->air_share;
-    to->particle_mm = (float)from->particle_mm;
+    to->particle_radius_mm = (float)from->particle_radius_mm;
     to->penalty = (float)from->penalty;
-    to->band = (float)from->band;
+    to->particle_band = (float)from->particle_band;
     to->hold_back_mm = (float)from->hold_back_mm;
     to->hold_back_cells = from->hold_back_cells;
 }

@@ -129,8 +129,8 @@ static virga_result lay_grid(const scene_pane *from, const host_vertex *vertices
     }
     const virga_result result =
         positions && uvs
-            ? virga_glass_from_mesh(positions, uvs, count, indices, count, (float)from->width_m, (float)from->height_m,
-                                    pane->columns, pane->rows, pane->positions, mask)
+            ? virga_glass_fill_from_mesh(positions, uvs, count, indices, count, (float)from->width_m,
+                                         (float)from->height_m, pane->columns, pane->rows, pane->positions, mask)
             : VIRGA_ERROR_HOST_MEMORY;
     free(positions);
     free(uvs);
@@ -187,7 +187,7 @@ static bool set_shape(shot *s, glass_pane *pane, uint32_t index, const uint8_t *
     if (bumps) {
         shape.bump_width_m = (float)(pane->from->bumps.size_mm[0] * 1e-3);
         shape.bump_height_m = (float)(pane->from->bumps.size_mm[1] * 1e-3);
-        shape.bump_pull = (float)pane->from->bumps.pull;
+        shape.bump_affinity = (float)pane->from->bumps.affinity;
     }
     const virga_result result = virga_glass_shape_set(pane->glass, &shape);
     free(bumps);
@@ -208,8 +208,8 @@ bool glass_create_shape(shot *s, glass_pane *pane, uint32_t index, char *error, 
     if (!pane->positions || (meshed && !mask))
         return host_fail(error, error_size, "no memory for a pane");
     if (!meshed)
-        virga_glass_windshield((float)from->width_m, (float)from->height_m, bent ? (float)from->rake_deg : 0,
-                               bent ? (float)from->bend_m : 0, pane->columns, pane->rows, pane->positions);
+        virga_glass_fill_windshield((float)from->width_m, (float)from->height_m, bent ? (float)from->rake_deg : 0,
+                                    bent ? (float)from->bend_m : 0, pane->columns, pane->rows, pane->positions);
     const bool made = (!meshed || shape_of_mesh(s, pane, index, mask, error, error_size)) &&
                       set_shape(s, pane, index, mask, error, error_size);
     free(mask);

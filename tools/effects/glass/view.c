@@ -80,12 +80,13 @@ static void print_pane(const void *state, uint32_t item, char *text, size_t size
 }
 
 /* Both ends of a blade, as the library places it. */
-static void place_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
+static void fill_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
 {
     const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)
                                                            : virga_glass_wiper_deg(wiper, fmax(time_s, 0));
     const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
-    const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
+    const double blade =
+        (arm_deg + from->blade_deg - from->blade_hold_direction * (arm_deg - from->low_deg)) * M_PI / 180;
     for (int end = 0; end < 2; end++) {
         const double way = (end - 0.5) * from->blade_m;
         ends[2 * end] = (float)(from->pivot_m[0] + hub * cos(arm) + way * cos(blade));
@@ -105,12 +106,12 @@ static void fill_uniforms(const shot *s, const glass_pane *pane, const virga_gla
     out->pane[0] = (float)from->width_m;
     out->pane[1] = (float)from->height_m;
     out->pane[2] = (float)from->width_m / (float)out->cells[0];
-    out->pane[3] = (float)(from->band * 2 * from->particle_mm * 1e-3);
+    out->pane[3] = (float)(from->particle_band * 2 * from->particle_radius_mm * 1e-3);
     /* Water of a cap on a base with a radius of 1 m, by its contact angle. */
     out->drop[0] = (float)(1e12 * M_PI * (2 - 3 * c + c * c * c) / (3 * pow(sin(angle), 3)));
-    out->drop[1] = (float)(from->particle_mm * 1e-3);
+    out->drop[1] = (float)(from->particle_radius_mm * 1e-3);
     for (uint32_t i = 0; i < from->wiper_count && i < GLASS_VIEW_BLADES; i++)
-        place_blade(&from->wipers[i], &now->wipers[i], s->camera_time_s, out->blades[i]);
+        fill_blade(&from->wipers[i], &now->wipers[i], s->camera_time_s, out->blades[i]);
     out->height_map[0] = (float)heights->columns;
     out->height_map[1] = (float)heights->rows;
     out->height_map[2] = now->threshold;

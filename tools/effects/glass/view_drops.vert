@@ -19,7 +19,7 @@ void main()
     const uint corner = uint[](0u, 1u, 2u, 2u, 1u, 3u)[gl_VertexIndex % 6];
     out_at = vec2(corner & 1u, corner >> 1) * 2.0 - 1.0;
     out_color = kind == VIRGA_GLASS_PARTICLE
-                    ? ((drop.kind & VIRGA_GLASS_HELD) != 0u ? vec3(1.0, 0.85, 0.2) : vec3(1.0, 0.5, 0.1))
+                    ? ((drop.kind & VIRGA_GLASS_WAITING) != 0u ? vec3(1.0, 0.85, 0.2) : vec3(1.0, 0.5, 0.1))
                 : (drop.kind & VIRGA_GLASS_RUNNING) != 0u ? vec3(0.35, 1.0, 0.55)
                                                           : vec3(0.3, 0.6, 1.0);
     const float radius =

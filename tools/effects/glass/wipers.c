@@ -81,7 +81,8 @@ static void put_wiper(maker *m, const scene_wiper *from, const virga_glass_wiper
     const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)
                                                            : virga_glass_wiper_deg(wiper, fmax(time_s + preroll_s, 0));
     const double arm = arm_deg * M_PI / 180, hub = from->reach_m - 0.5 * from->blade_m;
-    const double blade = (arm_deg + from->blade_deg - from->blade_turn * (arm_deg - from->low_deg)) * M_PI / 180;
+    const double blade =
+        (arm_deg + from->blade_deg - from->blade_hold_direction * (arm_deg - from->low_deg)) * M_PI / 180;
     const double middle[2] = {from->pivot_m[0] + hub * cos(arm), from->pivot_m[1] + hub * sin(arm)};
     const double half[2] = {0.5 * from->blade_m * cos(blade), 0.5 * from->blade_m * sin(blade)};
     const double ends[2][2] = {{middle[0] - half[0], middle[1] - half[1]}, {middle[0] + half[0], middle[1] + half[1]}};

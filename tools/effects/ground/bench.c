@@ -37,7 +37,7 @@ static bool step(bench *b, virga_scene *scene, double camera_x_m)
     double whole;
     const virga_scene_frame frame = {.dt_s = 1.0 / 60,
                                      .camera_m = {camera_x_m, 1.7, 0},
-                                     .focus_m = {camera_x_m, 0, 0},
+                                     .ripple_center_m = {camera_x_m, 0, 0},
                                      .occluders = &b->floor,
                                      .occluder_count = 1};
     return (bench_begin(b, &cmd) && virga_scene_record(scene, cmd, &frame) >= 0 && bench_submit(b, &whole)) ||
@@ -111,7 +111,7 @@ static bool run(bench *b, const options *parsed)
     bool good = true;
     b->floor.ground = true;
     b->floor.material = VIRGA_MATERIAL_ASPHALT;
-    for (size_t i = 0; good && !interrupt_asked() && i < sizeof sides / sizeof sides[0]; i++)
+    for (size_t i = 0; good && !interrupt_requested() && i < sizeof sides / sizeof sides[0]; i++)
         good = measure(b, sides[i]);
     return good;
 }

@@ -34,7 +34,7 @@ static const char *state_legend(uint32_t index, float color[3])
 static const char *material_legend(uint32_t index, float color[3])
 {
     const float turn = (float)index * 0.618034f;
-    if (index >= VIRGA_MATERIAL_OWN)
+    if (index >= VIRGA_MATERIAL_CUSTOM)
         return NULL;
     for (int c = 0; c < 3; c++) {
         float x = turn + (float)((3 - c) % 3) / 3.0f;
@@ -146,19 +146,19 @@ bool ground_fill_budget(const void *state, uint32_t index, tool_budget *budget)
         return false;
     virga_ground_stats_get(ground->ground, &g);
     const uint64_t all = g.start_nl + g.landed_nl;
-    const uint64_t found = g.film_nl + g.puddles_nl + g.held_nl + g.kept_nl + g.infiltrated_nl + g.run_off_nl +
-                           g.evaporated_nl + g.forgotten_nl;
+    const uint64_t found = g.film_nl + g.puddles_nl + g.held_nl + g.cached_nl + g.infiltrated_nl + g.run_off_nl +
+                           g.evaporated_nl + g.evicted_nl;
     *budget = (tool_budget){.title = "Ground",
                             .rows = {{"there at the start", g.start_nl, all},
                                      {"landed", g.landed_nl, all},
                                      {"film", g.film_nl, all},
                                      {"puddles", g.puddles_nl, all},
                                      {"in pores", g.held_nl, all},
-                                     {"kept outside", g.kept_nl, all},
+                                     {"kept outside", g.cached_nl, all},
                                      {"sunk in", g.infiltrated_nl, all},
                                      {"run off", g.run_off_nl, all},
                                      {"evaporated", g.evaporated_nl, all},
-                                     {"forgotten", g.forgotten_nl, all},
+                                     {"evicted", g.evicted_nl, all},
                                      {"not accounted for", all > found ? all - found : found - all, 0}},
                             .row_count = 11};
     return true;

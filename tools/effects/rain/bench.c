@@ -30,11 +30,11 @@ typedef struct bench_result {
     draw_result draws[BENCH_SIZES];
 } bench_result;
 
-static bool set_rain(rain_run *r, uint32_t occlusion_turns)
+static bool set_rain(rain_run *r, uint32_t occlusion_interval)
 {
     virga_rain_settings settings = virga_default_rain_settings();
     settings.rate_mm_h = 25;
-    settings.occlusion_turns = occlusion_turns;
+    settings.occlusion_interval = occlusion_interval;
     return virga_rain_set(r->rain, &settings) == VIRGA_OK;
 }
 
@@ -58,7 +58,7 @@ static bool run_step(rain_run *r, double *step, double *impacts, double *occlusi
     double whole;
     const double camera[3] = {0, 1.7, 0};
     const virga_rain_step_info info = {.dt_s = 1.0 / 60, .camera_m = {0, 1.7, 0}};
-    if (!bench_begin(r->b, &cmd) || virga_rain_occlusion(r->rain, cmd, camera, &r->b->floor, 1) ||
+    if (!bench_begin(r->b, &cmd) || virga_rain_draw_occlusion(r->rain, cmd, camera, &r->b->floor, 1) ||
         virga_rain_step(r->rain, cmd, &info) || !bench_submit(r->b, &whole))
         return options_complain("bench", "a step failed");
     *step = bench_pass_ms(r->b, "rain.step");
@@ -205,7 +205,7 @@ static bool run(bench *b, const options *parsed)
     rain_run r = {.b = b};
     uint32_t only = 0;
     bool good = options_uint(parsed, "--drops", 1024, 4194304, &only);
-    for (size_t i = 0; good && !interrupt_asked() && i < (only ? 1 : sizeof usual / sizeof usual[0]); i++) {
+    for (size_t i = 0; good && !interrupt_requested() && i < (only ? 1 : sizeof usual / sizeof usual[0]); i++) {
         bench_result result;
         memset(&result, 0, sizeof result);
         good = measure(&r, only ? only : usual[i], &result);

@@ -77,7 +77,7 @@ static bool time_ticks(run *r, cell *c)
     tick_times t;
     uint32_t n = 0;
     const double start = progress_now();
-    while (n < MAX_TICKS && !interrupt_asked()) {
+    while (n < MAX_TICKS && !interrupt_requested()) {
         if (!time_tick(r, &t, n))
             return false;
         n++;
@@ -123,7 +123,7 @@ static bool measure_cell(run *r, const splash_life *life, cell *c)
     bool good = splash_bench_open_splash(r, 1.5 * c->wanted, droplets, rate);
     /* Pipelines are compiled while little is there. */
     good = good && splash_bench_step(r, splash_bench_next_spawns(r), &ms) && show(r, true, true, &ms);
-    for (uint32_t i = 0; good && i < life->settled && !interrupt_asked(); i++)
+    for (uint32_t i = 0; good && i < life->settled && !interrupt_requested(); i++)
         good = splash_bench_step(r, splash_bench_next_spawns(r), &ms);
     good = good && time_ticks(r, c) && look_around(r, c);
     splash_bench_close_splash(r);
@@ -152,7 +152,7 @@ static bool measure_table(run *r, const uint32_t *counts, uint32_t count)
             *c = (cell){.row = r->row, .wanted = counts[i]};
             if (!measure_cell(r, &lives[r->row], c))
                 return false;
-            if (interrupt_asked())
+            if (interrupt_requested())
                 return true;
             splash_bench_print_cell(r->choice, c);
             if (i + 1 == count && !splash_bench_measure_limits(r, c, &limits[r->row]))
@@ -171,7 +171,7 @@ static bool measure_tables(bench *b, const bench_splash_choice *choice)
     bool good = splash_bench_open_picture(b, &r.picture);
     good =
         good && (choice->only ? measure_table(&r, &choice->only, 1) : measure_table(&r, splash_bench_counts, COUNTS));
-    if (good && choice->film_too && !interrupt_asked()) {
+    if (good && choice->film_too && !interrupt_requested()) {
         film.style = VIRGA_SPLASH_STYLE_FILM;
         r.choice = &film;
         good = measure_table(&r, film_counts, 2);

@@ -39,10 +39,11 @@ static void print_lack(const cell *c)
     if (c->stats.sprites == c->max_droplets || c->air.crowns > c->max_droplets / PYRAMIDS)
         printf("%21s %u piles and droplets and %u crowns are there, and a view has room for %u sprites and %u crowns\n",
                "", c->air.piles + c->air.flying, c->air.crowns, c->max_droplets, c->max_droplets / PYRAMIDS);
-    if (c->stats.crowded)
+    if (c->stats.splashes_without_droplets)
         printf(
             "%21s %.1f %% of splashes were crowded: there is room for %u droplets; up to %u more are live as sheets\n",
-            "", 100.0 * (double)c->stats.crowded / c->splashes, c->max_droplets, c->stats.splashes_alive);
+            "", 100.0 * (double)c->stats.splashes_without_droplets / c->splashes, c->max_droplets,
+            c->stats.splashes_alive);
 }
 
 void splash_bench_print_cell(const bench_splash_choice *choice, const cell *c)

@@ -47,7 +47,7 @@ bool splash_bench_open_splash(run *r, double splashes, double droplets, double r
     def.max_splashes = between(splashes, 1024, MAX_SLOTS);
     def.max_droplets = between(fmin(droplets, holds), 4096, MAX_DROPLETS);
     def.max_spawns = between(rate + 2, 1024, MAX_SLOTS);
-    def.max_returns = between(fmin(def.max_droplets, holds - 1), def.max_spawns, MAX_DROPLETS);
+    def.max_returned_droplets = between(fmin(def.max_droplets, holds - 1), def.max_spawns, MAX_DROPLETS);
     if (virga_splash_create(r->b->context, &def, &r->splash) < 0)
         return splash_bench_fail(r->b, "no splashes of that many could be made");
     virga_splash_droplets(r->splash, NULL, &r->max_droplets, NULL);
@@ -103,7 +103,7 @@ static void place_on_ground(float far_m, float u, float v, float position[3])
 
 static virga_spawn_gpu make_spawn(const run *r, uint32_t id, float share)
 {
-    const virga_splash_row *row = &r->settings.rows[VIRGA_MATERIAL_ASPHALT][splash_bench_rows[r->row].state];
+    const virga_splash_rule *row = &r->settings.rules[VIRGA_MATERIAL_ASPHALT][splash_bench_rows[r->row].state];
     float chance[4];
     for (uint32_t i = 0; i < 4; i++)
         chance[i] = virga_unit(virga_hash3(0x59a5u, id, i));

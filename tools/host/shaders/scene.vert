@@ -25,14 +25,14 @@ void main()
     // Depth is drawn first and then tested for equality, so every pipeline must come to the same bits.
     precise vec3 relative = in_position - frame.camera.xyz;
     mat4 m = frame.clip_from_relative;
-    precise vec3 place = relative;
+    precise vec3 position = relative;
 #ifdef MIRROR
-    place.y = 2.0 * frame.mirror.x - relative.y;
+    position.y = 2.0 * frame.mirror.x - relative.y;
     // What is under the plane is not mirrored. Nor is the floor a little above it, which is seen from below.
     const float floor_m = 0.5 * smoothstep(0.5, 0.8, in_normal.y);
     gl_ClipDistance[0] = relative.y - frame.mirror.x - floor_m;
 #endif
-    precise vec4 clip = m[0] * place.x + m[1] * place.y + m[2] * place.z + m[3];
+    precise vec4 clip = m[0] * position.x + m[1] * position.y + m[2] * position.z + m[3];
 #ifdef MIRROR
     clip.xy = clip.xy * frame.mirror.y + clip.w * mirror_jitter();
 #endif

@@ -137,7 +137,7 @@ static bool reopen(bench *b, const char *device, const start_case *one)
     setenv("MESA_SHADER_CACHE_DISABLE", one->driver_cache ? "false" : "true", 1);
     setenv("__GL_SHADER_DISK_CACHE", one->driver_cache ? "1" : "0", 1);
     bench_close(b);
-    return bench_open(b, device, one->blob ? blob : NULL, one->blob ? blob_size : 0, VIRGA_PIPELINES_AT_ONCE);
+    return bench_open(b, device, one->blob ? blob : NULL, one->blob ? blob_size : 0, VIRGA_PIPELINES_IMMEDIATE);
 }
 
 static bool measure_start(bench *b, const char *device, const start_case *one)
@@ -170,7 +170,7 @@ static bool measure_steps(bench *b, const char *device)
     bench_close(b);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
     setenv("__GL_SHADER_DISK_CACHE", "0", 1);
-    if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_IN_STEPS))
+    if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_DEFERRED))
         return false;
     const double start = progress_now();
     bool good = make_scene(b, &scene);
@@ -300,7 +300,7 @@ static bool run_frames(bench *b, const char *device, frame_times *frames)
                  bench_fail(b, "limits"));
     bench_view(&view, 0);
     virga_memory_get(b->context, &before);
-    for (int i = -WARM_UP; i < FRAMES && good && !interrupt_asked(); i++) {
+    for (int i = -WARM_UP; i < FRAMES && good && !interrupt_requested(); i++) {
         frame_times *times = &frames[i < 0 ? 0 : i];
         good = run_frame(b, scene, &view, times);
         times->bare = limits_bare_once_ms(&b->device, machine);
@@ -311,7 +311,7 @@ static bool run_frames(bench *b, const char *device, frame_times *frames)
         printf("  memory: %+lld bytes since the start\n",
                (long long)after.device_bytes - (long long)before.device_bytes);
     drop_scene(b, &scene);
-    return good && !interrupt_asked();
+    return good && !interrupt_requested();
 }
 
 static bool measure_frames(bench *b, const char *device, uint32_t passes)
@@ -320,7 +320,7 @@ static bool measure_frames(bench *b, const char *device, uint32_t passes)
     bool good = runs || options_complain("bench", "out of memory");
     for (uint32_t pass = 0; pass < passes && good; pass++)
         good = run_frames(b, device, runs + (size_t)pass * FRAMES);
-    good = good ? print_frames(runs, passes) : interrupt_asked();
+    good = good ? print_frames(runs, passes) : interrupt_requested();
     free(runs);
     return good;
 }

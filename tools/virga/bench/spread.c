@@ -26,8 +26,8 @@ static void find_deviations(const double *times, uint32_t count, double *deviati
 {
     double sorted[SPREAD_AROUND];
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t half = SPREAD_AROUND / 2, most = count - SPREAD_AROUND;
-        const uint32_t first = i < half ? 0 : i - half > most ? most : i - half;
+        const uint32_t half = SPREAD_AROUND / 2, max = count - SPREAD_AROUND;
+        const uint32_t first = i < half ? 0 : i - half > max ? max : i - half;
         const double around = spread_of(times + first, SPREAD_AROUND, sorted).median;
         deviations[i] = around > 0 ? times[i] / around - 1 : 0;
     }

@@ -88,7 +88,7 @@ static bool check_options(const options *parsed, uint32_t *passes)
 static bool run_bench(bench *b, const tool_bench *found, const options *parsed, uint32_t passes)
 {
     const char *device = options_value(parsed, "--device");
-    if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_AT_ONCE))
+    if (!bench_open(b, device, NULL, 0, VIRGA_PIPELINES_IMMEDIATE))
         return false;
     printf("virga %s on %s (%s), medians of %d\n", virga_version(), b->info.name, b->info.driver, BENCH_RUNS);
     return found ? found->run(b, parsed) : bench_frames(b, device, passes);
@@ -116,5 +116,5 @@ int bench_run(int argc, char **argv)
         good = options_complain("bench", "validation: %s", b->instance.first_message);
     bench_close(b);
     free(b);
-    return !good ? EXIT_FAILED : interrupt_asked() ? EXIT_INTERRUPTED : EXIT_OK;
+    return !good ? EXIT_FAILED : interrupt_requested() ? EXIT_INTERRUPTED : EXIT_OK;
 }

@@ -232,7 +232,7 @@ static bool open_stats(render_job *job)
 static bool step_before(render_job *job, uint32_t frame)
 {
     shot *s = &job->shot;
-    while (s->frame_index + 1 < frame && !interrupt_asked())
+    while (s->frame_index + 1 < frame && !interrupt_requested())
         if (!shot_step(s, s->frame_index + 1, job->error, sizeof job->error))
             return false;
     return true;
@@ -285,7 +285,7 @@ static bool step_preroll(render_job *job)
     shot *s = &job->shot;
     progress bar;
     progress_begin(&bar, "pre-roll", s->preroll);
-    while (s->preroll && !interrupt_asked()) {
+    while (s->preroll && !interrupt_requested()) {
         if (!shot_step_preroll(s, job->error, sizeof job->error))
             break;
         progress_step(&bar, NULL);
@@ -298,7 +298,7 @@ static int render_frames(render_job *job)
 {
     progress bar;
     if (!all_there(job) && !step_preroll(job))
-        return interrupt_asked() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
+        return interrupt_requested() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
     progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
     for (uint32_t frame = job->frames[0]; frame <= job->frames[1]; frame++) {
         if (job->there && job->there[frame - job->frames[0]]) {
@@ -306,7 +306,7 @@ static int render_frames(render_job *job)
             continue;
         }
         const bool stepped = step_before(job, frame);
-        const bool stop = stepped && interrupt_asked();
+        const bool stop = stepped && interrupt_requested();
         if (stop || !stepped || !write_frame(job, frame)) {
             progress_end(&bar);
             return stop ? stop_interrupted(job, frame) : stop_failed(job);

@@ -15,7 +15,8 @@
 
 static const option_row rows[] = {
     {"--window", 0, "WxH", "size of the window in pixels. Default 1600x900", false},
-    {"--divide", 0, "N", "1, 2 or 4: divides the picture's width and height. Default 1; on software Vulkan 2", false},
+    {"--downscale", 0, "N", "1, 2 or 4: divides the picture's width and height. Default 1; on software Vulkan 2",
+     false},
     {"--script", 0, "FILE", "run the commands in a file, see below", false},
     {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
@@ -51,7 +52,7 @@ void view_help(void)
     view_script_help();
     printf("\nExamples:\n"
            "  virga view assets/scenes/street.yaml\n"
-           "  virga view assets/scenes/windshield.yaml --divide 2 --set rain.rate_mm_h=60\n"
+           "  virga view assets/scenes/windshield.yaml --downscale 2 --set rain.rate_mm_h=60\n"
            "  xvfb-run -a virga view assets/scenes/street.yaml --script tour.txt --device cpu\n\n"
            "Exit codes: 0 closed, 1 failed (no display, device lost), 2 wrong command line, scene or script.\n");
 }
@@ -69,7 +70,7 @@ static bool read_options(viewer *v, options *parsed, uint32_t window[2], int arg
     const char *script = options_value(parsed, "--script");
     v->path = parsed->arguments[0];
     if (!options_pair(parsed, "--window", 'x', false, 320, 8192, window) ||
-        !options_uint(parsed, "--divide", 1, 4, &v->divide))
+        !options_uint(parsed, "--downscale", 1, 4, &v->divide))
         return false;
     return !script || view_script_load(script, &v->script, v->error, sizeof v->error) ||
            options_complain("view", "%s", v->error);
@@ -158,7 +159,7 @@ static int run_window(viewer *v, const options *parsed, const uint32_t window[2]
     bool good = open_all(v, parsed, window) && view_remember_start(v);
     const bool opened = good, input_wrong = v->shot.input_wrong;
     v->wall_s = good ? glfwGetTime() : 0;
-    while (good && !v->quit && !interrupt_asked())
+    while (good && !v->quit && !interrupt_requested())
         good = view_frame(v);
     close_all(v);
     if (good)

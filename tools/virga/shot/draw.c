@@ -128,7 +128,7 @@ static void set_frame_ago(const shot *s, const host_camera *frame_ago, virga_vie
     memcpy(temporal->position_m, frame_ago->position_m, sizeof frame_ago->position_m);
     memcpy(temporal->view_from_world, frame_ago->view_from_world, sizeof frame_ago->view_from_world);
     memcpy(temporal->clip_from_view, frame_ago->clip_from_view, sizeof frame_ago->clip_from_view);
-    temporal->ago_s = fmin(1 / s->scene->frames.fps, 1);
+    temporal->frame_interval_s = fmin(1 / s->scene->frames.fps, 1);
     temporal->motion_scale[0] = temporal->motion_scale[1] = -1;
     if (s->options.water_velocity)
         temporal->motion_coverage = 0.01f * (float)s->options.water_velocity;

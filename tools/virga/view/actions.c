@@ -13,7 +13,7 @@
 
 #define MESSAGE_S 6.0
 
-void view_say(viewer *v, const char *format, ...)
+void view_print(viewer *v, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -34,7 +34,7 @@ bool view_assign(viewer *v, const char *assignment)
     char error[400];
     if (scene_settings_assign(v->scene, assignment, &v->needs_restart, error, sizeof error))
         return true;
-    view_say(v, "%s", error);
+    view_print(v, "%s", error);
     return false;
 }
 
@@ -77,7 +77,7 @@ bool view_check(viewer *v)
     const bool good = tuned && shot_check_scene(tuned, error, sizeof error);
     scene_file_free(tuned);
     if (!good)
-        view_say(v, "%s", error);
+        view_print(v, "%s", error);
     return good;
 }
 
@@ -100,7 +100,7 @@ static bool change_list(viewer *v, const char *path,
     scene_file *scene = v->scene, *tried = view_load_tuned(v, error, sizeof error);
     bool good = tried && change(tried, path, error, sizeof error);
     if (!good) {
-        view_say(v, "%s", error);
+        view_print(v, "%s", error);
     } else {
         v->scene = tried;
         good = view_check(v);
@@ -111,7 +111,7 @@ static bool change_list(viewer *v, const char *path,
         return false;
     good = change(scene, path, error, sizeof error) && view_list_settings(v);
     if (!good)
-        view_say(v, "%s", error);
+        view_print(v, "%s", error);
     v->restart = v->restart || list_restarts(path);
     return good;
 }
@@ -152,7 +152,7 @@ bool view_preset_apply(viewer *v, const char *name)
     while (preset < presets + count && strcmp(preset->name, name))
         preset++;
     if (preset == presets + count) {
-        view_say(v, "no preset '%.40s'; there are drizzle, shower, storm, carwash, window", name);
+        view_print(v, "no preset '%.40s'; there are drizzle, shower, storm, carwash, window", name);
         return false;
     }
     view_stop_animation(v);
@@ -164,7 +164,7 @@ bool view_preset_apply(viewer *v, const char *name)
     v->restart = v->restart || (v->needs_restart && v->scene->environment.intensity != before);
     v->needs_restart = waited;
     view_list_settings(v);
-    view_say(v, "%s: %s", preset->title, preset->help);
+    view_print(v, "%s: %s", preset->title, preset->help);
     return true;
 }
 
@@ -173,12 +173,12 @@ bool view_show(viewer *v, const char *mode, uint32_t item)
     const uint32_t found = view_mode_find(mode);
     const view_mode_row *row = view_mode(found);
     if (!row) {
-        view_say(v, "no view '%.40s'; the list of views has their names", mode);
+        view_print(v, "no view '%.40s'; the list of views has their names", mode);
         return false;
     }
     const uint32_t items = view_mode_items(&v->shot, found);
     if (item >= items) {
-        view_say(v, items ? "%s: expected a number below %u" : "%s: this scene has none", row->title, items);
+        view_print(v, items ? "%s: expected a number below %u" : "%s: this scene has none", row->title, items);
         return false;
     }
     v->mode = found;
@@ -187,7 +187,7 @@ bool view_show(viewer *v, const char *mode, uint32_t item)
         v->shot.options.debug_maps = true; /* effects are created with them or without */
         v->restart = true;
     }
-    view_say(v, "%s: %s", row->title, row->help);
+    view_print(v, "%s: %s", row->title, row->help);
     return true;
 }
 
@@ -217,9 +217,9 @@ bool view_save(viewer *v, const char *path)
     free(all);
     free(changes);
     if (saved)
-        view_say(v, "saved %s with %zu settings that are not the file's", path, count);
+        view_print(v, "saved %s with %zu settings that are not the file's", path, count);
     else
-        view_say(v, "%s", error);
+        view_print(v, "%s", error);
     return saved;
 }
 
@@ -227,7 +227,7 @@ bool view_shoot(viewer *v, const char *path)
 {
     const char *dot = strrchr(path, '.');
     if (!dot || (strcmp(dot, ".png") && strcmp(dot, ".exr")) || strlen(path) >= sizeof v->shot_file) {
-        view_say(v, "%.80s: expected a name that ends in .png or .exr", path);
+        view_print(v, "%.80s: expected a name that ends in .png or .exr", path);
         return false;
     }
     snprintf(v->shot_file, sizeof v->shot_file, "%s", path);
@@ -251,7 +251,7 @@ static void change_speed(viewer *v, double factor)
 {
     v->speed *= factor;
     v->speed = v->speed < 0.05 ? 0.05 : v->speed > 1 ? 1 : v->speed;
-    view_say(v, "time goes at %.2f of its speed", v->speed);
+    view_print(v, "time goes at %.2f of its speed", v->speed);
 }
 
 static void shoot_by_key(viewer *v)

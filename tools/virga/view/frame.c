@@ -17,7 +17,7 @@
 /* ---- where the picture lies */
 
 /* As large as fits beside the panel, in the shape of the scene's frames. */
-static void place_picture(const viewer *v, float area[4])
+static void fit_picture(const viewer *v, float area[4])
 {
     const double room = (double)v->window.width - (v->panel ? fmin(VIEW_PANEL_PX, 0.5 * v->window.width) : 0);
     const double shape = (double)v->scene->frames.size[0] / v->scene->frames.size[1];
@@ -62,7 +62,7 @@ static bool write_shot(viewer *v)
         png ? frame_save_preview(&v->shot, v->shot_file, error, sizeof error)
             : frame_layers_parse(NULL, &layers) && frame_layers_narrow(v->scene, &layers) &&
                   frame_save_exr(&v->shot, &camera, v->shot_file, v->shot.frame_index, layers, error, sizeof error);
-    view_say(v, written ? "wrote %s" : "%s", written ? v->shot_file : error);
+    view_print(v, written ? "wrote %s" : "%s", written ? v->shot_file : error);
     v->shot_file[0] = 0;
     return written || !v->script || host_fail(v->error, sizeof v->error, "%s", error);
 }
@@ -73,7 +73,7 @@ static bool write_window(viewer *v)
     if (!host_wait(&v->shot.device, v->error, sizeof v->error))
         return false;
     const bool written = view_window_write(&v->window, v->window_shot, error, sizeof error);
-    view_say(v, written ? "wrote %s" : "%s", written ? v->window_shot : error);
+    view_print(v, written ? "wrote %s" : "%s", written ? v->window_shot : error);
     v->window_shot[0] = 0;
     return written || !v->script || host_fail(v->error, sizeof v->error, "%s", error);
 }
@@ -184,7 +184,7 @@ static bool draw(viewer *v, double wall_s)
     view_panel_build(v);
     const double dt_s = time_of_frame(v, wall_s);
     view_camera_move(v, wall_s, dt_s);
-    place_picture(v, shown.area);
+    fit_picture(v, shown.area);
     shown.mode = view_mode_items(&v->shot, v->mode) ? v->mode : 0;
     shown.item = v->item;
     if (!shot_begin(&v->shot, &cmd, v->error, sizeof v->error) || !record(v, cmd, dt_s, &shown) ||
@@ -205,7 +205,7 @@ bool view_frame(viewer *v)
         return false;
     if (v->quit)
         return true;
-    place_picture(v, area);
+    fit_picture(v, area);
     if ((v->window.width && !between_frames(v, area)) ||
         !view_window_acquire(&v->window, &ready, v->error, sizeof v->error))
         return false;

@@ -251,13 +251,13 @@ static void edit_length(growing *g, const scene_list &list)
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(COLOR_HINT, "%s: %u", dot ? dot + 1 : list.path, list.count);
     ImGui::SameLine();
-    ImGui::BeginDisabled(list.count >= list.most);
+    ImGui::BeginDisabled(list.count >= list.max_entries);
     if (ImGui::Button("add"))
         g->add = list.path;
     ImGui::EndDisabled();
     tooltip("one more, like the last");
     ImGui::SameLine();
-    ImGui::BeginDisabled(list.count <= list.least);
+    ImGui::BeginDisabled(list.count <= list.min_entries);
     if (ImGui::Button("remove the last"))
         g->drop = list.path;
     ImGui::EndDisabled();

@@ -35,7 +35,7 @@ static bool read_count(viewer *v, const char *text, uint32_t low, uint32_t high,
     char *end;
     const unsigned long value = strtoul(text, &end, 10);
     if (*text < '0' || *text > '9' || *end || value < low || value > high) {
-        view_say(v, "expected a whole number from %u to %u, got '%.40s'", low, high, text);
+        view_print(v, "expected a whole number from %u to %u, got '%.40s'", low, high, text);
         return false;
     }
     *count = (uint32_t)value;
@@ -47,7 +47,7 @@ static bool read_number(viewer *v, const char *text, double low, double high, do
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= low && value <= high)) {
-        view_say(v, "expected a number from %g to %g, got '%.40s'", low, high, text);
+        view_print(v, "expected a number from %g to %g, got '%.40s'", low, high, text);
         return false;
     }
     *number = value;
@@ -59,7 +59,7 @@ static bool read_switch(viewer *v, const char *text, bool *on)
     *on = !strcmp(text, "on");
     if (*on || !strcmp(text, "off"))
         return true;
-    view_say(v, "expected on or off, got '%.40s'", text);
+    view_print(v, "expected on or off, got '%.40s'", text);
     return false;
 }
 
@@ -223,7 +223,7 @@ static bool do_await(viewer *v, const script_line *line)
         }
         return true;
     }
-    view_say(v, "expected paused, playing, flying, path, panel or no-panel, got '%.40s'", line->arguments[0]);
+    view_print(v, "expected paused, playing, flying, path, panel or no-panel, got '%.40s'", line->arguments[0]);
     return false;
 }
 
@@ -273,7 +273,7 @@ static const struct {
     {"resize", "W H", "resize the window, pixels", 2, 2, do_resize},
     {"panel", "on|off", "show or hide the panel", 1, 1, do_panel},
     {"unfold", "TITLE on|off", "open or close a part of the panel, by the start of its title", 2, 2, do_unfold},
-    {"divide", "1|2|4", "divide the picture's width and height", 1, 1, do_divide},
+    {"downscale", "1|2|4", "divide the picture's width and height", 1, 1, do_divide},
     {"await", "STATE", "wait for paused, playing, flying, path, panel or no-panel", 1, 1, do_await},
     {"print", "", "print the state on standard output", 0, 0, do_print},
     {"quit", "", "close the window; without this it stays open", 0, 0, do_quit},

@@ -56,6 +56,6 @@ bool view_start_again(viewer *v)
     if (!shot_live_restart(&v->shot, v->error, sizeof v->error))
         return false;
     fprintf(stderr, "virga view: %s; started as before\n", why);
-    view_say(v, "%s; started as before", why);
+    view_print(v, "%s; started as before", why);
     return true;
 }

@@ -116,7 +116,7 @@ typedef struct viewer {
 
 /* ---- actions.c: each says what it did, or why not, in v->message; false where it could not */
 
-void view_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void view_print(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool view_assign(viewer *v, const char *assignment);
 
 /* The scene as a file would have it that was saved now; NULL with one line in `error` where that would be none. */
