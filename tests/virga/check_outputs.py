@@ -286,8 +286,8 @@ def check_droplets(paths):
         living = splash["droplets"] - splash["fallen"]
         # Of a far drop that stands for many, some splash later: those are not yet there.
         expect(0.1 * living <= len(points) <= living, f"{path}: {len(points)} droplets, told {living}")
-        water, aloft = sum(d[WATER] for d in points), lines[i]["water_ul"]["in_air"]
-        expect(0 < water < aloft * 1.0001, f"{path}: droplets of {water} microlitres, aloft {aloft}")
+        water, in_air = sum(d[WATER] for d in points), lines[i]["water_ul"]["in_air"]
+        expect(0 < water < in_air * 1.0001, f"{path}: droplets of {water} microlitres, {in_air} in the air")
     if not failures:
         check_flight(frames[1], frames[2])
 
@@ -359,7 +359,7 @@ def check_stats(paths):
         off = nanolitres(water["start"]) + nanolitres(water["rained_total"]) - sum(nanolitres(water[name])
                                                                                    for name in BUDGET)
         expect(off == 0, f"the budget of water is off by {off} nl: {water}")
-        expect((water["in_air"] > 0) == (i > 0), f"frame {i + 1}: {water['aloft']} microlitres aloft")
+        expect((water["in_air"] > 0) == (i > 0), f"frame {i + 1}: {water['in_air']} microlitres in the air")
         check_splash_stats(line["splash"], splash)
         splash = line["splash"]
         for name in ("rain.occlusion", "rain.step", "rain.prepare", "rain.haze", "rain.glow", "rain.streaks",
