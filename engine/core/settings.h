@@ -15,9 +15,9 @@
 
 /* What a host may say of the motion of panes and air, on each axis: m/s, m/s^2, rad/s. Faster is a mistake, e.g. a
  * speed taken from a cut, and its squares would leave the range of floats in what is made of them. */
-#define VIRGA_MAX_SPEED_M_S      1000.0f
+#define VIRGA_MAX_SPEED_M_S           1000.0f
 #define VIRGA_MAX_ACCELERATION_M_S2   1000.0f
-#define VIRGA_MAX_ANGULAR_SPEED_RAD_S   100.0f
+#define VIRGA_MAX_ANGULAR_SPEED_RAD_S 100.0f
 
 /* The cookie of the settings struct with this tag (any number, another for each struct; a constant expression).
  * An odd factor keeps different tags apart, and no small tag gives 0 or all ones, as forgotten memory would. */

@@ -31,8 +31,8 @@ static inline float glass_min_grid_m(const virga_glass_def *def)
 
 /* What is read back of one frame. */
 typedef struct glass_readback {
-    virga_glass_state_gpu state; /* of its step */
-    uint32_t balls, ball_entries_dropped;   /* of its prepare, as in virga_glass_work_gpu */
+    virga_glass_state_gpu state;          /* of its step */
+    uint32_t balls, ball_entries_dropped; /* of its prepare, as in virga_glass_work_gpu */
 } glass_readback;
 
 enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* of the statistics */

@@ -28,16 +28,17 @@ enum {
     GLASS_DRAW_ROWS = 4
 };
 
-#define GLASS_GATHER_FILM   16u  /* tiles with film */
-#define GLASS_GATHER_MAP    32u  /* the host wants the map */
-#define GLASS_GATHER_BEADS  64u  /* in a view that is near enough to show beads of film as drops */
-#define GLASS_GATHER_PAPER  128u /* words of densities, for the paper's style; heights only for the host */
-#define GLASS_GATHER_USUAL_STEPS    256u /* not more than VIRGA_GLASS_USUAL_STEPS of compression */
-#define GLASS_GATHER_MASKED 512u /* (paper) there may be cells without glass */
-#define GLASS_MIST_SEVERAL  1u   /* cells to a texel */
-#define GLASS_MIST_MASKED   2u   /* there may be cells without glass */
-#define GLASS_MIST_FORMS    4    /* passes by these bits */
-#define GLASS_GATHERS       1024 /* of which three for each density, blend, style and length of compression are made */
+#define GLASS_GATHER_FILM        16u  /* tiles with film */
+#define GLASS_GATHER_MAP         32u  /* the host wants the map */
+#define GLASS_GATHER_BEADS       64u  /* in a view that is near enough to show beads of film as drops */
+#define GLASS_GATHER_PAPER       128u /* words of densities, for the paper's style; heights only for the host */
+#define GLASS_GATHER_USUAL_STEPS 256u /* not more than VIRGA_GLASS_USUAL_STEPS of compression */
+#define GLASS_GATHER_MASKED      512u /* (paper) there may be cells without glass */
+#define GLASS_MIST_SEVERAL       1u   /* cells to a texel */
+#define GLASS_MIST_MASKED        2u   /* there may be cells without glass */
+#define GLASS_MIST_FORMS         4    /* passes by these bits */
+/* Three are made for each density, blend, style and length of compression in use. */
+#define GLASS_GATHERS 1024
 
 /* What a view's uniform block holds. */
 typedef struct glass_view_block {
@@ -54,9 +55,9 @@ struct glass_picture {
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest view */
     virga_image_2d *map;
-    bool whole_map;         /* the host wants it, also where there is only mist */
-    virga_image_2d *paper_map;  /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
-    virga_image_2d *relief; /* what others do */
+    bool whole_map;            /* the host wants it, also where there is only mist */
+    virga_image_2d *paper_map; /* what the paper's style draws from, see shaders/glass/draw/paper_texel.glsl */
+    virga_image_2d *relief;    /* what others do */
     virga_image_2d *copies, *mist_map;
     bool filtered;                             /* the device filters the relief */
     virga_image_2d *blank_depth, *blank_color; /* for what a view has not */

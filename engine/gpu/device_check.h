@@ -4,8 +4,8 @@
 
 #include <virga/vulkan.h>
 
-#define VIRGA_STORAGE_BUFFERS 16    /* in one stage of one pass; Vulkan alone guarantees four */
-#define VIRGA_RING_ALIGNMENT  256   /* the largest offset alignment that a device may require */
-#define VIRGA_GUARANTEED_TEXELS     65536 /* guaranteed in a buffer view */
+#define VIRGA_STORAGE_BUFFERS   16    /* in one stage of one pass; Vulkan alone guarantees four */
+#define VIRGA_RING_ALIGNMENT    256   /* the largest offset alignment that a device may require */
+#define VIRGA_GUARANTEED_TEXELS 65536 /* guaranteed in a buffer view */
 
 #endif

@@ -30,8 +30,11 @@ typedef struct virga_spirv {
 } virga_spirv;
 
 /* An embedded shader: the array that the build made of shaders/<effect>/<pass>. The first form is for tables. */
-#define VIRGA_SPIRV_ROW(name) {name##_spv, sizeof name##_spv}
-#define VIRGA_SPIRV(name)     ((virga_spirv)VIRGA_SPIRV_ROW(name))
+#define VIRGA_SPIRV_ROW(name)         \
+    {                                 \
+        name##_spv, sizeof name##_spv \
+    }
+#define VIRGA_SPIRV(name) ((virga_spirv)VIRGA_SPIRV_ROW(name))
 
 /* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one; constant 1
  * is the context's small_views. */

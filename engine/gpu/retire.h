@@ -31,12 +31,12 @@ void virga_destroy_retired(virga_context *context, bool all);
 
 /* Destroys a Vulkan object that was counted in context->objects; null handles are accepted. E.g.
  * VIRGA_DESTROY(context, Buffer, buffer->buffer). */
-#define VIRGA_DESTROY(context, Kind, handle)                                  \
-    do {                                                                      \
-        if (handle) {                                                         \
-            (context)->vk.Destroy##Kind((context)->device, (handle), NULL);   \
-            (context)->objects--;                                             \
-        }                                                                     \
+#define VIRGA_DESTROY(context, Kind, handle)                                \
+    do {                                                                    \
+        if (handle) {                                                       \
+            (context)->vk.Destroy##Kind((context)->device, (handle), NULL); \
+            (context)->objects--;                                           \
+        }                                                                   \
     } while (0)
 
 #endif

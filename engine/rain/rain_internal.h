@@ -11,10 +11,10 @@
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H
 
-#include "rain/rain.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
 #include "gpu/mesh_map.h"
+#include "rain/rain.h"
 
 #include <stddef.h>
 
@@ -155,8 +155,8 @@ struct virga_rain {
     VkDescriptorSet step_set; /* of the frame step_set_frame */
     uint64_t step_set_frame;
     virga_pipeline *move, *sway, *impact_near_mark, *impact_near_scan, *impact_mark, *impact_scan, *impact_write,
-        *streak_mark, *streak_scan, *streak_write, *order_count, *order_scan, *order_indices, *compact,
-        *points, *hit_mark, *hit_scan, *hit_count, *hit_offsets, *hit_write;
+        *streak_mark, *streak_scan, *streak_write, *order_count, *order_scan, *order_indices, *compact, *points,
+        *hit_mark, *hit_scan, *hit_count, *hit_offsets, *hit_write;
 
     uint64_t hits_frame; /* that hits_panes belongs to */
     uint32_t hits_panes, hits_offset;

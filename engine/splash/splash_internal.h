@@ -8,9 +8,9 @@
 #ifndef VIRGA_SPLASH_INTERNAL_H
 #define VIRGA_SPLASH_INTERNAL_H
 
-#include "splash/splash.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "splash/splash.h"
 
 #include <virga/shared/splash_gpu.h>
 #include <virga/shared/view_gpu.h>

@@ -13,9 +13,9 @@ typedef struct virga_list_gpu virga_list_gpu;
 struct virga_list_gpu {
     uint group_count[3]; /* of the dispatch that works through the list */
     uint count;
-    uint second_kind;    /* how many of them, at the front, are of the second kind */
-    uint first;          /* free for the pass: where in its output the list's entries go */
-    uint word_count;          /* of picks that it is made from */
+    uint second_kind; /* how many of them, at the front, are of the second kind */
+    uint first;       /* free for the pass: where in its output the list's entries go */
+    uint word_count;  /* of picks that it is made from */
     uint pad;
 };
 

@@ -14,14 +14,14 @@ typedef struct virga_cell_gpu virga_cell_gpu;
 
 /* What a cell is. */
 struct virga_floor_gpu {
-    int height_um;   /* of its middle above the ground's base_m, its material's unevenness in it */
-    uint material;   /* [0; 31]; 0xff: there is no ground */
+    int height_um; /* of its middle above the ground's base_m, its material's unevenness in it */
+    uint material; /* [0; 31]; 0xff: there is no ground */
 };
 
 /* What a cell holds. */
 struct virga_cell_gpu {
-    uint free_nl;    /* on it */
-    uint held_nl;    /* in its pores */
+    uint free_nl; /* on it */
+    uint held_nl; /* in its pores */
 };
 
 #ifndef VIRGA_GLSL

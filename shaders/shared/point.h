@@ -16,7 +16,7 @@ struct virga_point_gpu {
     float velocity[3]; /* m/s */
     float weight;      /* drops that it stands for; 0: none here, the slot is not in use or under cover */
     uint id;
-    float age_s;       /* how long it has been falling through its box at its present speed */
+    float age_s; /* how long it has been falling through its box at its present speed */
     uint pad[2];
 };
 

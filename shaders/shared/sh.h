@@ -10,8 +10,8 @@
 #define VIRGA_SHARED_SH_H
 
 #define VIRGA_SH_00 0.282095
-#define VIRGA_SH_1 0.488603
-#define VIRGA_SH_2 1.092548
+#define VIRGA_SH_1  0.488603
+#define VIRGA_SH_2  1.092548
 #define VIRGA_SH_20 0.315392
 #define VIRGA_SH_22 0.546274
 

@@ -29,20 +29,20 @@ struct virga_splash_rule_gpu {
     uint model;
     float min_diameter_m; /* smaller drops make none, nor do any on thinner water than */
     float min_depth_m;
-    float share[2];         /* lowest and highest, of the drop's water that flies up */
-    float count[2];         /* droplets */
-    float angle[2];         /* rad above the surface */
-    float speed[2];         /* m/s */
-    float strength;         /* (physical) factor of the count */
-    float circle_radius;           /* radius of the circle that piles stand on, times the drop's diameter */
+    float share[2];      /* lowest and highest, of the drop's water that flies up */
+    float count[2];      /* droplets */
+    float angle[2];      /* rad above the surface */
+    float speed[2];      /* m/s */
+    float strength;      /* (physical) factor of the count */
+    float circle_radius; /* radius of the circle that piles stand on, times the drop's diameter */
 };
 
 /* The whole table. */
 struct virga_splash_rules_gpu {
-    uint mode;              /* VIRGA_SPLASH_PAPER or _PHYSICAL */
-    float quota;            /* splashes a tick that there is room for */
-    float droplet_range_m;       /* farther than this from the camera splashes have no droplets */
-    float dot_min_m;   /* droplets that are at least as large make a dot where they fall */
+    uint mode;                        /* VIRGA_SPLASH_PAPER or _PHYSICAL */
+    float quota;                      /* splashes a tick that there is room for */
+    float droplet_range_m;            /* farther than this from the camera splashes have no droplets */
+    float dot_min_m;                  /* droplets that are at least as large make a dot where they fall */
     virga_splash_rule_gpu rules[192]; /* material x VIRGA_GROUND_STATES + state */
 };
 

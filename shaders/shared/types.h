@@ -22,7 +22,7 @@ typedef uint32_t virga_uint;
 #define VIRGA_STATIC_ASSERT static_assert
 #endif
 #define VIRGA_ASSERT_SIZE(name, bytes) VIRGA_STATIC_ASSERT(sizeof(name) == (bytes), #name " has another size in C")
-#define VIRGA_ASSERT_OFFSET(name, member, bytes)                                                                      \
+#define VIRGA_ASSERT_OFFSET(name, member, bytes) \
     VIRGA_STATIC_ASSERT(offsetof(name, member) == (bytes), #name "." #member " is elsewhere in C")
 #endif
 

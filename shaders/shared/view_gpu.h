@@ -12,7 +12,7 @@ typedef struct virga_view_gpu virga_view_gpu;
 #endif
 
 struct virga_light_gpu {
-    float position[3];   /* relative to the camera */
+    float position[3]; /* relative to the camera */
     float inv_range;
     float intensity[3];
     float cos_outer;
@@ -29,30 +29,30 @@ struct virga_view_gpu {
     float up[3];
     float time_open_s;
     float ahead[3];
-    float depth_a;                /* view depth = depth_b / (depth_a + depth in the buffer) */
-    float origin_offset[3];       /* origin of positions minus camera: added to positions */
+    float depth_a;          /* view depth = depth_b / (depth_a + depth in the buffer) */
+    float origin_offset[3]; /* origin of positions minus camera: added to positions */
     float depth_b;
     float viewport[4];
-    float light_gain;             /* (look) multiplies light from lights */
-    float min_width_px;           /* (look) what is narrower is drawn this wide with less coverage */
-    float soft_m;                 /* (look) depth over which geometry is faded into */
-    float near_fade_m;                 /* (look) what is nearer to the camera fades out */
-    float pixel_angle;            /* tangent of a pixel's angle at the centre */
-    float far_depth;              /* value of the depth buffer where there is nothing */
+    float light_gain;   /* (look) multiplies light from lights */
+    float min_width_px; /* (look) what is narrower is drawn this wide with less coverage */
+    float soft_m;       /* (look) depth over which geometry is faded into */
+    float near_fade_m;  /* (look) what is nearer to the camera fades out */
+    float pixel_angle;  /* tangent of a pixel's angle at the centre */
+    float far_depth;    /* value of the depth buffer where there is nothing */
     uint depth_given;
     uint color_given;
     uint light_count;
-    float sh[27];                 /* environment, coefficient-major RGB */
+    float sh[27]; /* environment, coefficient-major RGB */
     float phase_moment[3];
-    float phase[64];              /* 1/sr by angle, 64 bins over [0; pi] */
+    float phase[64]; /* 1/sr by angle, 64 bins over [0; pi] */
     virga_light_gpu lights[VIRGA_MAX_LIGHTS];
     float previous_clip_from_rel[16]; /* from the same positions, to where the camera of the previous frame saw them */
-    float frame_interval_s;                  /* from then to the shutter's end */
+    float frame_interval_s;           /* from then to the shutter's end */
     float motion_scale[2];
-    float motion_coverage;        /* what covers less leaves the motion vector that is there */
+    float motion_coverage; /* what covers less leaves the motion vector that is there */
     float reactive_gain;
     uint motion_given;
-    float lens_px;                /* what is d away is blurred over lens_px |inv_focus - 1 / d| pixels */
+    float lens_px; /* what is d away is blurred over lens_px |inv_focus - 1 / d| pixels */
     float inv_focus;
 };
 

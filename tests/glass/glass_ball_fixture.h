@@ -6,7 +6,7 @@
 #include "glass_picture_fixture.h"
 
 #define BALLS 60
-#define WATER  1.333
+#define WATER 1.333
 
 enum { WIDTH = 240, HEIGHT = 160 };
 

@@ -47,9 +47,9 @@ static inline void glass_fixture_buffers(glass_fixture *f)
                                "pane down", &f->download, error, sizeof f->gpu.error));
     REQUIRE(host_buffer_create(&f->gpu.device, g->drops->size + g->passed->size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                HOST_BUFFER_UPLOAD, "pane up", &f->upload, error, sizeof f->gpu.error));
-    REQUIRE(host_buffer_create(
-        &f->gpu.device, sizeof(virga_impacts_gpu) + GLASS_MAX_IMPACTS * sizeof(virga_impact_gpu),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "impacts", &f->impacts, error, sizeof f->gpu.error));
+    REQUIRE(host_buffer_create(&f->gpu.device, sizeof(virga_impacts_gpu) + GLASS_MAX_IMPACTS * sizeof(virga_impact_gpu),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "impacts", &f->impacts, error,
+                               sizeof f->gpu.error));
 }
 
 static inline void glass_fixture_open(glass_fixture *f, const virga_glass_def *given)

@@ -202,8 +202,7 @@ static inline void shot_put(shot *s, VkCommandBuffer cmd)
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->drops->buffer, 1, &drops);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->film->buffer, 1, &film);
     vkCmdCopyBuffer(cmd, s->upload.buffer, g->passed->buffer, 1, &passed);
-    uint32_t slots[4096],
-        shown[4] = {s->drop_count, (s->drop_count + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP, 1, 1};
+    uint32_t slots[4096], shown[4] = {s->drop_count, (s->drop_count + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP, 1, 1};
     REQUIRE(g->def.max_drops <= 4096);
     for (uint32_t i = 0; i < g->def.max_drops; i++)
         slots[i] = i;

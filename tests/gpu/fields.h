@@ -27,7 +27,7 @@ typedef struct field {
 } field;
 
 #define FIELD_MEMBER(type, member) (((type *)0)->member)
-#define FIELD_KIND(x)           \
+#define FIELD_KIND(x) \
     _Generic((x),               \
         float: FIELD_FLOAT,     \
         float *: FIELD_FLOAT,   \

@@ -16,15 +16,15 @@ typedef struct ground_fixture {
     virga_context *context;
     virga_ground *ground;
     virga_ground_settings settings;
-    virga_splash *splash; /* NULL: nothing splashes */
-    bool flying;          /* its droplets do fly, and their water comes back */
-    VkBuffer returned_droplets;     /* instead of what it gives back */
+    virga_splash *splash;       /* NULL: nothing splashes */
+    bool flying;                /* its droplets do fly, and their water comes back */
+    VkBuffer returned_droplets; /* instead of what it gives back */
     host_buffer vertices, indices, impacts, upload, download;
     virga_occluder meshes[8];
     uint32_t mesh_count;
     virga_ground_material_map materials; /* over those of meshes */
     char logged[512];                    /* the last error */
-    virga_impact_gpu drops[MAX_DROPS];  /* of the next step */
+    virga_impact_gpu drops[MAX_DROPS];   /* of the next step */
     uint32_t drop_count;
     float origin[3];          /* of their positions, in the world */
     VkDeviceSize list_offset; /* of them in their buffer, with their exact size then */

@@ -4,8 +4,8 @@
 
 #include "../host/effect_fixture.h"
 
-#include <virga/virga.h>
 #include <virga/shared/drop.h>
+#include <virga/virga.h>
 
 typedef struct rain_fixture {
     fixture gpu;

@@ -303,7 +303,7 @@ static inline void droplet_at(const shot *s, double time_s, double position[3])
     const virga_droplet_gpu *droplet = &s->f.droplets[0];
     for (int i = 0; i < 3; i++)
         position[i] = (double)droplet->position[i] + (double)droplet->velocity[i] * time_s -
-                   (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
+                      (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
 }
 
 /* A droplet whose pile rises from 20 mm below the picture's middle. */

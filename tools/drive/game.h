@@ -11,11 +11,11 @@
 #include "car.h"
 #include "stage.h"
 
-#define PANE_POINTS    33  /* along each side of the windshield's grid */
-#define PANE_TEXELS    256 /* and of its mask */
+#define PANE_POINTS   33  /* along each side of the windshield's grid */
+#define PANE_TEXELS   256 /* and of its mask */
 #define MAX_OCCLUDERS 4096
 #define MAX_PARTS     64 /* primitives of the car */
-#define WIPERS         2
+#define WIPERS        2
 
 enum { OFF, INTERMITTENT, SLOW, FAST, WIPER_SPEEDS };
 extern const char *const wiper_names[WIPER_SPEEDS];

@@ -55,12 +55,13 @@ typedef struct scene_pane {
     char *mesh;              /* (mesh) in the name of a mesh or its material, in any case */
     char *mask;              /* a PNG, black where there is no glass, as it can be opened; NULL: glass everywhere */
     uint32_t follow;         /* scene_pane_follow: what place and angles are given in */
-    double position_m[3];    /* of the middle of the lower edge (mesh: of the model's origin): in the world, or to the
-                             * right of the camera, above it and ahead of it */
-    double yaw_deg;          /* to the left seen from above; at 0 outside faces +Z, or ahead */
-    double pitch_deg;        /* back */
-    double roll_deg;         /* to the left seen from outside */
-    uint32_t motion;         /* scene_pane_motion */
+    /* of the middle of the lower edge (mesh: of the model's origin): in the world, or to the right of the camera, above
+     * it and ahead of it */
+    double position_m[3];
+    double yaw_deg;   /* to the left seen from above; at 0 outside faces +Z, or ahead */
+    double pitch_deg; /* back */
+    double roll_deg;  /* to the left seen from outside */
+    uint32_t motion;  /* scene_pane_motion */
     double velocity_m_s[3], acceleration_m_s2[3], angular_velocity_deg_s[3]; /* (given) in the frame of position_m */
     double shelter;
     double frame_m; /* width of a dark frame around it; 0: none */

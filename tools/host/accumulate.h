@@ -8,9 +8,10 @@
 typedef struct host_accumulator {
     uint32_t width, height;
     uint32_t samples;
-    float *color;                   /* RGBA */
-    float *layers[HOST_MAX_LAYERS]; /* RGBA of outputs from HOST_LAYER on; zero where the newest target has none: pages
-                                     * that are never written, and cost no memory */
+    float *color; /* RGBA */
+    /* RGBA of outputs from HOST_LAYER on; zero where the newest target has none: pages that are never written, and cost
+     * no memory */
+    float *layers[HOST_MAX_LAYERS];
     uint32_t layer_count, kept_layers; /* as the newest target has them */
     float *normal;                     /* RGBA: unit length again after finish */
     float *velocity;                   /* XY */

@@ -21,18 +21,18 @@ typedef struct host_device {
     uint32_t queue_family;
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties memory;
-    bool independent_blend;   /* else glass is drawn as a cut-out */
-    bool clip_distance;       /* else puddles mirror the sky alone */
-    bool wide_lines;          /* enabled, see virga_context_def */
-    float anisotropy;         /* of texture samplers; 0 where absent. May be lowered before a renderer is created */
+    bool independent_blend; /* else glass is drawn as a cut-out */
+    bool clip_distance;     /* else puddles mirror the sky alone */
+    bool wide_lines;        /* enabled, see virga_context_def */
+    float anisotropy;       /* of texture samplers; 0 where absent. May be lowered before a renderer is created */
     PFN_vkSetDebugUtilsObjectNameEXT set_name;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 
     host_frame frames[HOST_FRAMES];
-    uint64_t frame;           /* index of the frame being recorded, or of the last one; 1 is the first */
-    uint64_t completed;       /* last frame known to be complete */
-    uint32_t live;            /* buffers and images of memory.h that are alive */
+    uint64_t frame;     /* index of the frame being recorded, or of the last one; 1 is the first */
+    uint64_t completed; /* last frame known to be complete */
+    uint32_t live;      /* buffers and images of memory.h that are alive */
 
     void (*warn)(void *user, const char *text); /* set after creation; NULL: a line on standard error */
     void *warn_user;

@@ -12,10 +12,10 @@ typedef struct host_device_info {
     char name[VK_MAX_PHYSICAL_DEVICE_NAME_SIZE];
     char driver[VK_MAX_DRIVER_NAME_SIZE + VK_MAX_DRIVER_INFO_SIZE + 4];
     uint32_t api_version;
-    uint32_t queue_family;   /* graphics and compute */
+    uint32_t queue_family;     /* graphics and compute */
     VkDeviceSize memory_bytes; /* of device-local heaps */
     bool usable;
-    char reason[256];        /* why not; empty if usable */
+    char reason[256]; /* why not; empty if usable */
 } host_device_info;
 
 const char *host_device_type_name(VkPhysicalDeviceType type);

@@ -10,20 +10,21 @@
 #define HOST_REFLECTION_LEVELS 5 /* of roughness, evenly from 0 to 1 */
 
 typedef struct host_environment_def {
-    const float *pixels;    /* RGB, tightly packed; NULL: a sky is made from the three colours */
+    const float *pixels; /* RGB, tightly packed; NULL: a sky is made from the three colours */
     uint32_t width, height;
     float zenith[3], horizon[3], ground[3]; /* radiance of the made sky */
-    float rotation_deg;     /* turns the panorama around +Y, counter-clockwise seen from above */
-    float intensity;        /* multiplies it all */
+    float rotation_deg;                     /* turns the panorama around +Y, counter-clockwise seen from above */
+    float intensity;                        /* multiplies it all */
 } host_environment_def;
 
 /* No panorama: an overcast afternoon of radiance about 1. */
 host_environment_def host_default_environment(void);
 
 typedef struct host_environment {
-    float rotation;      /* rad */
-    float sh[9][3];      /* radiance, real orthonormal spherical harmonics to degree 2: 1, y, z, x, xy, yz, zz, xz,
-                          * xx-yy, in the world. Without what is brighter than 32 times the mean: the sun */
+    float rotation; /* rad */
+    /* radiance, real orthonormal spherical harmonics to degree 2: 1, y, z, x, xy, yz, zz, xz, xx-yy, in the world.
+     * Without what is brighter than 32 times the mean: the sun */
+    float sh[9][3];
     host_image sky;        /* the panorama, upsampled smoothly where small */
     host_image reflection; /* 3D: panoramas blurred by the GGX lobe, roughness along depth; also without the sun */
 } host_environment;

@@ -10,11 +10,11 @@
 typedef struct host_instance {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger;
-    bool validation;           /* layer and synchronization validation are on */
-    bool debug_utils;          /* names and labels may be set */
-    bool presents;             /* made for a window: devices get VK_KHR_swapchain */
-    uint32_t messages;         /* warnings and errors the layer has reported so far */
-    char first_message[1024];  /* the first of them */
+    bool validation;          /* layer and synchronization validation are on */
+    bool debug_utils;         /* names and labels may be set */
+    bool presents;            /* made for a window: devices get VK_KHR_swapchain */
+    uint32_t messages;        /* warnings and errors the layer has reported so far */
+    char first_message[1024]; /* the first of them */
 } host_instance;
 
 /* `validate`, or VIRGA_VALIDATE=1 in the environment, turns validation on; it is an error if the layer is absent. */

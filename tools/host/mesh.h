@@ -4,8 +4,8 @@
 
 #include <virga/rain.h>
 
-#include "memory.h"
 #include "materials.h"
+#include "memory.h"
 
 typedef struct host_vertex {
     float position[3]; /* in the world: transforms are applied while loading */
@@ -24,7 +24,7 @@ typedef struct host_material {
     float base_color[4]; /* linear, times the texture's */
     float emissive[3];   /* radiance, times the texture's */
     float roughness, metallic;
-    float cutoff;        /* (mask) */
+    float cutoff; /* (mask) */
     host_alpha alpha;
     bool two_sided;
     int32_t base_texture;     /* into host_mesh::textures, or -1 */
@@ -34,11 +34,11 @@ typedef struct host_material {
 typedef struct host_primitive {
     char name[96]; /* of the mesh, or of its node */
     uint32_t first_index, index_count;
-    uint32_t material;      /* into host_mesh::materials */
-    uint32_t surface;       /* host_guess_material of its names: what drops land on */
-    bool ground;            /* host_is_ground of its name */
-    float cover;            /* share of the surface that is there; below 1 for cut-outs */
-    float low[3], high[3];  /* bounds */
+    uint32_t material;     /* into host_mesh::materials */
+    uint32_t surface;      /* host_guess_material of its names: what drops land on */
+    bool ground;           /* host_is_ground of its name */
+    float cover;           /* share of the surface that is there; below 1 for cut-outs */
+    float low[3], high[3]; /* bounds */
 } host_primitive;
 
 typedef struct host_mesh {
@@ -61,9 +61,9 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
                     char *error, size_t error_size);
 
 /* Makes a mesh of one opaque primitive from memory. */
-bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count,
-                      const uint32_t *indices, uint32_t index_count, const host_material *material, host_mesh *mesh,
-                      char *error, size_t error_size);
+bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
+                      uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,
+                      size_t error_size);
 
 /* Records new vertices, as many as the mesh has, outside rendering. */
 void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices);

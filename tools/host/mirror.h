@@ -11,8 +11,9 @@
 typedef struct host_mirror {
     uint32_t width, height;
     host_image color; /* RGBA half float: radiance */
-    host_image near;  /* R half float: 1 / distance from the camera by way of the water (1/m), which is what may be
-                       * mixed by filters at the edge of something near */
+    /* R half float: 1 / distance from the camera by way of the water (1/m), which is what may be mixed by filters at
+     * the edge of something near */
+    host_image near;
     host_mirror_levels levels;
     host_image depth;
     VkRenderPass pass; /* clears and draws all three; leaves them to fragment shaders */

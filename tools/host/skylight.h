@@ -24,9 +24,9 @@ typedef struct host_skylight {
     VkPipelineLayout draw_layout, gather_layout;
     VkPipeline opaque, cutout, gather;
 
-    bool ready;          /* the volume was filled, for: */
+    bool ready; /* the volume was filled, for: */
     float low[3], size[3];
-    bool whole;          /* it holds the whole scene */
+    bool whole; /* it holds the whole scene */
     struct host_skylight_gpu gpu;
 } host_skylight;
 

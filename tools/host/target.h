@@ -15,8 +15,9 @@ typedef enum host_output {
     HOST_WATER,    /* XY float: wetness, depth of water (m) */
     HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
     HOST_DEPTH,    /* one float: 0 near to 1 far */
-    HOST_LAYER,    /* RGBA float: the first layer over the plate, premultiplied. It is always there; behind it those of
-                    * host_target_add_layer */
+    /* RGBA float: the first layer over the plate, premultiplied. It is always there; behind it those of
+     * host_target_add_layer */
+    HOST_LAYER,
     HOST_OUTPUT_COUNT = HOST_LAYER + HOST_MAX_LAYERS,
 } host_output;
 

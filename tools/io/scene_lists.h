@@ -13,10 +13,10 @@ extern "C" {
 #endif
 
 typedef struct scene_list {
-    char path[96];        /* "glass.0.wipers" */
-    uint32_t count;       /* entries now */
+    char path[96];                     /* "glass.0.wipers" */
+    uint32_t count;                    /* entries now */
     uint32_t min_entries, max_entries; /* that a file may have */
-    bool used;            /* false: a key beside it makes its entries unused, and a file must not have them */
+    bool used;                   /* false: a key beside it makes its entries unused, and a file must not have them */
     const struct scene_row *row; /* internal */
     void *owner;
 } scene_list;

@@ -42,18 +42,19 @@ typedef struct scene_group scene_group;
 typedef struct scene_row {
     const char *key;
     scene_type type;
-    int flags;            /* scene_row_flags */
-    uint32_t offset;      /* of the value in the struct */
-    uint32_t components;  /* (number, whole) 1, or those of a vector */
-    uint32_t max_length;  /* (text, list of texts) in bytes */
-    double low, high;     /* (number, whole) range of each component */
-    const char *initial;  /* default, as YAML. "@path" copies the value of another key. NULL: none */
-    const char *help;     /* one line for the user */
+    int flags;                     /* scene_row_flags */
+    uint32_t offset;               /* of the value in the struct */
+    uint32_t components;           /* (number, whole) 1, or those of a vector */
+    uint32_t max_length;           /* (text, list of texts) in bytes */
+    double low, high;              /* (number, whole) range of each component */
+    const char *initial;           /* default, as YAML. "@path" copies the value of another key. NULL: none */
+    const char *help;              /* one line for the user */
     const scene_keyword *keywords; /* (choice) */
     const scene_group *group;      /* (group) its rows; (list) the rows of each entry, NULL: entries are texts */
     uint32_t count_offset, min_count, max_count; /* (list) */
-    const char *used_where; /* (list) its entries are read only where a key beside it has a keyword, as "drive=keys". A
-                             * file must not have any elsewhere. NULL: they always are */
+    /* (list) its entries are read only where a key beside it has a keyword, as "drive=keys". A file must not have any
+     * elsewhere. NULL: they always are */
+    const char *used_where;
 } scene_row;
 
 struct scene_group {

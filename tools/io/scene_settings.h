@@ -29,12 +29,12 @@ typedef struct scene_setting {
     char name[64];    /* its last part for people, without the unit: "sweep" */
     const char *unit; /* "degrees", "mm/h"; "" where it has none */
     scene_setting_kind kind;
-    uint32_t count;      /* (number, whole) 1, or that many of a vector */
-    void *value;         /* in the scene, as `kind` says */
-    double low, high;    /* (numbers) range of each */
-    const char *initial; /* default, as YAML; "@path" takes another's; NULL: none */
-    bool restarts;       /* a change needs the simulation to start again */
-    const char *help;    /* one line */
+    uint32_t count;                       /* (number, whole) 1, or that many of a vector */
+    void *value;                          /* in the scene, as `kind` says */
+    double low, high;                     /* (numbers) range of each */
+    const char *initial;                  /* default, as YAML; "@path" takes another's; NULL: none */
+    bool restarts;                        /* a change needs the simulation to start again */
+    const char *help;                     /* one line */
     const struct scene_keyword *keywords; /* (choice) see scene_setting_word */
 } scene_setting;
 

@@ -16,11 +16,11 @@ extern "C" {
 #endif
 
 /* Water and air at 20 C and 1013 hPa. */
-#define VIRGA_WATER_DENSITY 998.2    /* kg/m^3 */
-#define VIRGA_AIR_DENSITY 1.204      /* kg/m^3 */
-#define VIRGA_SURFACE_TENSION 0.0728 /* N/m */
-#define VIRGA_GRAVITY 9.80665        /* m/s^2 */
-#define VIRGA_WATER_IOR 1.333        /* refractive index */
+#define VIRGA_WATER_DENSITY   998.2   /* kg/m^3 */
+#define VIRGA_AIR_DENSITY     1.204   /* kg/m^3 */
+#define VIRGA_SURFACE_TENSION 0.0728  /* N/m */
+#define VIRGA_GRAVITY         9.80665 /* m/s^2 */
+#define VIRGA_WATER_IOR       1.333   /* refractive index */
 
 /* Smallest and largest diameter of simulated drops (m). Smaller drops are carried by the air, larger ones break up. The
  * water of both is added to the drops between (Marshall-Palmer: under 1 % up to 100 mm/h; Best: 3 % at 100 mm/h). */

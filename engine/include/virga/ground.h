@@ -108,8 +108,8 @@ typedef struct virga_ground_material {
     float infiltration_mm_h; /* [0; 10000] speed at which water sinks out of a wet cell */
     float drying;            /* [0; 10] factor of the settings' evaporation */
     float manning_n;         /* [0.005; 1] roughness to flow, s m^(-1/3) */
-    float bump_height_mm;          /* [0; 50] standard deviation of its unevenness: decides where puddles gather */
-    float bump_width_m;            /* [0.2; 50] width of a bump */
+    float bump_height_mm;    /* [0; 50] standard deviation of its unevenness: decides where puddles gather */
+    float bump_width_m;      /* [0.2; 50] width of a bump */
     bool drain;              /* removes all water that reaches it */
 } virga_ground_material;
 

@@ -16,9 +16,9 @@
 
 #include <virga/drops.h>
 #include <virga/light.h>
+#include <virga/mesh.h>
 #include <virga/shared/impact.h>
 #include <virga/shared/point.h>
-#include <virga/mesh.h>
 #include <virga/shared/rain_limits.h>
 #include <virga/vulkan.h>
 
@@ -371,9 +371,9 @@ typedef struct virga_rain_stats {
     uint32_t streaks;         /* of the newest prepare of that frame */
     uint64_t impact_water_nl; /* water (1e-9 l) that landed in this step, with weights */
     uint64_t total_water_nl;  /* water that has landed since creation */
-    float real_drop_radius_m;    /* within this distance of the camera each slot is one real drop, at the current rate
-                                  * */
-    float wind_m_s[3];        /* wind of the newest tick, including the gust */
+    /* within this distance of the camera each slot is one real drop, at the current rate */
+    float real_drop_radius_m;
+    float wind_m_s[3]; /* wind of the newest tick, including the gust */
 } virga_rain_stats;
 
 VIRGA_API void virga_rain_stats_get(virga_rain *rain, virga_rain_stats *stats);

@@ -88,15 +88,15 @@ typedef enum virga_splash_style {
  * uniform. Angle and speed follow a normal distribution that has the ends of the range at two standard deviations, and
  * is cut there. */
 typedef struct virga_splash_rule {
-    uint32_t model;          /* VIRGA_SPLASH_NONE to _DISK, virga/shared/splash_rule.h */
+    uint32_t model;        /* VIRGA_SPLASH_NONE to _DISK, virga/shared/splash_rule.h */
     float min_diameter_mm; /* [0; 10] smaller drops make no splash */
     float min_depth_mm;    /* [0; 100] drops on less water than that make no splash */
-    float share[2];          /* [0; 1] of the drop's water that flies up (paper) */
-    float count[2];          /* [0; 64] droplets (paper) */
-    float angle_deg[2];      /* [0; 90] above the surface */
-    float speed_m_s[2];      /* [0; 10] */
-    float strength;          /* [0; 4] factor of the number of droplets (physical) */
-    float circle_radius;            /* [0; 10] radius of the circle on which piles stand, in diameters of the drop */
+    float share[2];        /* [0; 1] of the drop's water that flies up (paper) */
+    float count[2];        /* [0; 64] droplets (paper) */
+    float angle_deg[2];    /* [0; 90] above the surface */
+    float speed_m_s[2];    /* [0; 10] */
+    float strength;        /* [0; 4] factor of the number of droplets (physical) */
+    float circle_radius;   /* [0; 10] radius of the circle on which piles stand, in diameters of the drop */
 } virga_splash_rule;
 
 typedef struct virga_splash_settings {

@@ -37,7 +37,8 @@
 extern "C" {
 #endif
 
-#define VIRGA_VULKAN_API VK_API_VERSION_1_2 /* minimum of VkApplicationInfo::apiVersion and of the device's version */
+/* Minimum of VkApplicationInfo::apiVersion and of the device's version. */
+#define VIRGA_VULKAN_API           VK_API_VERSION_1_2
 #define VIRGA_MAX_FRAMES_IN_FLIGHT 8
 
 /* ---- what a device must have ---------------------------------------------------------------------------------- */

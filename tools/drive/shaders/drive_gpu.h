@@ -3,14 +3,14 @@
 #define DRIVE_GPU_H
 
 #ifdef VULKAN /* glslang defines it */
-#define DRIVE_VEC4 vec4
-#define DRIVE_MAT4 mat4
+#define DRIVE_VEC4  vec4
+#define DRIVE_MAT4  mat4
 #define DRIVE_LIGHT drive_light_gpu
 #else
 typedef float drive_vec4[4];
 typedef float drive_mat4[16];
-#define DRIVE_VEC4 drive_vec4
-#define DRIVE_MAT4 drive_mat4
+#define DRIVE_VEC4  drive_vec4
+#define DRIVE_MAT4  drive_mat4
 #define DRIVE_LIGHT struct drive_light_gpu
 #endif
 
@@ -30,10 +30,10 @@ struct drive_frame_gpu {
     DRIVE_VEC4 ray_x;              /* direction of a pixel: ray_z + x ray_x + y ray_y, with x and y in clip space */
     DRIVE_VEC4 ray_y;
     DRIVE_VEC4 ray_z;
-    DRIVE_VEC4 ground_low;  /* low corner of the wet ground's window relative to the camera; w: 1 / side of a cell */
-    DRIVE_VEC4 ground_wrap; /* number of the corner's cell modulo cells; z: cells; w: how many the window reaches */
-    DRIVE_VEC4 ground_far;  /* low corner of the map beyond the window (x, z); y: 1 / side of a cell; w: cells */
-    DRIVE_VEC4 ripples;     /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
+    DRIVE_VEC4 ground_low;    /* low corner of the wet ground's window relative to the camera; w: 1 / side of a cell */
+    DRIVE_VEC4 ground_wrap;   /* number of the corner's cell modulo cells; z: cells; w: how many the window reaches */
+    DRIVE_VEC4 ground_far;    /* low corner of the map beyond the window (x, z); y: 1 / side of a cell; w: cells */
+    DRIVE_VEC4 ripples;       /* low corner of the map of ripples relative to the camera (x, z), 1 / side */
     DRIVE_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     DRIVE_VEC4 shade[3];      /* rows: a point relative to the camera as the car has it, 1 at its ends; y in metres */
     DRIVE_LIGHT lights[DRIVE_LIGHTS];
@@ -43,8 +43,8 @@ struct drive_surface_gpu {   /* push constants */
     DRIVE_VEC4 from_mesh[3]; /* rows: from a point of the mesh to a point relative to the camera */
     DRIVE_VEC4 base_color;   /* times the texture's */
     DRIVE_VEC4 emissive;     /* times the texture's; w: roughness */
-    DRIVE_VEC4 traits;       /* metallic, alpha below which it is cut out, share of the sky that it sees; 1 + the
-                              * material, where it is ground */
+    /* metallic, alpha below which it is cut out, share of the sky that it sees; 1 + the material, where it is ground */
+    DRIVE_VEC4 traits;
 };
 
 #endif

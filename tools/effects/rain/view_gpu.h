@@ -5,8 +5,9 @@
 #include "../views/view_gpu.h"
 
 struct rain_view_gpu {
-    VIEW_VEC4 heights; /* of occlusion maps: top, from there to the bottom; lowest that has a color of its own
-                        * (m); 1 where there are maps */
+    /* of occlusion maps: top, from there to the bottom; lowest that has a color of its own (m); 1 where there
+     * are maps */
+    VIEW_VEC4 heights;
 };
 
 #endif

@@ -38,15 +38,19 @@ struct host_frame_gpu {
     HOST_VEC4 skylight_scale; /* 1 / size of the volume; w: 1 / distance over which it fades out, 0 for never */
     HOST_VEC4 skylight_fade;  /* x: distance from the camera where that begins */
     HOST_VEC4 sampling;       /* x: 1 / pictures that are averaged */
-    HOST_VEC4 ground_low;     /* low corner of the wet ground's window relative to the camera, y: height that its map
-                                * counts from; w: 1 / side of a cell, 0 for no ground */
-    HOST_VEC4 ground_wrap;    /* number of the corner's cell modulo cells; z: cells; w: how many of them the window
-                               * reaches at least from the camera */
-    HOST_VEC4 ground_far;     /* low corner of the map beyond the window relative to the camera, y: 1 / side of its
-                               * cells, 0 for no map; w: cells */
+    /* low corner of the wet ground's window relative to the camera, y: height that its map counts from; w: 1 / side of
+     * a cell, 0 for no ground */
+    HOST_VEC4 ground_low;
+    /* number of the corner's cell modulo cells; z: cells; w: how many of them the window reaches at least from the
+     * camera */
+    HOST_VEC4 ground_wrap;
+    /* low corner of the map beyond the window relative to the camera, y: 1 / side of its cells, 0 for no map; w:
+     * cells */
+    HOST_VEC4 ground_far;
     HOST_VEC4 ripples; /* low corner of the ripple map relative to the camera (x, z), 1 / side; w: side, 0: none */
-    HOST_VEC4 mirror;  /* height of the mirror's plane relative to the camera, how much smaller than the picture's its
-                        * clip space is drawn; z: 1, or 0 for no mirror */
+    /* height of the mirror's plane relative to the camera, how much smaller than the picture's its clip space is drawn;
+     * z: 1, or 0 for no mirror */
+    HOST_VEC4 mirror;
     HOST_VEC4 irradiance[9]; /* divided by pi, harmonics of degree 2 with all factors in */
     HOST_LIGHT lights[HOST_MAX_LIGHTS];
 };
@@ -54,8 +58,9 @@ struct host_frame_gpu {
 struct host_surface_gpu { /* push constants */
     HOST_VEC4 base_color; /* alpha: times the texture's */
     HOST_VEC4 emissive;   /* w: roughness */
-    HOST_VEC4 traits;     /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass;
-                           * from 8 on, for ground, 1 + its material */
+    /* metallic, alpha cutoff, primitive + 1, bits: 1 base texture, 2 emissive texture, 4 glass; from 8 on, for ground,
+     * 1 + its material */
+    HOST_VEC4 traits;
 };
 
 /* ---- skylight: how much of the sky is visible around the camera ---------------------------------------- */
