@@ -1,4 +1,5 @@
-/* compact.h - the list that ordered compaction makes, see shaders/gpu/compact_buffers.glsl. Internal to Virga. */
+/* compact.h - the list that ordered stream compaction writes, see shaders/gpu/compact_buffers.glsl. Internal to
+ * Virga. */
 #ifndef VIRGA_SHARED_COMPACT_H
 #define VIRGA_SHARED_COMPACT_H
 
@@ -9,18 +10,19 @@
 typedef struct virga_list_gpu virga_list_gpu;
 #endif
 
-/* Head of the list of picked slots; their numbers follow. */
+/* Head of the list of picked slots. The slot numbers follow. */
 struct virga_list_gpu {
-    uint group_count[3]; /* of the dispatch that works through the list */
-    uint count;
-    uint second_kind; /* how many of them, at the front, are of the second kind */
-    uint first;       /* free for the pass: where in its output the list's entries go */
-    uint word_count;  /* of picks that it is made from */
+    uint group_count[3]; /* workgroups of an indirect dispatch over the list */
+    uint count;          /* slots in the list */
+    uint second_kind;    /* slots of the second kind; they come first in the list */
+    uint first;          /* free for the pass to use: index in its output of the list's first entry */
+    uint word_count;     /* number of 32-bit words of picks, one bit per slot */
     uint pad;
 };
 
 #ifndef VIRGA_GLSL
-#define VIRGA_PICK_BYTES(slots) ((slots) / 32 * 16) /* of the buffer of picks; slots are whole workgroups */
+/* size of the buffer of picks; `slots` is a multiple of the workgroup size */
+#define VIRGA_PICK_BYTES(slots) ((slots) / 32 * 16)
 
 VIRGA_ASSERT_SIZE(virga_list_gpu, 32);
 #undef uint

@@ -1,4 +1,4 @@
-/* drop.h - a falling drop as the step leaves it, for the passes that follow and for hosts that read drops. */
+/* drop.h - a falling drop as the step writes it. Later passes read it, and hosts may. */
 #ifndef VIRGA_SHARED_DROP_H
 #define VIRGA_SHARED_DROP_H
 
@@ -9,11 +9,11 @@
 typedef struct virga_drop_gpu virga_drop_gpu;
 #endif
 
-/* One slot's drop, 16 bytes. The size class of slot i is in the slot itself (virga_slot_gpu); velocity, diameter and
- * weight follow from it. */
+/* The drop of one slot, 16 bytes. The size class of slot i is in virga_slot_gpu. Velocity, diameter and weight follow
+ * from the class. */
 struct virga_drop_gpu {
-    float position[3]; /* m, relative to the origin of the step, at the end of its newest tick */
-    uint id;           /* unique among the drops alive; keeps while the drop falls */
+    float position[3]; /* m, relative to the origin of the step, at the end of the newest tick */
+    uint id;           /* unique among live drops; constant while the drop falls */
 };
 
 #ifndef VIRGA_GLSL

@@ -1,4 +1,4 @@
-/* droplet.h - splashes and their droplets: what splash keeps, and point caches read. */
+/* droplet.h - splashes and their droplets: the state of the splash effect, which point caches read. */
 #ifndef VIRGA_SHARED_DROPLET_H
 #define VIRGA_SHARED_DROPLET_H
 
@@ -10,43 +10,49 @@ typedef struct virga_droplet_gpu virga_droplet_gpu;
 typedef struct virga_splash_gpu virga_splash_gpu;
 #endif
 
-/* A droplet, 64 bytes; while it is a pile's tip, the pile too. Positions are relative to the anchor, see
- * virga_splash_droplets. */
+/* A droplet, 64 bytes. While it is the tip of a pile, it describes the pile too. Positions are relative to the anchor,
+ * see virga_splash_droplets. */
 struct virga_droplet_gpu {
     float position[3]; /* m */
-    float age_s;       /* < 0: its pile has not risen yet */
+    float age_s;       /* s; < 0: its pile does not rise yet */
     float velocity[3]; /* m/s */
-    float diameter_m;
-    float base[3]; /* of its pile: on the surface that it came from, and falls back on */
-    uint slopes;   /* of that surface: height a metre in x and z, two halves */
-    uint kind;     /* VIRGA_DROPLET_... below */
-    uint id;       /* of the drop that it came from; its own is virga_hash2(id, VIRGA_DROPLET_NUMBER(kind)) */
-    uint water_nl;
-    uint weight_free; /* two halves: how many it stands for in the picture; age at which it left its pile (s) */
+    float diameter_m;  /* m */
+    float base[3];     /* m, foot of its pile: on the surface that it comes from and falls back on */
+    uint slopes;       /* slope of that surface along x and z, rise over run; two half floats */
+    uint kind;         /* bit fields, see VIRGA_DROPLET_... below */
+    /* id of the drop that it comes from. The droplet's own id is virga_hash2(id, VIRGA_DROPLET_NUMBER(kind)). */
+    uint id;
+    uint water_nl;    /* nl */
+    uint weight_free; /* two half floats: droplets that it represents in the picture; age when it left its pile (s) */
 };
 
-#define VIRGA_DROPLET_MODEL(kind)    ((kind)&7u) /* splash_rule.h */
+#define VIRGA_DROPLET_MODEL(kind)    ((kind)&7u) /* VIRGA_SPLASH_..., see splash_rule.h */
 #define VIRGA_DROPLET_MATERIAL(kind) (((kind) >> 3) & 31u)
-#define VIRGA_DROPLET_STATE(kind)    (((kind) >> 8) & 7u)     /* ground_limits.h, where it came from */
-#define VIRGA_DROPLET_INDEX(kind)    (((kind) >> 16) & 255u)  /* among those of its splash */
-#define VIRGA_DROPLET_NUMBER(kind)   (((kind) >> 16) & 8191u) /* among all of its drop, which may be many splashes */
-#define VIRGA_DROPLET_ALIVE          0x80000000u
-#define VIRGA_DROPLET_FREE           0x40000000u /* has left its pile */
-#define VIRGA_DROPLET_FALLEN         0x20000000u /* down again: its water is about to be given back */
+/* state of the ground that it comes from, see ground_limits.h */
+#define VIRGA_DROPLET_STATE(kind) (((kind) >> 8) & 7u)
+#define VIRGA_DROPLET_INDEX(kind) (((kind) >> 16) & 255u) /* index among the droplets of its splash */
+/* index among all droplets of its drop, over all splashes of the drop */
+#define VIRGA_DROPLET_NUMBER(kind) (((kind) >> 16) & 8191u)
+#define VIRGA_DROPLET_ALIVE        0x80000000u
+#define VIRGA_DROPLET_FREE         0x40000000u /* it has left its pile */
+#define VIRGA_DROPLET_FALLEN       0x20000000u /* it has landed; its water will be returned to the ground */
 
 /* A splash, 64 bytes. */
 struct virga_splash_gpu {
     float position[3]; /* m, relative to the anchor */
-    float share;       /* of its tick that had passed; 1 and more: it falls so many ticks later */
-    uint tick;
-    float diameter_m;  /* of the drop */
-    float speed_m_s;   /* of the drop */
-    uint depth_weight; /* two halves: water under it (mm); how many it stands for in the picture */
-    float normal[3];   /* of the surface, unit length */
-    uint random;
-    float life_s;
-    uint lean; /* two halves: what its piles lean by, x and z of the velocity that the drop's way adds (m/s) */
-    uint kind; /* model, material, state as VIRGA_DROPLET_...; droplets from bit 16 */
+    /* fraction of its tick that had passed at the impact. 1 or more: the impact is that many ticks later. */
+    float share;
+    uint tick;        /* tick of the impact */
+    float diameter_m; /* m, of the drop */
+    float speed_m_s;  /* m/s, of the drop */
+    /* two half floats: depth of the water below (mm); splashes that it represents in the picture */
+    uint depth_weight;
+    float normal[3]; /* of the surface, unit length */
+    uint random;     /* a hash of its own */
+    float life_s;    /* s, lifetime */
+    /* two half floats: velocity in x and z (m/s) that the drop's direction adds to its piles, so that they lean */
+    uint lean;
+    uint kind; /* model, material and state as in VIRGA_DROPLET_...; number of droplets from bit 16 on */
     uint id;   /* of the drop */
 };
 

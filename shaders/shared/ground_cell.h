@@ -1,5 +1,5 @@
-/* ground_cell.h - what a cell of the ground is and holds, as its passes leave it and hosts may read it, see
- * virga_ground_cells. Water is in whole nanolitres, heights in whole micrometres. */
+/* ground_cell.h - a cell of the ground and its water, as ground's passes write them. Hosts may read them, see
+ * virga_ground_cells. Water is in whole nanolitres, heights are in whole micrometres. */
 #ifndef VIRGA_SHARED_GROUND_CELL_H
 #define VIRGA_SHARED_GROUND_CELL_H
 
@@ -12,16 +12,17 @@ typedef struct virga_floor_gpu virga_floor_gpu;
 typedef struct virga_cell_gpu virga_cell_gpu;
 #endif
 
-/* What a cell is. */
+/* The floor of a cell. */
 struct virga_floor_gpu {
-    int height_um; /* of its middle above the ground's base_m, its material's unevenness in it */
-    uint material; /* [0; 31]; 0xff: there is no ground */
+    /* um, height of the cell's centre above the ground's base_m; includes the unevenness of the material */
+    int height_um;
+    uint material; /* [0; 31]; 0xff: no ground */
 };
 
-/* What a cell holds. */
+/* The water of a cell. */
 struct virga_cell_gpu {
-    uint free_nl; /* on it */
-    uint held_nl; /* in its pores */
+    uint free_nl; /* nl, on the surface */
+    uint held_nl; /* nl, in the pores */
 };
 
 #ifndef VIRGA_GLSL

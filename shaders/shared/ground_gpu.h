@@ -1,6 +1,6 @@
-/* ground_gpu.h - what ground's passes share with the C that feeds them. Internal to Virga.
+/* ground_gpu.h - what ground's passes share with the C code that feeds them. Internal to Virga.
  *
- * Water is in whole nanolitres, so that it is counted and never rounded away. Heights are in whole micrometres. */
+ * Water is in whole nanolitres, so that it is conserved exactly: no rounding. Heights are in whole micrometres. */
 #ifndef VIRGA_SHARED_GROUND_GPU_H
 #define VIRGA_SHARED_GROUND_GPU_H
 
@@ -21,124 +21,130 @@ typedef struct virga_rings_gpu virga_rings_gpu;
 #endif
 
 #define VIRGA_GROUND_GROUP      256
-#define VIRGA_GROUND_PAIRS_EACH 4                        /* pairs of cells for an invocation of a flow pass */
-#define VIRGA_GROUND_QUARTERS   -1.52, -0.42, 0.42, 1.52 /* means of quarters of all bumps, over their bumps_um */
-#define VIRGA_GROUND_FAR_SHIFT  3
-#define VIRGA_GROUND_FAR_CELL   8 /* cells of the window along the side of one of the far map: 1 << FAR_SHIFT */
+#define VIRGA_GROUND_PAIRS_EACH 4 /* pairs of cells per invocation of a flow pass */
+/* mean height of each quarter of all bumps, in units of bumps_um */
+#define VIRGA_GROUND_QUARTERS  -1.52, -0.42, 0.42, 1.52
+#define VIRGA_GROUND_FAR_SHIFT 3
+#define VIRGA_GROUND_FAR_CELL  8 /* window cells along the side of a cell of the far map: 1 << FAR_SHIFT */
 
-/* Water on its way within a tick; zero between ticks. */
+/* Water that arrives in a tick. Zero between ticks. */
 struct virga_arrivals_gpu {
-    uint landed_nl; /* of drops that fell on the cell */
-    uint given_nl;  /* what of all drops comes to it */
+    uint landed_nl; /* nl, of the drops that hit the cell */
+    uint given_nl;  /* nl, the cell's share of the water of all drops */
 };
 
-/* A material as cells of this size have it. */
+/* A material, scaled to the size of a cell. */
 struct virga_soil_gpu {
-    uint capacity_nl;  /* that its pores hold */
-    uint retention_nl; /* that its roughness holds back when the rest runs off */
-    float sink_nl_s;   /* infiltration out of the cell, downwards */
-    float drying;      /* times the evaporation */
-    float inv_manning; /* s^-1 m^(1/3) */
-    float bumps_um;    /* standard deviation of its unevenness, and how many cells a bump is wide */
-    float bump_cells;
-    uint drain; /* 1: takes all water away */
+    uint capacity_nl;  /* nl, max in its pores */
+    uint retention_nl; /* nl, retained by its roughness when the rest runs off */
+    float sink_nl_s;   /* nl/s, infiltration from the cell downwards */
+    float drying;      /* factor of the evaporation */
+    float inv_manning; /* s^-1 m^(1/3), 1 / Manning's roughness coefficient */
+    float bumps_um;    /* um, standard deviation of its unevenness */
+    float bump_cells;  /* width of a bump, in cells */
+    uint drain;        /* 1: a drain, removes all water */
 };
 
-/* What a cell of a material has on it and in it that no drop was counted for: that stood in the same rain elsewhere. */
+/* The initial water of a cell of a material, where no drops were counted: as much as other ground has after the same
+ * rain. */
 struct virga_standing_gpu {
-    float held;     /* [0; 1] share of its pores that is full */
-    float film_nl;  /* on it, humps and hollows alike */
-    float level_um; /* up to which hollows are full, from where humps begin */
-    float spots;    /* dark spots of first drops, by their area: [0; ...) times the ground's */
+    float held;     /* [0; 1], filled fraction of its pores */
+    float film_nl;  /* nl, on the surface, the same on humps and in hollows */
+    float level_um; /* um, height up to which hollows are full; humps are higher */
+    float spots;    /* >= 0, total area of the dark spots of first drops, relative to the ground's area */
 };
 
-/* What a cell of the far map is. */
+/* A cell of the far map: the coarse map of the ground outside the window. */
 struct virga_far_floor_gpu {
-    int height_um; /* above the ground's base_m, without its unevenness */
-    /* material (8 bits), share that rain reaches and that is level enough for puddles (4 bits each), and its unevenness
-     * (16 bits, signed, FAR_BUMP_UM) */
+    int height_um; /* um, above the ground's base_m, without the unevenness */
+    /* from the lowest bit on: material (8 bits); fraction of the rain that reaches it (4 bits); fraction that is level
+     * enough for puddles (4 bits); unevenness (16 bits, signed, in units of FAR_BUMP_UM) */
     uint traits;
 };
 
-/* All that a tick's passes need. */
+/* Parameters of all passes of a tick. */
 struct virga_ground_tick_gpu {
-    int low_tile[2];      /* of the window, in tiles from the world's origin */
-    uint tiles;           /* along the window's side, a power of two */
-    uint tick;            /* that the passes are for: impacts of others are left alone */
-    float window_high[3]; /* low corner of the window in the world, as the sum of two floats; y: 0 */
+    int low_tile[2]; /* low corner of the window, in tiles from the world's origin */
+    uint tiles;      /* along the window's side, a power of two */
+    uint tick;       /* the tick that the passes compute; impacts of other ticks are ignored */
+    /* m, low corner of the window in the world: high + low, a sum of two floats for precision; y is 0 */
+    float window_high[3];
     float window_low[3];
-    float cell_m;
+    float cell_m; /* m, side of a cell */
     float inv_cell_m;
-    int nl_per_um; /* water that raises a cell by a micrometre */
+    int nl_per_um; /* water that raises the level of a cell by 1 um */
     float m_per_nl;
     uint seed;
-    float flow_s; /* time that a flow pass stands for */
-    float evaporation_nl_s;
-    float height_map_top_m; /* height above the base of depth 0 in the survey, and metres to depth 1 */
-    float height_map_depth_m;
-    float base_m;          /* height in the world that those of floors count from */
-    float ripple_low_m[2]; /* low corner of the ripple map from the window's, and its side */
-    float ripple_side_m;
-    float tick_s;
-    uint rings;       /* 0: no ripple map */
-    uint last_tick;   /* the newest tick */
-    uint max_spawns;  /* 0: nothing splashes */
-    uint max_impacts; /* landings of returns lie behind so many */
+    float flow_s;             /* s, time step of a flow pass */
+    float evaporation_nl_s;   /* nl/s, per cell */
+    float height_map_top_m;   /* m, height above base_m of depth 0 in the height map */
+    float height_map_depth_m; /* m, from depth 0 to depth 1 */
+    float base_m;             /* m, height in the world from which the heights of floors count */
+    float ripple_low_m[2];    /* m, low corner of the ripple map, relative to the window's */
+    float ripple_side_m;      /* m, side of the ripple map */
+    float tick_s;             /* s, length of a tick */
+    uint rings;               /* 0: no ripple map */
+    uint last_tick;           /* the newest tick */
+    uint max_spawns;          /* 0: no splashes */
+    uint max_impacts;         /* landings of returns start at this index */
     uint max_returned_droplets;
-    float camera[3]; /* in the world */
+    float camera[3]; /* m, in the world */
     uint tick_in_step;
-    float material_scale[2]; /* from cells behind the window's low corner to the material map [0; 1) */
+    float material_scale[2]; /* from cells relative to the window's low corner to the material map's [0; 1) */
     float material_offset[2];
-    int far_low[2];               /* low corner of the far map, in its cells from the world's origin */
-    uint far_cells;               /* along its side; 0: none */
-    float far_material_offset[2]; /* as above, from the far map's low corner */
-    float far_camera[2];          /* in cells of the far map, from its low corner */
-    float far_even[2];            /* as far from there, in such cells: puddles begin to even out, and have */
-    float rain_per_m2_s;          /* drops that land on open ground, and their diameter */
-    float rain_drop_m;
+    int far_low[2];               /* low corner of the far map, in far cells from the world's origin */
+    uint far_cells;               /* along the far map's side; 0: no far map */
+    float far_material_offset[2]; /* as material_offset, but from the far map's low corner */
+    float far_camera[2];          /* in far cells, from the far map's low corner */
+    /* in far cells, distances from the camera between which single puddles fade into their average */
+    float far_even[2];
+    float rain_per_m2_s; /* drops per m^2 and s that land on open ground */
+    float rain_drop_m;   /* m, diameter of those drops */
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
-    virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* in the open, then under cover */
+    virga_standing_gpu standing[2 * VIRGA_GROUND_MATERIALS]; /* by material: first in the open, then sheltered */
 };
 
-/* A ring on a puddle, 36 bytes. */
+/* A ring wave on a puddle, 36 bytes. */
 struct virga_ring_gpu {
-    int cell[2];      /* of the world, where the drop fell */
-    float in_cell[2]; /* [0; 1) */
-    uint tick;        /* in which its drop fell, and what share of it had passed; above 1: it begins later */
-    float share;
-    float crater_m; /* depth of the crater, more where it stands for several; 0: none has been here yet */
-    float depth_m;  /* of the water */
-    uint id;        /* of the drop */
+    int cell[2];      /* cell of the world where the drop fell */
+    float in_cell[2]; /* [0; 1), position in that cell */
+    uint tick;        /* tick in which the drop fell */
+    float share;      /* fraction of that tick that had passed; 1 or more: the ring starts later */
+    /* m, depth of the crater; larger if the ring represents several. 0: this entry was never used. */
+    float crater_m;
+    float depth_m; /* m, of the water */
+    uint id;       /* of the drop */
 };
 
-/* Head of the rings: a ring buffer in the other sense too. */
+/* Head of the list of ring waves, which is a ring buffer. */
 struct virga_rings_gpu {
-    uint total; /* that ever were; the newest lies at (total - 1) modulo VIRGA_MAX_RINGS */
+    uint total; /* rings ever added; the newest is at index (total - 1) modulo VIRGA_MAX_RINGS */
     uint pad[3];
 };
 
-/* A count of water, 64 bits. */
+/* A 64-bit count of water (nl). */
 struct virga_ground_count_gpu {
     uint low;
     uint high;
 };
 
-/* Indices into the counts. First those that only grow, then those that measure.comp makes anew. */
-#define VIRGA_GROUND_LANDED         0 /* and did not fly up again, or fell back */
-#define VIRGA_GROUND_OFF_GROUND     1 /* the same on what is not ground, or outside of the window */
+/* Indices into the counts, all in nl except VIRGA_GROUND_CELLS. The first ones only grow. From
+ * VIRGA_GROUND_FIRST_MEASURED on, measure.comp computes them anew. */
+#define VIRGA_GROUND_LANDED         0 /* landed and did not fly up again; returns included */
+#define VIRGA_GROUND_OFF_GROUND     1 /* the same on surfaces that are not ground, or outside the window */
 #define VIRGA_GROUND_INFILTRATED    2
 #define VIRGA_GROUND_RUN_OFF        3 /* into drains */
 #define VIRGA_GROUND_EVAPORATED     4
-#define VIRGA_GROUND_EVICTED        5 /* with tiles that there was no room to keep */
-#define VIRGA_GROUND_STARTED        6 /* that cells came with */
-#define VIRGA_GROUND_FLOWN          7 /* up in splashes */
-#define VIRGA_GROUND_RETURNED       8 /* of that, fallen back */
+#define VIRGA_GROUND_EVICTED        5 /* with cached tiles that were discarded because the cache was full */
+#define VIRGA_GROUND_STARTED        6 /* initial water of new cells */
+#define VIRGA_GROUND_FLOWN          7 /* flew up in splashes */
+#define VIRGA_GROUND_RETURNED       8 /* part of FLOWN that fell back */
 #define VIRGA_GROUND_FIRST_MEASURED 9
 #define VIRGA_GROUND_FILM           9  /* free water of wet and dry cells */
 #define VIRGA_GROUND_PUDDLES        10 /* free water of puddles */
-#define VIRGA_GROUND_HELD           11
-#define VIRGA_GROUND_CACHED         12 /* all water of tiles outside of the window */
-#define VIRGA_GROUND_CELLS          13 /* cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_HELD           11 /* in pores */
+#define VIRGA_GROUND_CACHED         12 /* all water of cached tiles, which are outside the window */
+#define VIRGA_GROUND_CELLS          13 /* number of cells by state: VIRGA_GROUND_STATES counts */
 #define VIRGA_GROUND_COUNTS         19
 
 #ifndef VIRGA_GLSL

@@ -1,38 +1,43 @@
-/* ground_limits.h - sizes and names that ground's C, its GLSL and its readers agree on. */
+/* ground_limits.h - limits and names that ground's C and GLSL share with the code that reads its output. */
 #ifndef VIRGA_SHARED_GROUND_LIMITS_H
 #define VIRGA_SHARED_GROUND_LIMITS_H
 
-#define VIRGA_GROUND_TILE       64 /* cells along a tile's side: what comes into the window, leaves it and is kept */
+/* cells along the side of a tile: the unit that enters the window, leaves it and is cached */
+#define VIRGA_GROUND_TILE       64
 #define VIRGA_GROUND_TILE_CELLS 4096
 #define VIRGA_GROUND_MAX_TILES  4096 /* in the window: 64 x 64, a window of 4096 x 4096 cells */
 #define VIRGA_GROUND_MATERIALS  32
-#define VIRGA_GROUND_SPOTS      8 /* a cell's dark spots are this many bits along its side */
-/* A spot's diameter over its drop's, on what is porous. On what is smooth a drop spreads to We^(1/4) of its own, 4 to 7
- * in rain (Clanet et al. 2004, Maximal deformation of an impacting drop). */
-#define VIRGA_GROUND_SPREAD     3.0
-#define VIRGA_GROUND_MAX_PIECES 32   /* pieces at most that an impact which stands for many drops is scattered in, */
-#define VIRGA_GROUND_SCATTER_M  2.0  /* within so far (m) of it at most: */
-#define VIRGA_GROUND_DROP_M     0.09 /* each drop that it stands for takes a disk of this radius (m) */
-#define VIRGA_GROUND_CROWNS_M   2.0  /* crowns that one splash shows stand within so far (m) of it at most */
+#define VIRGA_GROUND_SPOTS      8 /* bits along the side of a cell in its bit mask of dark spots */
+/* Diameter of a dark spot over the diameter of its drop, on porous materials. On smooth ones a drop spreads to We^(1/4)
+ * times its diameter, 4 to 7 in rain (Clanet et al. 2004, Maximal deformation of an impacting drop). */
+#define VIRGA_GROUND_SPREAD 3.0
+/* max pieces in which the water of an impact that represents many drops is scattered */
+#define VIRGA_GROUND_MAX_PIECES 32
+#define VIRGA_GROUND_SCATTER_M  2.0  /* m, max distance of the pieces from the impact */
+#define VIRGA_GROUND_DROP_M     0.09 /* m, radius of the disk that each represented drop covers */
+#define VIRGA_GROUND_CROWNS_M   2.0  /* m, max distance from a splash of the crowns drawn for it */
 
-/* Rings on puddles: the table of waves, and how many rings are drawn one by one. */
-#define VIRGA_RING_DEPTHS     8 /* of water: a ring takes the nearest of them */
+/* Ring waves on puddles: the table of waves, and how many rings are drawn individually. */
+#define VIRGA_RING_DEPTHS     8 /* water depths in the table; a ring uses the nearest */
 #define VIRGA_RING_DEPTH_LIST 0.001, 0.002, 0.003, 0.005, 0.008, 0.014, 0.026, 0.05 /* m */
-#define VIRGA_RING_TIMES      200
-#define VIRGA_RING_TIME_S     0.5   /* a ring is forgotten then: others have run over it */
-#define VIRGA_RING_OPENS_S    0.005 /* in which its crater opens */
-#define VIRGA_RING_RADII      256  /* from 0 to how far the waves have come: 6 a wave where one is 2 % of the highest */
-#define VIRGA_RING_START_M    0.02 /* that is START_M + FRONT_M_S t: five crater radii, and the group of the shortest */
-#define VIRGA_RING_FRONT_M_S  0.45
-#define VIRGA_MAX_RINGS       3072 /* live at once; of more that fall, some are taken by lot */
+#define VIRGA_RING_TIMES      200                                                   /* time samples of the table */
+#define VIRGA_RING_TIME_S     0.5   /* s, lifetime of a ring: after that, others have crossed it */
+#define VIRGA_RING_OPENS_S    0.005 /* s, time in which the crater opens */
+/* samples from radius 0 to the front of the waves: 6 per wavelength where a wave has 2 % of the max amplitude */
+#define VIRGA_RING_RADII 256
+/* The front is at START_M + FRONT_M_S t (m). START_M is five crater radii; FRONT_M_S is the group velocity (m/s) of the
+ * shortest waves. */
+#define VIRGA_RING_START_M   0.02
+#define VIRGA_RING_FRONT_M_S 0.45
+#define VIRGA_MAX_RINGS      3072 /* live at once; if more drops fall, a random choice of them gets rings */
 
-/* The states of a cell, as section 2.1 and 4.6 of Mizukami et al. have them. */
-#define VIRGA_GROUND_NONE      0 /* no ground there */
-#define VIRGA_GROUND_DRY       1 /* takes up what falls on it; also while it is damp */
-#define VIRGA_GROUND_WET       2 /* saturated, and less than 3 mm of water on it */
-#define VIRGA_GROUND_PUDDLE_3  3 /* 3 mm of water and more */
-#define VIRGA_GROUND_PUDDLE_5  4 /* 5 mm and more */
-#define VIRGA_GROUND_PUDDLE_10 5 /* 10 mm and more */
+/* The states of a cell, as in sections 2.1 and 4.6 of Mizukami et al. */
+#define VIRGA_GROUND_NONE      0 /* no ground */
+#define VIRGA_GROUND_DRY       1 /* absorbs the water that falls on it; dry or damp */
+#define VIRGA_GROUND_WET       2 /* saturated, with less than 3 mm of water on it */
+#define VIRGA_GROUND_PUDDLE_3  3 /* 3 mm of water or more */
+#define VIRGA_GROUND_PUDDLE_5  4 /* 5 mm or more */
+#define VIRGA_GROUND_PUDDLE_10 5 /* 10 mm or more */
 #define VIRGA_GROUND_STATES    6
 
 #endif

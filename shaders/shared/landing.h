@@ -1,4 +1,4 @@
-/* landing.h - what an impact met on the ground: what ground writes beside rain's impacts, for hosts. */
+/* landing.h - what an impact hit on the ground: ground writes one landing for each impact of rain. For hosts. */
 #ifndef VIRGA_SHARED_LANDING_H
 #define VIRGA_SHARED_LANDING_H
 
@@ -10,15 +10,16 @@
 typedef struct virga_landing_gpu virga_landing_gpu;
 #endif
 
-/* The landing of the impact of the same index, 24 bytes; those of returns lie behind max_impacts of drops. What was
- * there before this tick's drops. */
+/* The landing of the impact of the same index, 24 bytes. Landings of returns start at index max_impacts. State and
+ * depth are those before this tick's drops. */
 struct virga_landing_gpu {
-    uint cell;        /* its index in the ground's buffers; 0xffffffff: not on the ground */
+    uint cell;        /* index in the ground's buffers; 0xffffffff: not on the ground */
     uint state;       /* VIRGA_GROUND_NONE to VIRGA_GROUND_PUDDLE_10 */
-    float depth_m;    /* of the water */
-    uint material;    /* [0; 31] of the cell; of the impact where there is no ground */
-    uint first_spawn; /* where among the spawns its first splash is; 0xffffffff: none */
-    /* which of its pieces splash, a bit each: decided once, as floats may come out otherwise elsewhere */
+    float depth_m;    /* m, of the water */
+    uint material;    /* [0; 31], of the cell; where there is no ground: of the impact */
+    uint first_spawn; /* index of its first splash among the spawns; 0xffffffff: none */
+    /* one bit per piece: 1 if the piece splashes. Decided in one pass only, because floats may differ slightly in
+     * another. */
     uint splashing;
 };
 

@@ -1,4 +1,4 @@
-/* light_limits.h - sizes that C and GLSL agree on wherever water is lit. */
+/* light_limits.h - limits that C and GLSL share wherever water is lit. */
 #ifndef VIRGA_SHARED_LIGHT_LIMITS_H
 #define VIRGA_SHARED_LIGHT_LIMITS_H
 

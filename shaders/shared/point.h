@@ -1,4 +1,4 @@
-/* point.h - a drop with all that is known about it: what point caches and hosts' own renderers read. */
+/* point.h - a drop with all its properties, for point caches and hosts' own renderers. */
 #ifndef VIRGA_SHARED_POINT_H
 #define VIRGA_SHARED_POINT_H
 
@@ -12,11 +12,11 @@ typedef struct virga_point_gpu virga_point_gpu;
 /* One drop, 48 bytes. */
 struct virga_point_gpu {
     float position[3]; /* m, relative to the origin of the step */
-    float diameter_m;
+    float diameter_m;  /* m */
     float velocity[3]; /* m/s */
-    float weight;      /* drops that it stands for; 0: none here, the slot is not in use or under cover */
-    uint id;
-    float age_s; /* how long it has been falling through its box at its present speed */
+    float weight;      /* number of drops that it represents; 0: none, the slot is unused or sheltered */
+    uint id;           /* as in virga_drop_gpu */
+    float age_s;       /* s, time that it has been falling through its box at its present speed */
     uint pad[2];
 };
 

@@ -1,14 +1,15 @@
-/* shared/random.h - random numbers by counter, the same bits in C and in GLSL.
+/* shared/random.h - counter-based random numbers, the same bits in C and in GLSL.
  *
- * There is no state: a random number is a hash of what it is for (seed, stream, id, step), so the order in which
- * invocations run can not change it. The mixing is triple32 of Chris Wellons's Hash Prospector (2018), a search for
- * multiply-xorshift hashes with the least avalanche bias. Its cheaper sibling lowbias32, with two multiplications, is
- * visibly uneven over consecutive counters (chi-square over 1,024 cells five deviations off after a million draws).
- * Words are absorbed one by one, each with the state added before the mixing and, multiplied, again inside it: were
- * it added once only, streams whose states happen to lie close together would be copies of each other, shifted by a
- * few steps.
+ * There is no state. A random number is a hash of its purpose (seed, stream, id, step), so the order in which
+ * invocations run cannot change it. The mixing function is triple32 of Chris Wellons's Hash Prospector (2018), a search
+ * for multiply-xorshift hashes with the least avalanche bias. The cheaper lowbias32, with two multiplications, is
+ * visibly uneven over consecutive counters: chi-square over 1,024 cells is five standard deviations off after a million
+ * draws.
  *
- * Give the word that changes fastest (step, index) last; virga_hash4 costs four mixings. */
+ * Words are absorbed one by one. The state is added to each word before the mixing and, multiplied, again inside it.
+ * With the first addition only, streams with nearly equal states would be copies of each other, shifted by a few steps.
+ *
+ * Pass the word that changes fastest (step, index) last. virga_hash4 costs four mixings. */
 #ifndef VIRGA_SHARED_RANDOM_H
 #define VIRGA_SHARED_RANDOM_H
 
@@ -21,7 +22,7 @@
 #define VIRGA_RANDOM_FN static inline
 #endif
 
-/* Takes one more word into a hash. */
+/* Absorbs one more word into a hash. */
 VIRGA_RANDOM_FN uint virga_hash_absorb(uint state, uint word)
 {
     uint x = word + state;
@@ -36,7 +37,7 @@ VIRGA_RANDOM_FN uint virga_hash_absorb(uint state, uint word)
     return x;
 }
 
-/* Starts from the fractional part of the golden ratio, so that hashes of zeros are not zero. */
+/* Starts with the fractional part of the golden ratio, so that hashes of zeros are not zero. */
 VIRGA_RANDOM_FN uint virga_hash1(uint a)
 {
     return virga_hash_absorb(0x9e3779b9u, a);
@@ -57,7 +58,8 @@ VIRGA_RANDOM_FN uint virga_hash4(uint a, uint b, uint c, uint d)
     return virga_hash_absorb(virga_hash3(a, b, c), d);
 }
 
-/* A number in [0; 1) from the upper 24 bits: all that a float holds, so it is exact and never rounds up to 1. */
+/* A number in [0; 1) from the upper 24 bits. A float holds exactly that many, so the result is exact and never rounds
+ * up to 1. */
 VIRGA_RANDOM_FN float virga_unit(uint hash)
 {
 #ifdef VIRGA_GLSL

@@ -1,4 +1,4 @@
-/* sh.h - real orthonormal spherical harmonics of degree 2, in the order of virga_lighting.environment_sh.
+/* sh.h - real orthonormal spherical harmonics up to degree 2, in the order of virga_lighting.environment_sh.
  *
  *   0: 0.282095              3: 0.488603 x           6: 0.315392 (3 z^2 - 1)
  *   1: 0.488603 y            4: 1.092548 x y         7: 1.092548 x z

@@ -1,4 +1,4 @@
-/* spawn.h - a drop that splashes: what ground writes (or a host that has a ground of its own), and splash reads. */
+/* spawn.h - a drop that splashes. Ground writes it (or a host with its own ground), splash reads it. */
 #ifndef VIRGA_SHARED_SPAWN_H
 #define VIRGA_SHARED_SPAWN_H
 
@@ -12,37 +12,39 @@ typedef struct virga_spawns_gpu virga_spawns_gpu;
 
 /* One splash, 76 bytes. Positions are relative to virga_spawns_gpu's origin. */
 struct virga_spawn_gpu {
-    float position[3]; /* m, where it fell */
-    float share;       /* of its tick that had passed [0; 1); 1 and more: it falls so many ticks later */
-    float velocity[3]; /* m/s, of the drop on its way in */
-    float diameter_m;  /* of one drop */
+    float position[3]; /* m, of the impact */
+    /* [0; 1) fraction of its tick that had passed at the impact. 1 or more: the impact is that many ticks later. */
+    float share;
+    float velocity[3]; /* m/s, of the drop just before the impact */
+    float diameter_m;  /* m, of one drop */
     float normal[3];   /* of the surface, unit length */
-    float depth_m;     /* of the water that it fell on */
-    float weight;      /* splashes that this one stands for in the picture */
-    float drops;       /* drops that water_nl is of */
+    float depth_m;     /* m, of the water that it fell on */
+    float weight;      /* splashes that this one represents in the picture */
+    float drops;       /* number of drops that water_nl is the sum of */
     uint id;           /* of the drop */
-    uint tick;         /* that it fell in */
-    uint water_nl;     /* that flies up, of all the drops that it stands for in the budget; 0: no droplets */
-    uint random;       /* a hash of its own: all chance in its splash comes from it */
-    /* bits 0 to 7 the state (ground_limits.h), 8 to 15 the material, 16 to 23 the model (splash_rule.h), 24 to 28 which
-     * of the splashes of its drop, where that stands for many */
+    uint tick;         /* tick of the impact */
+    uint water_nl;     /* nl that fly up, of all drops that it represents in the water balance; 0: no droplets */
+    uint random;       /* a hash of its own: source of all random numbers of the splash */
+    /* bits 0 to 7: state (ground_limits.h); 8 to 15: material; 16 to 23: model (splash_rule.h); 24 to 28: index among
+     * the splashes of its drop, if the drop represents many */
     uint kind;
 };
 
-/* Head of the spawns, 64 bytes; they follow, those of a tick after those of the tick before. */
+/* Head of the spawns, 64 bytes. The spawns follow, ordered by tick. */
 struct virga_spawns_gpu {
-    uint count;
-    uint dropped; /* that found no room */
-    uint capacity;
-    /* drops of 2 mm within this of the camera all splash, larger ones farther out, by the 1.5th power of their size; of
-     * others some stand for all, so that the quota of the rules is met. Kept from tick to tick */
+    uint count;    /* number of spawns that follow */
+    uint dropped;  /* spawns that were dropped because the buffer was full */
+    uint capacity; /* max number of spawns */
+    /* m. All drops of 2 mm within this distance of the camera splash. For other sizes the distance grows with size^1.5.
+     * Beyond it a random choice of drops splashes for all, so that the quota of the rules is met. Persists from tick to
+     * tick. */
     float near_m;
-    float origin[3]; /* of positions, in the world */
-    float tick_s;
-    uint group_count[3]; /* ceil(count / 64), 1, 1: for an indirect dispatch */
-    uint first_tick;     /* of those that are here */
-    uint ticks;
-    float near_of_tick_m; /* near_m as it was for the newest tick */
+    float origin[3];      /* m, of positions, in the world */
+    float tick_s;         /* s, length of a tick */
+    uint group_count[3];  /* ceil(count / 64), 1, 1: for an indirect dispatch */
+    uint first_tick;      /* the first tick of the spawns */
+    uint ticks;           /* number of ticks */
+    float near_of_tick_m; /* near_m as used in the newest tick */
     uint pad[2];
 };
 
