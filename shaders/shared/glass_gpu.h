@@ -1,4 +1,4 @@
-/* glass_gpu.h - what glass's passes share with the C that feeds them. Internal to Virga. */
+/* glass_gpu.h - what glass's passes share with the C code that feeds them. Internal to Virga. */
 #ifndef VIRGA_SHARED_GLASS_GPU_H
 #define VIRGA_SHARED_GLASS_GPU_H
 
@@ -19,103 +19,104 @@ typedef struct virga_glass_node_gpu virga_glass_node_gpu;
 #endif
 
 #define VIRGA_GLASS_GROUP            256
-#define VIRGA_GLASS_SMALL_GROUP      64 /* of passes over what happens to something in a tick, and over seeds */
-#define VIRGA_GLASS_BLADES           8  /* the same as VIRGA_GLASS_MAX_WIPERS */
-#define VIRGA_GLASS_SIZES            64 /* bins of the sizes that land */
-#define VIRGA_GLASS_NODES            33 /* along each side of the grid that a pane's shape is given on */
-#define VIRGA_GLASS_BINS             64 /* along a blade, of the film that it gathers */
-#define VIRGA_GLASS_ROUNDS           8  /* cells that a drop may go in a tick; even */
-#define VIRGA_GLASS_MAX_PARTS        64 /* particles that one drop becomes */
-#define VIRGA_GLASS_BLOCKS_PER_GROUP 8  /* blocks of cells that a workgroup measures */
-#define VIRGA_GLASS_FILM_BLOCK       16 /* cells a side of the blocks that are told apart by whether they have film */
+#define VIRGA_GLASS_SMALL_GROUP      64 /* workgroup size of passes over active slots and over seeds */
+#define VIRGA_GLASS_BLADES           8  /* equal to VIRGA_GLASS_MAX_WIPERS */
+#define VIRGA_GLASS_SIZES            64 /* bins of the sizes of drops that land */
+#define VIRGA_GLASS_NODES            33 /* along each side of the grid that defines a pane's shape */
+#define VIRGA_GLASS_BINS             64 /* along a blade, for the film that it collects */
+#define VIRGA_GLASS_ROUNDS           8  /* max cells that a drop moves in a tick; even */
+#define VIRGA_GLASS_MAX_PARTS        64 /* max particles that one drop becomes */
+#define VIRGA_GLASS_BLOCKS_PER_GROUP 8  /* blocks of cells per workgroup of the measuring pass */
+#define VIRGA_GLASS_FILM_BLOCK       16 /* cells along the side of a block; blocks without film are skipped */
 
 /* The pane. */
 struct virga_glass_pane_gpu {
-    uint columns; /* cells along u, along v */
-    uint rows;
-    float cell_m;
-    float width_m;
-    float height_m;
-    uint max_drops; /* slots, whole workgroups */
+    uint columns;   /* cells along u */
+    uint rows;      /* cells along v */
+    float cell_m;   /* m, side of a cell */
+    float width_m;  /* m */
+    float height_m; /* m */
+    uint max_drops; /* slots, a multiple of the workgroup size */
     uint seed;
     uint pad;
 };
 
-/* A corner of the grid that a pane's shape is given on; by column + row x VIRGA_GLASS_NODES, in the pane's own frame.
- * */
+/* A node of the grid that defines a pane's shape, in the pane's own frame. Its index is column + row x
+ * VIRGA_GLASS_NODES. */
 struct virga_glass_node_gpu {
     float position[3]; /* m */
     float along_u[3];  /* unit length */
-    float along_v[3];  /* unit length, at right angles to along_u */
-    float normal[3];   /* outward */
+    float along_v[3];  /* unit length, perpendicular to along_u */
+    float normal[3];   /* unit length, outward */
 };
 
-/* A blade in a tick: a rectangle that moves from one pose to another. */
+/* A wiper blade in a tick: a rectangle that moves from one pose to another. */
 struct virga_glass_blade_gpu {
-    float middle[2];        /* m, at the tick's end */
-    float along[2];         /* unit length, from the pivot outwards */
-    float before_middle[2]; /* the same at its start */
+    float middle[2];        /* m, centre at the tick's end */
+    float along[2];         /* unit length, from the pivot outwards, at the tick's end */
+    float before_middle[2]; /* the same at the tick's start */
     float before_along[2];
-    float half_length_m;
-    float half_width_m;
-    float side;   /* that leads: 1 to the left of `along` (counter-clockwise), -1 to the right, 0: it stands */
+    float half_length_m; /* m */
+    float half_width_m;  /* m */
+    /* the leading side: 1 to the left of `along` (counter-clockwise), -1 to the right, 0: the blade does not move */
+    float side;
     float wear;   /* [0; 1] */
-    float film_m; /* thickness of the film that it leaves */
+    float film_m; /* m, thickness of the film that it leaves behind */
     uint random;
 };
 
-/* All that a tick's passes need. Vectors are in the pane's own frame. */
+/* Parameters of all passes of a tick. Vectors are in the pane's own frame. */
 struct virga_glass_tick_gpu {
     virga_glass_pane_gpu pane;
     uint tick;
     uint tick_in_step;
-    float tick_s;
-    uint arrivals;          /* drops that may land in this tick, of the rate */
-    uint impacts;           /* and of the host's list */
-    float max_acceleration; /* m/s^2, that acts anywhere on the pane, at most; and of the air (m/s) */
-    float max_air_m_s;
-    float force[3];      /* m/s^2, gravity less the pane's own acceleration, at its origin */
-    float drop_nl_of_m3; /* cap: water (nl) of a drop whose base has a radius of 1 m: pi f(angle) 1e12 */
-    float spin[3];       /* rad/s, the pane's turning */
-    float drag;          /* N s/m per metre of radius: resistance of a running drop */
-    float air[3];        /* m/s, of the air against the pane, far from it */
-    float air_share;
-    float air_drag;     /* N of a drop with a base of 1 m radius in an air of 1 m/s */
-    float fall[3];      /* direction that drops land in, unit length */
-    float fall_cosine;  /* largest cosine between the way back and the pane's normals */
-    float hold;         /* N per metre of radius: largest force that contact-angle hysteresis withstands */
-    float kinetic_hold; /* share of it that a running drop still feels */
+    float tick_s;           /* s, length of a tick */
+    uint arrivals;          /* max drops that land in this tick from the rain rate */
+    uint impacts;           /* max drops that land in this tick from the host's list */
+    float max_acceleration; /* m/s^2, max over the pane */
+    float max_air_m_s;      /* m/s, max speed of the air over the pane */
+    float force[3];         /* m/s^2, gravity minus the acceleration of the pane's origin */
+    float drop_nl_of_m3;    /* spherical cap: water (nl) of a drop with a base of 1 m radius, pi f(angle) 1e12 */
+    float spin[3];          /* rad/s, angular velocity of the pane */
+    float drag;             /* N s/m per metre of base radius: viscous resistance of a running drop */
+    float air[3];           /* m/s, velocity of the free air relative to the pane */
+    float air_share;        /* [0; 2], speed of the air at the drops over that of the free air */
+    float air_drag;         /* N, force on a drop with a base of 1 m radius in air of 1 m/s */
+    float fall[3];          /* unit length, direction of the drops that land */
+    float fall_cosine;      /* max cosine between the opposite of `fall` and the pane's normals */
+    float hold;             /* N per metre of base radius: max force that contact-angle hysteresis resists */
+    float kinetic_hold;     /* fraction of `hold` that acts on a running drop */
     float affinity_sigma;
     float meander;
-    float path_ease; /* share of hold that a wet path takes off */
-    float path_dry_s;
-    float merge_distance;    /* of the sum of both radii, at which drops flow together */
-    float tail_spacing_m;    /* way between drops left behind */
-    float tail_share;        /* of the runner's water that one gets, at most */
-    float tail_max_radius_m; /* and its largest radius */
-    float shrink_nl_s;       /* tails' loss, per square metre of their base */
-    float film_m;            /* thickness of the trail's film */
-    float evaporation_m_s;
-    float mist_nl; /* smaller drops join the film */
+    float path_ease;         /* [0; 1], fraction by which a wet path lowers `hold` */
+    float path_dry_s;        /* s, time in which a path dries */
+    float merge_distance;    /* drops merge at this distance, in units of the sum of their radii */
+    float tail_spacing_m;    /* m, distance between drops left behind */
+    float tail_share;        /* max fraction of the runner's water that one of them gets */
+    float tail_max_radius_m; /* m, max radius of one of them */
+    float shrink_nl_s;       /* nl/s, loss of tail drops per square metre of their base */
+    float film_m;            /* m, thickness of the trail's film */
+    float evaporation_m_s;   /* m/s */
+    float mist_nl;           /* nl, smaller drops become part of the film */
     uint cells_per_tick;
-    float particle_m; /* radius */
-    uint particle_nl;
+    float particle_m; /* m, radius of a particle */
+    uint particle_nl; /* nl, water of a particle */
     float penalty;
-    float band_m;         /* on each side of a blade */
-    uint hold_back_nl;    /* drops as heavy hold particles back */
-    uint hold_back_cells; /* on each side */
+    float band_m;         /* m, width of the band of particles on each side of a blade */
+    uint hold_back_nl;    /* nl, drops of at least this water keep particles near them from becoming drops */
+    uint hold_back_cells; /* reach of that effect, in cells on each side */
     uint blade_count;
-    uint grid_columns; /* of the particles' grid */
+    uint grid_columns; /* of the grid for neighbour search among particles */
     uint grid_rows;
-    float grid_m;
-    uint rolling_row; /* (film) first row of this tick's share, and rows */
-    uint rolling_rows;
-    float rolling_s; /* time since they were last worked on */
+    float grid_m;      /* m, side of a cell of that grid */
+    uint rolling_row;  /* (film) a tick dries only some rows: the first of them */
+    uint rolling_rows; /* (film) their number */
+    float rolling_s;   /* (film) s, time since these rows were last dried */
     virga_glass_blade_gpu blades[VIRGA_GLASS_BLADES];
-    float sizes_m[VIRGA_GLASS_SIZES]; /* diameters that land, by equal shares of their number */
+    float sizes_m[VIRGA_GLASS_SIZES]; /* m, diameters of drops that land: quantiles of their distribution by number */
 };
 
-/* A count of 64 bits. */
+/* A 64-bit count. */
 struct virga_glass_count_gpu {
     uint low;
     uint high;
@@ -123,66 +124,72 @@ struct virga_glass_count_gpu {
 
 #define VIRGA_GLASS_LANDED       0 /* nl */
 #define VIRGA_GLASS_RUN_OFF      1 /* nl, over an edge */
-#define VIRGA_GLASS_WIPED        2 /* nl, pushed over an edge by a blade, or fallen on one */
+#define VIRGA_GLASS_WIPED        2 /* nl, pushed over an edge by a blade, or landed on a blade */
 #define VIRGA_GLASS_EVAPORATED   3 /* nl */
 #define VIRGA_GLASS_ARRIVED      4 /* drops */
 #define VIRGA_GLASS_MERGED       5 /* drops */
 #define VIRGA_GLASS_TO_PARTS     6 /* drops that became particles */
 #define VIRGA_GLASS_TO_DROPS     7 /* particles that became drops */
-#define VIRGA_GLASS_WITHOUT_SLOT 8 /* drops that found no slot: their water joined the film */
+#define VIRGA_GLASS_WITHOUT_SLOT 8 /* drops without a free slot: their water became part of the film */
 #define VIRGA_GLASS_COUNTS       9
 
 struct virga_glass_state_gpu {
     uint alive;   /* entries of the list of live slots */
     uint free;    /* free slots */
-    uint spawned; /* of those, taken in this tick */
+    uint spawned; /* free slots that were used in this tick */
     uint drops;   /* on the pane, when last counted */
     uint particles;
     uint particles_waiting;
-    uint alive_groups[3]; /* of a dispatch over the list */
-    uint seed_groups[3];  /* of one over all seeds */
-    /* Slots that something happens to in this tick: particles, then drops that may move or meet a blade. */
+    uint alive_groups[3]; /* workgroups of a dispatch over the list of live slots */
+    uint seed_groups[3];  /* over all seeds */
+    /* Active slots of this tick: all particles, then the drops that may move or meet a blade. */
     uint active_count;
     uint active_particles;
-    uint active_groups[3]; /* of a dispatch over all of them, and over the particles */
-    uint particle_groups[3];
-    uint settle_groups[3]; /* over whichever are more, seeds or live slots */
-    uint round_groups[24]; /* over the active ones, for each round that some drop has way left for; else none */
-    uint max_rounds;       /* of any drop in this tick */
-    uint max_nl;           /* water of any drop as it begins */
-    uint impacts;          /* of the host's list in this step */
+    uint active_groups[3];   /* over all active slots */
+    uint particle_groups[3]; /* over the particles */
+    uint settle_groups[3];   /* over seeds or live slots, whichever are more */
+    /* one dispatch per round, over the active slots; 0 workgroups if no drop moves in the round */
+    uint round_groups[24];
+    uint max_rounds; /* max over all drops in this tick */
+    uint max_nl;     /* nl, max water of a drop at the tick's start */
+    uint impacts;    /* in the host's list in this step */
     virga_glass_count_gpu counts[VIRGA_GLASS_COUNTS];
-    virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (blades' bins too) */
-    uint bins_nl[512];                 /* VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS: film gathered along each blade */
-    uint shown;                        /* slots from the list's first on that may hold drops at the tick's end */
-    uint shown_groups[3];              /* of a dispatch over them */
-    uint film_blocks;                  /* blocks listed as they may have film */
-    uint measure_groups[3];            /* of the pass that measures: over these, and over all that holds drops */
-    uint live_list_groups[3]; /* of the passes that make the live list: up to the last live slot as a tick begins */
-    uint free_listed;         /* slots in the list after the live ones; the free ones beyond follow in order */
+    virga_glass_count_gpu measured[3]; /* nl in drops, in particles, in the film (bins of the blades included) */
+    /* nl, film collected along each blade: VIRGA_GLASS_BLADES x VIRGA_GLASS_BINS */
+    uint bins_nl[512];
+    uint shown;           /* the first so many slots of the list may hold drops at the tick's end */
+    uint shown_groups[3]; /* workgroups of a dispatch over them */
+    uint film_blocks;     /* listed blocks, which may have film */
+    /* of the measuring pass: over these blocks and over all slots that may hold drops */
+    uint measure_groups[3];
+    /* of the passes that make the list of live slots: up to the last live slot at the tick's start */
+    uint live_list_groups[3];
+    /* free slots in the list, after the live ones; the free slots behind them follow in order */
+    uint free_listed;
 };
 
-/* Water that needs a slot at the tick's end: first the tick's arrivals, then one for each active slot, then the blades'
- * bins. 40 bytes. */
+/* A seed: water that needs a slot at the tick's end, 40 bytes. First the drops that land in the tick, then one seed per
+ * active slot, then the bins of the blades. */
 struct virga_glass_seed_gpu {
     float position[2];
     float velocity[2];
-    uint water_nl; /* of each; 0: nothing */
-    uint count;    /* (particles) how many, the first `extra_nl` with 1 nl more */
+    uint water_nl; /* nl, of each; 0: nothing */
+    uint count;    /* (particles) how many; the first `extra_nl` of them have 1 nl more */
     uint extra_nl;
-    uint cell; /* (drop); VIRGA_GLASS_NONE: particles */
+    uint cell; /* (drop) its cell; VIRGA_GLASS_NONE: particles */
     uint id;
     uint kind;
 };
 
-/* One two-dimensional metaball of the height map, 36 bytes. */
+/* A two-dimensional metaball of the height map, 36 bytes. */
 struct virga_glass_ball_gpu {
-    float middle[2]; /* m on the pane */
-    float radius_m;  /* where one alone has the density 0.5; its water is so high by the cap's shape */
-    float mist;      /* texels that it covers besides its shape, as it is hardly larger than one */
-    float sag[2];    /* height is multiplied by 1 + dot(sag, offset / radius): fatter to that side */
-    float peak;      /* density in its middle: 1, or less for what is hardly larger than a texel; 0: no shape */
-    uint tiles[2];   /* that it reaches along u, along v: the first | how many << 16 */
+    float middle[2]; /* m, centre on the pane */
+    float radius_m;  /* m, where a single ball has the density 0.5; its water has the height of a spherical cap */
+    /* area in texels that it covers in addition to its shape, because it is hardly larger than a texel */
+    float mist;
+    float sag[2];  /* the height is multiplied by 1 + dot(sag, offset / radius): thicker on that side */
+    float peak;    /* density at its centre: 1; less if it is hardly larger than a texel; 0: no shape */
+    uint tiles[2]; /* tiles that it touches along u and v: first | count << 16 */
 };
 
 #ifndef VIRGA_GLSL

@@ -1,4 +1,4 @@
-/* glass_picture_gpu.h - what the passes that make and draw the height map share with the C that feeds them.
+/* glass_picture_gpu.h - what the passes that make and draw the height map share with the C code that feeds them.
  * Internal to Virga. */
 #ifndef VIRGA_SHARED_GLASS_PICTURE_GPU_H
 #define VIRGA_SHARED_GLASS_PICTURE_GPU_H
@@ -13,39 +13,41 @@ typedef struct virga_glass_work_gpu virga_glass_work_gpu;
 typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 #endif
 
-#define VIRGA_GLASS_TILE            8     /* texels a side; a workgroup of the gathering pass makes one */
-#define VIRGA_GLASS_TILE_ROW        32768 /* workgroups along x of a dispatch over tiles, at most */
-#define VIRGA_GLASS_MIST_BLOCK      16    /* texels a side of the mist's map that a workgroup makes; drawn as one */
-#define VIRGA_GLASS_BEAD_CELLS      0.33f /* largest radius of a bead in cells: none reaches beyond the next */
-#define VIRGA_GLASS_BEAD_SEEN       0.75f /* least radius in texels of one that has a shape */
-#define VIRGA_GLASS_MAX_MIST_TEXELS 8192  /* texels a side of it, at most */
-/* of compression: gathers are also made for no more than these, the usual number */
+#define VIRGA_GLASS_TILE       8     /* texels a side; one workgroup of the gathering pass per tile */
+#define VIRGA_GLASS_TILE_ROW   32768 /* max workgroups along x of a dispatch over tiles */
+#define VIRGA_GLASS_MIST_BLOCK 16    /* texels a side of a block of the mist map: one workgroup, one quad */
+/* max radius of a bead in cells: it reaches no farther than the next cell */
+#define VIRGA_GLASS_BEAD_CELLS      0.33f
+#define VIRGA_GLASS_BEAD_SEEN       0.75f /* min radius in texels of a bead with a shape */
+#define VIRGA_GLASS_MAX_MIST_TEXELS 8192  /* max texels a side of the mist map */
+/* compression steps; the gathering pass has a variant for at most this many, the usual number */
 #define VIRGA_GLASS_USUAL_STEPS 5
-#define VIRGA_GLASS_DROP_BALLS  4   /* at most, of one slot */
-#define VIRGA_GLASS_FILL_GROUP  64  /* balls of a workgroup that fills lists */
-#define VIRGA_GLASS_COPY        256 /* texels a side of the plate's largest copy; the others lie to its right */
-#define VIRGA_GLASS_COPY_WIDTH  392 /* 256 and 128 and 8 */
+#define VIRGA_GLASS_DROP_BALLS  4  /* max balls of one slot */
+#define VIRGA_GLASS_FILL_GROUP  64 /* balls per workgroup of the pass that fills the lists */
+/* texels a side of the background picture's largest copy; smaller ones are to its right */
+#define VIRGA_GLASS_COPY        256
+#define VIRGA_GLASS_COPY_WIDTH  392 /* 256 + 128 + 8 */
 #define VIRGA_GLASS_COPY_LEVELS 7   /* down to 4 x 4 */
-#define VIRGA_GLASS_COPY_PAPER  2   /* that of 64 x 64 */
+#define VIRGA_GLASS_COPY_PAPER  2   /* level of 64 x 64 */
 
-/* A view of the pane: its pose, its map's resolution, and the settings that matter to it. */
+/* A view of the pane: its pose, the resolution of its map, and the settings of its picture. */
 struct virga_glass_picture_gpu {
     virga_glass_pane_gpu pane;
     float world_from_pane[9];
-    float origin[3];  /* of the pane's frame, relative to the camera */
+    float origin[3];  /* m, origin of the pane's frame, relative to the camera */
     uint map_columns; /* texels in use */
     uint map_rows;
     uint tile_columns;
     uint tile_rows;
-    float texel_m[2];
-    float share;  /* of the newest tick that has passed at the time drawn */
-    float late_s; /* time drawn less that of the newest tick: 0 or less */
+    float texel_m[2]; /* m */
+    float share;      /* elapsed fraction of the newest tick at the drawn time */
+    float late_s;     /* s, <= 0: drawn time minus the time of the newest tick */
     uint tick;
-    float tick_s;
+    float tick_s;        /* s, length of a tick */
     float gravity[3];    /* m/s^2, in the pane's frame */
-    float drop_nl_of_m3; /* cap: see virga_glass_tick_gpu */
-    float cap_height;    /* of a cap over the radius of its base */
-    float particle_m;    /* radius */
+    float drop_nl_of_m3; /* spherical cap, see virga_glass_tick_gpu */
+    float cap_height;    /* of a spherical cap, in radii of its base */
+    float particle_m;    /* m, radius */
     float impact_s;
     float film_break_s;
     uint density;  /* virga_glass_density */
@@ -60,50 +62,51 @@ struct virga_glass_picture_gpu {
     float tint[3];
     uint opaque;
     float gain;
-    uint max_tiles;       /* tiles that the lists have room for */
-    uint max_entries;     /* of the tiles' lists, all together */
-    uint written_columns; /* tiles in a row of the list that says which ones the map holds anything of */
-    uint max_blocks;      /* of the mist's map that the list of those with film has room for */
-    uint mist_columns;    /* texels of the mist's map, of mist_cells x mist_cells cells each */
+    uint max_tiles;       /* max tiles in a list */
+    uint max_entries;     /* max entries of the lists of all tiles together */
+    uint written_columns; /* tiles per row of the array that records which tiles of the images hold something */
+    uint max_blocks;      /* max blocks of the mist map in the list of those with film */
+    uint mist_columns;    /* size of the mist map in texels; a texel covers mist_cells x mist_cells cells */
     uint mist_rows;
     uint mist_cells;
-    uint mist_pitch;     /* texels from one row to the next: whole blocks */
-    float mist_scale[2]; /* of its texture, per metre */
-    uint sheets;         /* sheets of film are shown */
-    uint whole_map;      /* the host wants the map: all of it */
-    uint masked;         /* the pane has a mask */
-    /* to the previous frame's clip coordinates, from where something is relative to the camera that has kept its
-     * position on the pane */
+    uint mist_pitch;     /* texels from one row to the next: a multiple of the block size */
+    float mist_scale[2]; /* texture coordinates of the mist map per metre */
+    uint sheets;         /* 1: sheets of film are shown */
+    uint whole_map;      /* 1: the host reads the map, so all of it is written */
+    uint masked;         /* 1: the pane has a mask */
+    /* from positions relative to the camera to the previous frame's clip space, for points that are fixed on the
+     * pane */
     float previous_from_here[16];
-    float previous_eye[3]; /* where the camera was then, likewise */
-    uint view_texel;       /* first of the view among the texels that all views' blocks are */
-    float beside;          /* texels beside one with water that it may show in */
-    uint bounds_offset;    /* (even) first of the boxes of tiles, two words each, behind all indices of corners */
+    float previous_eye[3]; /* position of the previous frame's camera, in the same terms */
+    uint view_texel;       /* first texel of the view in the buffer of all views */
+    float beside;          /* reach in texels: water is visible up to this distance from its texel */
+    uint bounds_offset;    /* (even) start of the tiles' bounds, two words each, after all vertex indices */
 };
 
-/* What a draw's pipeline is made for. The pane's side: seen from behind or before all over, or it is not glass; else
- * either. */
-#define VIRGA_GLASS_DRAW_DEPTH   1u /* the scene's depth is there to read */
-#define VIRGA_GLASS_DRAW_LAMPS   2u /* there are any */
+/* Flags of a draw pipeline. The pane's side: BEHIND or BEFORE if all of it is seen from that side, OPAQUE if it is not
+ * glass; without a flag the side may vary. */
+#define VIRGA_GLASS_DRAW_DEPTH   1u /* the scene's depth can be read */
+#define VIRGA_GLASS_DRAW_LAMPS   2u /* there are lights */
 #define VIRGA_GLASS_DRAW_BEHIND  4u
 #define VIRGA_GLASS_DRAW_BEFORE  8u
 #define VIRGA_GLASS_DRAW_OPAQUE  12u
 #define VIRGA_GLASS_DRAW_SIDE    12u /* mask of the three */
-#define VIRGA_GLASS_DRAW_BY_HAND 16u /* the device does not filter the map */
-#define VIRGA_GLASS_DRAW_PLATE   32u /* the host's picture is there to read; neither this nor the next: the view says */
-#define VIRGA_GLASS_DRAW_ALONE   64u /* it is not */
-#define VIRGA_GLASS_DRAW_PAPER   128u /* (refraction vectors) the paper's style */
+#define VIRGA_GLASS_DRAW_BY_HAND 16u /* the shader filters the map, because the device does not */
+/* the host's background picture can be read. Without PLATE and ALONE: virga_view_gpu.color_given decides */
+#define VIRGA_GLASS_DRAW_PLATE 32u
+#define VIRGA_GLASS_DRAW_ALONE 64u  /* there is no background picture */
+#define VIRGA_GLASS_DRAW_PAPER 128u /* (refraction vectors) the paper's style */
 
-/* For the pass that makes slopes; and there is something to draw. */
-#define VIRGA_GLASS_LISTED    2u
-#define VIRGA_GLASS_SHOWN     4u
-#define VIRGA_GLASS_SPANS_BIT 8 /* first of the columns, and behind these of the rows, that have water */
+/* Flags of virga_glass_tile_gpu.film. */
+#define VIRGA_GLASS_LISTED    2u /* the tile is in the list for the pass that computes slopes */
+#define VIRGA_GLASS_SHOWN     4u /* the tile has something to draw */
+#define VIRGA_GLASS_SPANS_BIT 8  /* first bit of the columns with water; the rows follow */
 
-/* What the images hold of a tile since it was last written, and so has to be taken away. */
-#define VIRGA_GLASS_HOLDS_WATER  1u /* the map */
-#define VIRGA_GLASS_HOLDS_RELIEF 2u /* what draws by Snell read */
+/* What the images hold of a tile since they were last written. It must be cleared if the tile becomes empty. */
+#define VIRGA_GLASS_HOLDS_WATER  1u /* the height map */
+#define VIRGA_GLASS_HOLDS_RELIEF 2u /* the image that draws with Snell refraction read */
 
-/* The arguments of an indirect draw, as Vulkan has them. */
+/* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_glass_corners_gpu {
     uint index_count;
     uint instance_count;
@@ -112,37 +115,37 @@ struct virga_glass_corners_gpu {
     uint first_instance;
 };
 
-/* How much there is to do: what indirect dispatches and draws read. Followed by numbers: of tiles without film; from
- * look.max_tiles on of tiles with film; from 2 look.max_tiles on of the mist's blocks with film that has a shape;
- * look.max_blocks behind these of tiles with something to show; and look.max_tiles behind these of the mist's blocks
- * that may have any film. Lists are in any order: what is done for one of their entries does not
- * depend on another. All zero as a view's passes begin. */
+/* Work lists: arguments of indirect dispatches and draws, then counts. The lists follow: tiles without film; from
+ * look.max_tiles on, tiles with film; from 2 look.max_tiles on, blocks of the mist map with film that has a shape;
+ * look.max_blocks further, tiles with something to show; look.max_tiles further, blocks of the mist map that may have
+ * any film. The order in a list does not matter, because entries are independent. All zero when a view's passes
+ * begin. */
 struct virga_glass_work_gpu {
-    uint tile_groups[3];           /* of the gathering pass, over tiles without film */
-    uint film_groups[3];           /* and over those with */
+    uint tile_groups[3];           /* of the gathering pass over tiles without film */
+    uint film_groups[3];           /* of the gathering pass over tiles with film */
     uint ball_groups[3];           /* of the pass that fills the lists */
     uint block_groups[3];          /* of the pass over blocks with film that has a shape */
-    uint relief_groups[3];         /* of the pass over tiles that have something to show, or had */
-    virga_glass_corners_gpu drops; /* tiles to be drawn */
-    virga_glass_corners_gpu mist;  /* blocks to be drawn */
-    uint tiles;                    /* in each of the first two lists */
-    uint film_tiles;
+    uint relief_groups[3];         /* of the pass over tiles that have, or had, something to show */
+    virga_glass_corners_gpu drops; /* draw of tiles */
+    virga_glass_corners_gpu mist;  /* draw of blocks */
+    uint tiles;                    /* entries of the list of tiles without film */
+    uint film_tiles;               /* entries of the list of tiles with film */
     uint relief_tiles;
-    uint shaped; /* balls with a shape, for the statistics; and entries that tiles were left without */
-    uint cut;
+    uint shaped; /* number of balls with a shape, for the statistics */
+    uint cut;    /* list entries of tiles that were dropped because the buffer was full */
     uint balls;
-    uint entries;        /* of the lists of all tiles, were there room for any number */
-    uint used;           /* that they were given */
-    uint highest;        /* a float's bits: the largest radius of a ball */
-    uint mist_groups[3]; /* of the pass over the mist's blocks that may have any film */
+    uint entries;        /* list entries that all tiles need, without a limit */
+    uint used;           /* list entries that they got */
+    uint highest;        /* max radius of a ball (m), the bits of a float */
+    uint mist_groups[3]; /* of the pass over blocks of the mist map that may have any film */
 };
 
-/* What lies over a tile of the map. */
+/* The water on a tile of the map. */
 struct virga_glass_tile_gpu {
-    uint count;  /* balls that reach it */
-    uint first;  /* entry of its list */
-    uint filled; /* entries so far */
-    uint film;   /* 1: film with a shape, or a sheet of it; and VIRGA_GLASS_LISTED, _SHOWN and spans */
+    uint count;  /* balls that touch it */
+    uint first;  /* first entry of its list */
+    uint filled; /* entries written so far */
+    uint film;   /* bit 0: film with a shape, or a sheet of film; then VIRGA_GLASS_LISTED, _SHOWN and spans */
 };
 
 #ifndef VIRGA_GLSL

@@ -1,19 +1,21 @@
 // ground_map.glsl - how a host's material reads Virga's ground maps (virga/ground.h, virga_ground_maps). For GLSL
-// hosts: include it, or write the same.
+// hosts: include it, or port it.
 //
-// `at` is the place in cells from the window's low corner: (world.xz - low_m) / cell_m, worked out on the CPU for the
-// camera and added to here, so that it stays exact far from the origin. `low_cell` is the number of that corner's cell,
-// floor(low_m / cell_m), modulo `cells`.
+// `at` is a position in cells, relative to the window's low corner: (world.xz - low_m) / cell_m. Compute it on the CPU
+// for the camera and add the offset from the camera here, so that it stays exact at a great distance from the origin.
+// `low_cell` is the index of the corner's cell, floor(low_m / cell_m), modulo `cells`.
 
-// Beyond the window: virga_ground_far_at, with `far_at` in far cells from far_low_m. From the window to there goes
+// Outside the window use virga_ground_far_at, with `far_at` in far cells, relative to far_low_m. Blend from the window
+// to there with
 //     virga_ground_mix(far, near, virga_ground_near_share(at - camera_at, reach_m / cell_m))
-// and from there to the horizon virga_ground_open of the surface's material, or nothing where a host knows none.
+// From there to the horizon use virga_ground_open with the surface's material, or dry ground if the host has no
+// material.
 
 struct virga_ground_wetness {
-    float wet;         // [0; 1] how far pores are filled, or a film covers the place
-    float depth_mm;    // of water
+    float wet;         // [0; 1] filled fraction of the pores, or coverage by a film
+    float depth_mm;    // mm, of the water
     float slope2;      // variance of the slope of ripples
-    float spot;        // [0; 1] dark spots of first drops
+    float spot;        // [0; 1] coverage by dark spots of first drops
 };
 
 vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell)
@@ -21,8 +23,8 @@ vec4 virga_ground_texel(sampler2D wet_map, ivec2 low_cell, int cells, ivec2 cell
     return texelFetch(wet_map, (low_cell + cell) & (cells - 1), 0);
 }
 
-// One of the 8 x 8 bits of a cell's spots (0 or 1; `bit` counts from the window's low corner), and four numbers of
-// [0; 1) that stay with the place on the ground.
+// One of the 8 x 8 spot bits of a cell, 0 or 1. `bit` counts from the window's low corner. `chance` gets four random
+// numbers in [0; 1) that are fixed at the position on the ground.
 float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec2 bit, out vec4 chance)
 {
     const ivec2 texel = (low_cell + (bit >> 3)) & (cells - 1);
@@ -35,9 +37,9 @@ float virga_ground_spot_bit(usampler2D spot_map, ivec2 low_cell, int cells, ivec
     return float((word >> uint((inside.y & 3) * 8 + inside.x)) & 1u);
 }
 
-// How much of the spot of a bit covers a place so far from the bit's middle, in bits. Round, or nearly so, and beside
-// the middle, of radii from 0.25 to 0.82 whose discs are a bit's area in the mean: never more than a bit from the
-// middle, so that the four bits around a place are all that it takes.
+// Coverage of a position by the spot of a bit. `from` is the offset from the bit's centre, in bits. Spots are nearly
+// round and off-centre. Their radii are 0.25 to 0.82; the mean area of the disks is that of a bit. A spot reaches at
+// most one bit from the bit's centre, so four bits around a position are enough.
 float virga_ground_spot(float is_set, vec2 from, vec4 chance, float edge)
 {
     const float radius = 0.25 + 0.57 * chance.z, oval = 1.0 + 0.8 * (0.82 - radius) * (chance.w - 0.5);
@@ -45,8 +47,8 @@ float virga_ground_spot(float is_set, vec2 from, vec4 chance, float edge)
     return is_set * clamp((radius - length(off)) / edge + 0.5, 0.0, 1.0);
 }
 
-// Spots, of bits side by side one that has no gap; or their share of the cell where a pixel is wider than a bit
-// (`pixel_cells`: pixels in cells).
+// Coverage by spots. Spots of adjacent bits join without a gap. If a pixel is larger than a bit, the result is the
+// covered fraction of the cell. `pixel_cells`: size of a pixel in cells.
 float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at, float pixel_cells)
 {
     const vec2 bit = at * 8.0 - 0.5;
@@ -69,8 +71,8 @@ float virga_ground_spots(usampler2D spot_map, ivec2 low_cell, int cells, vec2 at
     return mix(near, float(bits) / 64.0, clamp(pixel_cells * 8.0 - 1.0, 0.0, 1.0));
 }
 
-// What a place shows. `height_m` is its height above the maps' base_m: a wall's foot, a car or a bridge over the ground
-// is not wet because the ground is.
+// The ground at a position. `height_m` is its height above the maps' base_m. The foot of a wall, a car or a bridge does
+// not become wet because the ground below it is wet.
 virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ivec2 low_cell, int cells, vec2 at,
                                      float height_m, float pixel_cells)
 {
@@ -95,32 +97,33 @@ virga_ground_wetness virga_ground_at(sampler2D wet_map, usampler2D spot_map, ive
     return found;
 }
 
-// ---- stones that stand out
+// ---- stones above the water
 //
-// depth_mm is a cell's water over its area. Ground is rougher than that: the first of it fills pores between stones,
-// and a puddle's shore runs around each. A host that draws the stones' heights (a height map, noise: 4 to 20 mm wide,
-// and half a millimetre deep on asphalt) asks here which of them are under water. Heights count from their mean, in mm;
-// `rough_mm` (>= 0) is the standard deviation of all of them, taken to be spread by the logistic distribution, for
-// which both answers are closed forms. A few exponentials each, no texture is read.
+// depth_mm is the water of a cell divided by its area. Real ground is rougher than a cell: water first fills pores
+// between stones, and the shore of a puddle runs around each stone. A host that renders the heights of stones (a height
+// map, noise: 4 to 20 mm wide, half a millimetre deep on asphalt) computes here which of them are under water. Heights
+// are relative to their mean, in mm. `rough_mm` (>= 0) is the standard deviation of all heights. They are assumed to
+// have a logistic distribution, for which both functions are closed forms. They cost a few exponentials and read no
+// texture.
 
-// How high (mm) the water stands over the stones' mean; below it (< 0) while only the lowest pores are full. Such a
-// level leaves depth_mm on the area: s ln(1 + e^(level / s)) with s = sqrt(3) / pi times rough_mm.
+// Height (mm) of the water level above the mean of the stones; < 0 while only the lowest pores are full. Such a level
+// leaves depth_mm of water on the area: depth_mm = s ln(1 + e^(level / s)) with s = sqrt(3) / pi times rough_mm.
 float virga_ground_level_mm(float depth_mm, float rough_mm)
 {
     const float s = 0.5513 * max(rough_mm, 1e-3);
     return depth_mm + s * log(max(1.0 - exp(-depth_mm / s), 1e-6));
 }
 
-// [0; 1] How much of a place is under that level: what lies height_mm over the mean, give or take blur_mm (>= 0;
-// standard deviation), which is what height_mm leaves out: the heights that are too fine to be drawn in a pixel. All of
-// rough_mm at a height of 0 gives the mean over all stones, 1 - e^(-depth_mm / s), so a host may fade from one to the
-// other as pixels get wider than stones and the ground stays as wet.
+// [0; 1] Fraction of a position that is under that level. The position is height_mm above the mean. blur_mm (>= 0) is
+// the standard deviation of the heights that height_mm leaves out, because they are too fine for a pixel. A height of 0
+// with blur_mm = rough_mm gives the mean over all stones, 1 - e^(-depth_mm / s). So a host may fade from one to the
+// other as pixels get larger than stones, and the ground stays equally wet.
 float virga_ground_under_water(float level_mm, float height_mm, float blur_mm)
 {
     return 1.0 / (1.0 + exp(clamp((height_mm - level_mm) / (0.5513 * max(blur_mm, 1e-3)), -60.0, 60.0)));
 }
 
-// ---- beyond the window
+// ---- outside the window
 
 virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetness b, float t)
 {
@@ -128,23 +131,23 @@ virga_ground_wetness virga_ground_mix(virga_ground_wetness a, virga_ground_wetne
                                 mix(a.spot, b.spot, t));
 }
 
-// The window's share of what a place so many cells from the camera shows; `reach` in cells too. It falls early: the
-// farther, the more drops each impact stands for, so that single cells get wet by chance there. All of it where the
-// window has no reach to fall in: between edges that do not rise smoothstep is undefined.
+// Weight of the window at an offset from the camera; `off` and `reach` are in cells. It falls from half of the reach
+// on: with distance each impact represents more drops, so single cells get wet at random there. 1 if reach is 0:
+// smoothstep is undefined if its edges do not increase.
 float virga_ground_near_share(vec2 off, float reach)
 {
     const float edge = max(reach, 1e-3);
     return reach > 0.0 ? 1.0 - smoothstep(0.5 * edge, edge, max(abs(off.x), abs(off.y))) : 1.0;
 }
 
-// Level open ground of a material (virga_occluder.material).
+// Level ground in the open, of a material (virga_occluder.material).
 virga_ground_wetness virga_ground_open(sampler2D far_map, int far_cells, uint material)
 {
     const vec4 texel = texelFetch(far_map, ivec2(min(material, 31u), far_cells), 0);
     return virga_ground_wetness(texel.x, texel.y, max(texel.z, 0.0), max(-texel.z, 0.0));
 }
 
-// What a place shows there, as virga_ground_at; `open` is what there is where this map ends.
+// The ground at a position outside the window, as virga_ground_at. `open` is used where this map ends.
 virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 far_at, float height_m,
                                          virga_ground_wetness open)
 {
@@ -155,7 +158,7 @@ virga_ground_wetness virga_ground_far_at(sampler2D far_map, int far_cells, vec2 
     float found = 1e-6;
     for (int i = 0; i < 4; i++) {
         const ivec2 corner = ivec2(i & 1, i >> 1);
-        const vec4 texel = texelFetch(far_map, min(low + corner, last), 0); // inside, also where there is but the row
+        const vec4 texel = texelFetch(far_map, min(low + corner, last), 0); // valid, also if the map has a single row
         const vec2 side = mix(1.0 - t, t, vec2(corner));
         const float share = side.x * side.y * float(abs(texel.a - height_m) < 0.2);
         sum += vec4(texel.xy, max(texel.z, 0.0), max(-texel.z, 0.0)) * share;

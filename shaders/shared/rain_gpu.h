@@ -1,4 +1,4 @@
-/* rain_gpu.h - what rain's passes share with the C that feeds them. Internal to Virga. */
+/* rain_gpu.h - what rain's passes share with the C code that feeds them. Internal to Virga. */
 #ifndef VIRGA_SHARED_RAIN_GPU_H
 #define VIRGA_SHARED_RAIN_GPU_H
 
@@ -21,130 +21,133 @@ typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
 #endif
 
-/* A slot: its position in the lattice of its class, and which drops it stands for. Never changes. */
+/* A slot: its position in the lattice of its size class, and its rank. Constant. */
 struct virga_slot_gpu {
-    uint lattice[3]; /* fraction of the box's side, in units of 2^-32 */
-    uint class_rank; /* low 16 bits: class; high 16: where among the slots of its class, for thinning [0; 65535] */
+    uint lattice[3]; /* position as a fraction of the box's side, in units of 2^-32 */
+    /* low 16 bits: size class; high 16 bits: rank [0; 65535] among the slots of its class, for thinning */
+    uint class_rank;
 };
 
-/* How far a class's lattice has moved since the start of time, less the camera's position: 64-bit fixed point in units
- * of the widest box's side x 2^-32. All classes together fit the smallest uniform buffer that Vulkan allows. */
+/* Distance that a class's lattice has moved since the start of time, minus the camera's position: 64-bit fixed point in
+ * units of the largest box's side x 2^-32. All classes together fit the smallest uniform buffer size that Vulkan
+ * guarantees. */
 struct virga_travel_gpu {
-    uint low[4]; /* x, y, z; the fourth is not used */
+    uint low[4]; /* x, y, z; the fourth is unused */
     uint high[4];
 };
 
 /* A size class at a tick. */
 struct virga_class_gpu {
-    float velocity[3]; /* m/s */
-    float diameter_m;
-    float terminal_m_s; /* in still air */
-    float drag;         /* factor of the implicit step that led to velocity: (before + drag wind - g t) / (1 + drag) */
-    uint slant;         /* which slant's maps its drops use */
+    float velocity[3];  /* m/s */
+    float diameter_m;   /* m */
+    float terminal_m_s; /* m/s, terminal velocity in still air */
+    float drag;         /* coefficient of the implicit step for velocity: (before + drag wind - g t) / (1 + drag) */
+    uint slant;         /* index of the slant whose occlusion maps its drops use */
 };
 
-/* How many drops a slot of a class stands for in a box. */
+/* Number of drops that a slot of a class represents in a box. */
 struct virga_weight_gpu {
-    float drops;     /* times presence() of the threshold */
-    float threshold; /* slots of a rank below it are there, softly; above 1: all */
+    float drops;     /* multiplied by presence() of the threshold */
+    float threshold; /* slots with a lower rank are present, with a soft transition; > 1: all slots */
 };
 
-/* All that a tick's passes need besides maps, classes and weights. */
+/* Parameters of all passes of a tick, besides maps, classes and weights. */
 struct virga_tick_gpu {
-    float side_m; /* of the widest box */
-    uint levels;
-    float levels_per_group; /* 1 / the workgroups to a box */
-    uint groups;            /* workgroups in all */
+    float side_m;           /* m, side of the largest box */
+    uint levels;            /* number of nested boxes */
+    float levels_per_group; /* 1 / workgroups per box */
+    uint groups;            /* total number of workgroups */
     uint seed;
     uint tick;
-    float tick_s;
+    float tick_s; /* s, length of a tick */
     uint tick_in_step;
     uint max_impacts;
-    uint maps; /* occlusion maps in use; 0: none */
+    uint maps; /* number of occlusion maps in use; 0: none */
     uint slants;
     uint cascades;
-    float origin[3]; /* of positions, in the world */
+    float origin[3]; /* m, origin of positions, in the world */
     uint default_material;
-    float wind_min[3];   /* of the 3D wind, relative to origin */
+    float wind_min[3];   /* m, low corner of the 3D wind, relative to origin */
     uint sway;           /* 1: drops are integrated in a 3D wind */
-    float wind_scale[3]; /* 1 / its size */
-    uint wind_given;     /* 0: no texture at present, drops calm down */
-    float wind_mean[3];  /* uniform wind of this tick, gust included */
-    uint host_depth;     /* 1: maps come from the host, without normals and materials */
-    float gravity;
-    float map_texels;   /* along a map's side */
-    float map_top_m;    /* height of depth 0, relative to the origin */
-    float map_height_m; /* between depth 0 and depth 1 */
+    float wind_scale[3]; /* 1/m, 1 / size of the 3D wind */
+    uint wind_given;     /* 0: no wind texture at present; the drops' extra motion decays */
+    float wind_mean[3];  /* m/s, uniform wind of this tick, gust included */
+    uint host_depth;     /* 1: occlusion maps come from the host, without normals and materials */
+    float gravity;       /* m/s^2 */
+    float map_texels;    /* along the side of an occlusion map */
+    float map_top_m;     /* m, height of depth 0, relative to the origin */
+    float map_height_m;  /* m, from depth 0 to depth 1 */
 };
 
-/* An occlusion map. The line that a drop of slant s falls along is the texel of
- * (x + s.x (y - y0), z + s.y (y - y0)), so a texel's depth is where that line first meets something. All maps have one
- * size, top and height, see virga_tick_gpu. */
+/* An occlusion map. A drop with slant s falls along a line. The line through (x, y, z) has the texel of
+ * (x + s.x (y - y0), z + s.y (y - y0)). The texel's depth is the first intersection of the line with a surface. All
+ * maps have the same size, top and height, see virga_tick_gpu. */
 struct virga_map_gpu {
     float texels_per_m;
-    float slant[2];  /* texels a metre of fall */
-    float origin[2]; /* where the step's origin is, in texels */
+    float slant[2];  /* texels per metre of fall */
+    float origin[2]; /* position of the step's origin, in texels */
 };
 
-#define VIRGA_RAIN_BENT 65 /* one more than the phase function has bins */
+#define VIRGA_RAIN_BENT 65 /* one more than the bins of the phase function */
 
-/* What rain's settings say of a view, beside virga_view_gpu. */
+/* Rain's settings for a view, in addition to virga_view_gpu. */
 struct virga_rain_look_gpu {
-    float streak_gain;           /* multiplies coverage */
-    float oscillation;           /* amplitude of shape oscillation, 1: physical */
-    float streak_min_m;          /* smaller drops are haze */
-    float sky_m;                 /* of haze before the sky */
-    float glow;                  /* multiplies the light of lamps in haze */
+    float streak_gain;           /* factor of the coverage */
+    float oscillation;           /* amplitude of shape oscillation; 1: physical */
+    float streak_min_m;          /* m, diameter; smaller drops are drawn as haze */
+    float sky_m;                 /* m, thickness of the haze in front of the sky */
+    float glow;                  /* factor of the light of lamps in haze */
     float bent[VIRGA_RAIN_BENT]; /* integral of the drops' phase function from 0 to i pi / (VIRGA_RAIN_BENT - 1) */
-    float haze_inner_m;          /* radius of the innermost box; each next one is twice as wide */
-    float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1]; /* extinction of what is not drawn one by one, by box; all beyond */
-    /* a ray, as long as to a view depth of 1 m, is hazed from the depth 1 / (begin.xyz ray + begin.w) on; not at all
-     * where that is no depth */
+    float haze_inner_m;          /* m, radius of the innermost box; each next box is twice as large */
+    /* 1/m, extinction of the drops that are not drawn as streaks, by box; the last entry is for everything beyond */
+    float haze_per_m[VIRGA_RAIN_MAX_LEVELS + 1];
+    /* Haze along a ray starts at the view depth begin.xyz . ray + begin.w, where the ray is scaled to a view depth of
+     * 1 m. If that is not a valid depth, the ray has no haze. */
     float begin[4];
-    float parts; /* views that are averaged, each with its part of the shutter */
+    float parts; /* number of averaged views, each with its part of the shutter interval */
     uint max_streaks;
-    uint lines;  /* 1: the thinnest streaks are lines */
-    uint motion; /* 1: motions are written behind the streaks, a vec4 each: of head and tail (px) */
+    uint lines;  /* 1: the thinnest streaks are drawn as lines */
+    uint motion; /* 1: motion vectors are written after the streaks, one vec4 each: of head and tail (px) */
 };
 
-/* A pane that drops are caught on, at the end of a step. */
+/* A pane that catches drops, at the end of a step. */
 struct virga_rain_pane_gpu {
-    float corner[3]; /* relative to the origin of the step */
-    float width_m;
+    float corner[3];  /* m, relative to the origin of the step */
+    float width_m;    /* m */
     float along_u[3]; /* unit length */
-    float height_m;
+    float height_m;   /* m */
     float along_v[3];
-    float step_s;      /* length of the step */
+    float step_s;      /* s, length of the step */
     float velocity[3]; /* m/s */
     uint first_tick;
     uint ticks;
-    uint groups; /* workgroups of slots that may reach it */
+    uint groups; /* workgroups of the slots that may reach it */
 };
 
-/* A streak ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
+/* A streak, ready to be drawn, 64 bytes. Pairs are two half floats, the first in the low bits. */
 struct virga_streak_gpu {
-    float head[2];     /* where it is at the shutter's end (or where it met something), normalised device x, y */
-    float tail[2];     /* where it was at its start */
-    float depth[2];    /* head, tail: depth in the buffer's terms */
+    float head[2];     /* NDC x, y of the drop at the end of the shutter interval, or where it hit something */
+    float tail[2];     /* NDC x, y of the drop at the start of the shutter interval */
+    float depth[2];    /* head, tail: depth buffer value */
     float distance[2]; /* head, tail: view depth (m) */
-    uint width_alpha;  /* drawn width (px); coverage at the middle line */
-    /* length of the drop itself along the streak (px); relative amplitude of the wave in its light */
+    uint width_alpha;  /* drawn width (px); coverage at the centre line */
+    /* length of the drop itself along the streak (px); relative amplitude of the brightness oscillation */
     uint body_wave;
-    uint oscillations; /* oscillations along the streak; where in a turn it is at the tail */
-    uint order;        /* see shaders/rain/draw/order.glsl: bucket x VIRGA_RAIN_GROUP + rank there */
-    uint light[3];     /* radiance at the middle line (rgb), then at the edge (rgb) */
+    uint oscillations; /* oscillations along the streak; phase at the tail, in periods */
+    uint order;        /* bucket x VIRGA_RAIN_GROUP + rank in it, see shaders/rain/draw/order.glsl */
+    uint light[3];     /* radiance at the centre line (rgb), then at the edge (rgb) */
     uint id;           /* of the drop */
 };
 
-/* What 3D wind has done to a slot's drop beyond the uniform wind, 40 bytes. */
+/* Displacement of a slot's drop by the 3D wind, relative to the uniform wind, 40 bytes. */
 struct virga_sway_gpu {
-    uint offset_low[3]; /* 64-bit fixed point in units of its own box's side x 2^-32 */
+    uint offset_low[3]; /* 64-bit fixed point in units of its box's side x 2^-32 */
     uint offset_high[3];
-    float velocity[3]; /* m/s, beyond its class's */
+    float velocity[3]; /* m/s, minus the velocity of its class */
     uint pad;
 };
 
-/* Arguments of an indexed indirect draw, as Vulkan lays them out. */
+/* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_draw_gpu {
     uint index_count;
     uint instance_count;
@@ -153,8 +156,8 @@ struct virga_draw_gpu {
     uint first_instance;
 };
 
-/* What a prepare found: draws of wide streaks, which show what is in a drop, of thin ones and of those of these that
- * are lines; and counts, also of streaks that turned out to cover nothing. */
+/* Result of a prepare: draws of wide quads (the drop refracts what is behind it), of lines and of thin quads; then
+ * counts, which include streaks with zero coverage. */
 struct virga_prepared_gpu {
     virga_draw_gpu wide_quads;
     virga_draw_gpu lines;

@@ -1,4 +1,4 @@
-/* splash_gpu.h - what splash's passes share with the C that feeds them. Internal to Virga. */
+/* splash_gpu.h - what splash's passes share with the C code that feeds them. Internal to Virga. */
 #ifndef VIRGA_SHARED_SPLASH_GPU_H
 #define VIRGA_SHARED_SPLASH_GPU_H
 
@@ -17,41 +17,41 @@ typedef struct virga_splash_draw_gpu virga_splash_draw_gpu;
 typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #endif
 
-#define VIRGA_SPLASH_BLOCK 256 /* rings and buffers hold whole blocks of so many */
-/* A workgroup of a pass over slots: small, so that few splashes keep all cores busy. */
+#define VIRGA_SPLASH_BLOCK 256 /* sizes of ring buffers and buffers are multiples of this */
+/* Invocations per workgroup of a pass over slots: few, so that a few splashes keep all cores busy. */
 #define VIRGA_SPLASH_GROUP 64
-/* That of the passes with one for all. A million droplets on a GPU could use more; software Vulkan runs idle lanes
- * through all that one does, and 256 cost it 50 us more. */
+/* Invocations of the passes with a single workgroup. A million droplets on a GPU could use more. Software Vulkan runs
+ * idle invocations through the whole program, and 256 were 50 us slower. */
 #define VIRGA_SPLASH_LANES 64
-/* droplets, which one workgroup flies: more are worth a dispatch */
+/* max droplets that a single workgroup moves; for more a dispatch is faster */
 #define VIRGA_SPLASH_SINGLE_GROUP_DROPLETS 512
-#define VIRGA_SPLASH_MAX_COUNT             64 /* droplets of one splash */
+#define VIRGA_SPLASH_MAX_COUNT             64 /* droplets per splash */
 #define VIRGA_SPLASH_MATERIALS             32
 
-/* Forms of a view's passes, their specialisation constant 0: software Vulkan runs every lane through what a branch
- * would skip. Those that find know of the first bit alone. */
-#define VIRGA_SPLASH_FORM_FILM 1 /* the film's style, not the paper's */
-#define VIRGA_SPLASH_FORM_FULL 2 /* there may be lamps, and motions are written where they are wanted */
+/* Flags of a view's passes, their specialisation constant 0. They are not branches, because software Vulkan runs every
+ * invocation through what a branch would skip. The culling passes use the first bit only. */
+#define VIRGA_SPLASH_FORM_FILM 1 /* the film style, not the paper's */
+#define VIRGA_SPLASH_FORM_FULL 2 /* with lights, and with motion vectors if requested */
 
-/* And what pipelines of sprites are made for. */
-#define VIRGA_SPLASH_SPRITES_DEPTH 1 /* the scene's depth is there to be read */
-#define VIRGA_SPLASH_SPRITES_LINES 2 /* lines from end to end, of droplets, instead of two triangles around them */
-#define VIRGA_SPLASH_SPRITES_PUFFS 4 /* of puffs alone; without it, of all else */
+/* Flags of the sprite pipelines. */
+#define VIRGA_SPLASH_SPRITES_DEPTH 1 /* the scene's depth can be read */
+#define VIRGA_SPLASH_SPRITES_LINES 2 /* droplets as line primitives instead of quads of two triangles */
+#define VIRGA_SPLASH_SPRITES_PUFFS 4 /* puffs only; without it: everything else */
 #define VIRGA_SPLASH_FORMS         4
 
-/* All that a tick's passes need. */
+/* Parameters of all passes of a tick. */
 struct virga_splash_tick_gpu {
     uint tick;
     uint tick_in_step;
-    float tick_s;
+    float tick_s; /* s, length of a tick */
     uint max_spawns;
-    float anchor[3]; /* of positions, in the world */
-    float air_density;
-    float shift[3]; /* (rebase) anchor before minus anchor now: added to positions */
+    float anchor[3];   /* m, origin of positions, in the world */
+    float air_density; /* kg/m^3 */
+    float shift[3];    /* m, (rebase) anchor before minus anchor now: added to positions */
     float bounce;
-    float wind[3]; /* m/s */
-    float pile_max_s;
-    float pile_max_m;
+    float wind[3];     /* m/s */
+    float pile_max_s;  /* s */
+    float pile_max_m;  /* m */
     uint max_splashes; /* a power of two */
     uint max_droplets;
     uint max_returned_droplets;
@@ -63,8 +63,8 @@ struct virga_splash_count_gpu {
     uint high;
 };
 
-/* Indices into the counts; from VIRGA_SPLASH_BY_MODEL on by model x VIRGA_SPLASH_MATERIALS + material. */
-#define VIRGA_SPLASH_DROPLETS         0
+/* Indices into the counts. From VIRGA_SPLASH_BY_MODEL on: index + model x VIRGA_SPLASH_MATERIALS + material. */
+#define VIRGA_SPLASH_DROPLETS         0 /* droplets */
 #define VIRGA_SPLASH_FALLEN           1
 #define VIRGA_SPLASH_FLOWN            2 /* nl */
 #define VIRGA_SPLASH_RETURNED         3 /* nl */
@@ -72,70 +72,75 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_BY_MODEL         5
 #define VIRGA_SPLASH_COUNTS           165
 
-/* Splashes lie in a ring: slot numbers count up for ever (modulo 2^32) and are taken modulo its size. Droplets lie one
- * behind the other, the oldest first; a tick moves those that stay from one buffer into another. */
+/* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
+ * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
+ * from one buffer to the other. */
 struct virga_splash_state_gpu {
-    uint end_droplet; /* droplets of this tick, those that fall in it too */
-    uint staying;     /* that are there after it */
+    uint end_droplet; /* number of droplets in this tick, including those that land in it */
+    uint staying;     /* number of droplets after it */
     uint first_splash;
     uint end_splash;
-    uint tick_droplet; /* the first of this tick */
-    uint tick_splash;
-    uint full_from;         /* rank among this tick's spawns from which on there is no room for droplets */
-    uint returns;           /* of this step */
-    uint returns_before;    /* of this tick's falls */
-    uint droplet_groups[3]; /* of a dispatch over all droplets of this tick; 0 where they are few */
+    uint tick_droplet;   /* first droplet of this tick */
+    uint tick_splash;    /* first splash of this tick */
+    uint full_from;      /* rank among this tick's spawns from which on the droplet buffer is full */
+    uint returns;        /* number of returns in this step so far */
+    uint returns_before; /* the same before the droplets that land in this tick */
+    /* workgroups of a dispatch over all droplets of this tick; 0: few droplets, the prefix sum pass has moved them */
+    uint droplet_groups[3];
     uint splash_groups[3];
     uint pad;
-    uint spawn_groups[3]; /* of the passes that start splashes and store what falls; 0 where their scan has done so */
+    /* of the passes that start splashes and store landed droplets; 0: the prefix sum pass has done so */
+    uint spawn_groups[3];
     uint fall_groups[3];
-    uint find_groups[3];         /* of the pass that finds what a view may see of few droplets and splashes */
-    uint find_droplet_groups[3]; /* of those for many */
+    uint find_groups[3];         /* of the culling pass for a view, if droplets and splashes are few */
+    uint find_droplet_groups[3]; /* of the culling passes if they are many */
     uint find_splash_groups[3];
-    uint sprite_groups[3]; /* of a dispatch over all that a view may see: droplets as lines, others, piles, splashes */
-    uint view_groups[3];   /* the same over droplets alone */
+    /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
+    uint sprite_groups[3];
+    uint view_groups[3]; /* the same, over droplets only */
     virga_splash_count_gpu counts[165];
 };
 
-/* What a view's passes need beside the view. */
+/* Parameters of a view's passes, in addition to virga_view_gpu. */
 struct virga_splash_look_gpu {
-    uint tick; /* the newest */
-    float tick_s;
-    uint style; /* 0 paper, 1 film */
+    uint tick;    /* the newest tick */
+    float tick_s; /* s, length of a tick */
+    uint style;   /* 0: paper, 1: film */
     float gain;
     uint max_splashes;
     uint max_droplets;
     uint max_sprites;
     uint max_crowns;
     uint physical;
-    uint lines;   /* 1: the thinnest droplets are lines */
-    uint motion;  /* 1: motions are written behind the sprites, a vec4 each: of head and tail (px) */
-    float handed; /* 1, or -1 where the picture is mirrored: which way round faces are the front */
+    uint lines;   /* 1: the thinnest droplets are drawn as lines */
+    uint motion;  /* 1: motion vectors are written after the sprites, one vec4 each: of head and tail (px) */
+    float handed; /* 1, or -1 if the picture is mirrored: the winding of front faces */
 };
 
-/* Something long and thin on the picture: a droplet on its way, a pile, or a splash seen from afar. 64 bytes. Pairs in
- * a word are two half floats, the first in the low bits. */
+/* A sprite: a long, thin shape in the picture, 64 bytes. It is a droplet in motion, a pile, or a distant splash (puff).
+ * Pairs are two half floats, the first in the low bits. */
 struct virga_sprite_gpu {
-    float head[2]; /* ends, normalised device x, y */
-    float tail[2];
-    float depth[2];    /* head, tail: in the buffer's terms */
+    float head[2];     /* NDC x, y of one end */
+    float tail[2];     /* NDC x, y of the other end */
+    float depth[2];    /* head, tail: depth buffer value */
     float distance[2]; /* head, tail: view depth (m) */
-    /* drawn (px): head, tail; (puff) instead of the tail's the sine of how far from above it is seen */
+    /* drawn widths (px) at head and tail; (puff) at the head, then the sine of the angle from above at which it is
+     * seen */
     uint widths;
-    uint alpha_body; /* coverage; length of the thing itself (px) */
-    uint light[3];   /* radiance in the middle (rgb), then at the edge (rgb) */
+    uint alpha_body; /* coverage; length of the object itself (px) */
+    uint light[3];   /* radiance at the centre (rgb), then at the edge (rgb) */
     uint kind;       /* VIRGA_SPRITE_... */
-    /* (pile) share of its length that is there all of the time; (puff) share of its way that each of those side by side
-     * is high. Then the number of columns plus 32 times that of rows */
+    /* (pile) fraction of its length that is solid all of the time; (puff) height of each puff as a fraction of the
+     * sprite's path. Then columns + 32 x rows of puffs. */
     uint shares;
-    uint id; /* (puff) its low ten bits, then the share of its life, of 1023 */
+    uint id; /* (puff) low ten bits of the id, then the elapsed fraction of its life, in units of 1 / 1023 */
 };
 
 #define VIRGA_SPRITE_DROPLET 0
 #define VIRGA_SPRITE_PILE    1
 #define VIRGA_SPRITE_PUFF    2
 
-/* Arguments of an indexed indirect draw, as Vulkan lays them out. */
+/* Arguments of an indexed indirect draw, in Vulkan's layout. */
 struct virga_splash_draw_gpu {
     uint index_count;
     uint instance_count;
@@ -144,19 +149,19 @@ struct virga_splash_draw_gpu {
     uint first_instance;
 };
 
-/* What a prepare found. */
+/* Result of a prepare. */
 struct virga_splash_prepared_gpu {
-    virga_splash_draw_gpu lines;      /* of those that show one colour droplets that are lines */
-    virga_splash_draw_gpu thin_quads; /* and other droplets and piles; */
-    virga_splash_draw_gpu puffs;      /* splashes from afar */
-    virga_splash_draw_gpu wide_quads; /* sprites that show what is behind them; (paper) pyramids */
-    virga_splash_draw_gpu crowns;     /* sheets; (paper) pyramids of crowns */
+    virga_splash_draw_gpu lines;      /* droplets of one colour, drawn as lines */
+    virga_splash_draw_gpu thin_quads; /* other sprites of one colour: droplets and piles */
+    virga_splash_draw_gpu puffs;      /* distant splashes */
+    virga_splash_draw_gpu wide_quads; /* sprites that refract what is behind them; (paper) pyramids */
+    virga_splash_draw_gpu crowns;     /* sheets of crowns; (paper) pyramids of crowns */
     uint sprites;
-    uint list_groups[3]; /* of the pass that lists; 0 where the scan has done so */
-    uint cut[2];         /* sprites and sheets that there was no room for */
+    uint list_groups[3]; /* of the pass that writes the list; 0: the prefix sum pass has done so */
+    uint cut[2];         /* sprites and sheets that were dropped because the buffer was full */
 };
 
-/* A sheet's mesh: columns around, rows up; and the pyramids that stand for it in the paper's style. */
+/* The mesh of a sheet: columns around it, rows upwards. In the paper's style pyramids replace it. */
 #define VIRGA_CROWN_COLUMNS  60
 #define VIRGA_CROWN_ROWS     4
 #define VIRGA_CROWN_INDICES  1440 /* columns x rows x 6 */

@@ -1,9 +1,8 @@
-/* types.h - the layer that lets one header be read by C and by GLSL.
+/* types.h - the layer that lets C and GLSL read the same header.
  *
- * A shared header uses uint, int, float, the array types below and nothing else; blocks are laid out with scalar
- * alignment (VK_EXT_scalar_block_layout, Vulkan 1.2's scalarBlockLayout), so both languages agree byte for byte.
- * C asserts sizes and offsets at compile time; GLSL is asserted by a test that reads the offsets from the SPIR-V.
- */
+ * A shared header uses only uint, int, float and arrays of them. Blocks use scalar alignment
+ * (VK_EXT_scalar_block_layout, Vulkan 1.2's scalarBlockLayout), so both languages have the same layout byte for byte. C
+ * asserts sizes and offsets at compile time. For GLSL a test reads the offsets from the SPIR-V. */
 #ifndef VIRGA_SHARED_TYPES_H
 #define VIRGA_SHARED_TYPES_H
 

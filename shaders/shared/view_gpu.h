@@ -1,4 +1,4 @@
-/* view_gpu.h - a view and its light, as the passes of every effect that draws read them. Internal to Virga. */
+/* view_gpu.h - a view and its lights, for the draw passes of all effects. Internal to Virga. */
 #ifndef VIRGA_SHARED_VIEW_GPU_H
 #define VIRGA_SHARED_VIEW_GPU_H
 
@@ -12,51 +12,53 @@ typedef struct virga_view_gpu virga_view_gpu;
 #endif
 
 struct virga_light_gpu {
-    float position[3]; /* relative to the camera */
-    float inv_range;
+    float position[3]; /* m, relative to the camera */
+    float inv_range;   /* 1/m, 1 / range */
     float intensity[3];
-    float cos_outer;
+    float cos_outer; /* cosine of the outer angle of the cone */
     float direction[3];
-    float inv_cos_width;
+    float inv_cos_width; /* 1 / (cosine of the inner angle - cos_outer) */
 };
 
-/* Times are from the time of the state that is drawn. What the effect's own settings say is marked (look). */
+/* Times (s) are relative to the time of the state that is drawn. (look): from the settings of the effect. */
 struct virga_view_gpu {
-    float clip_from_rel[16];      /* from positions relative to the camera at the shutter's end */
-    float open_clip_from_rel[16]; /* from the same positions, to where the camera at the shutter's start saw them */
-    float right[3];               /* camera axes in the world, scaled so that right x ndc.x + up x ndc.y + ahead is */
-    float time_close_s;           /* the ray of a pixel with view depth 1; and the shutter's end */
+    float clip_from_rel[16];      /* positions relative to the camera at shutter close -> clip space */
+    float open_clip_from_rel[16]; /* the same positions -> clip space of the camera at shutter open */
+    /* Camera axes in the world, scaled so that right x ndc.x + up x ndc.y + ahead is the ray of a pixel at
+     * view depth 1. */
+    float right[3];
+    float time_close_s; /* s, shutter close: the end of the interval */
     float up[3];
-    float time_open_s;
+    float time_open_s; /* s, shutter open: the start of the interval */
     float ahead[3];
-    float depth_a;          /* view depth = depth_b / (depth_a + depth in the buffer) */
-    float origin_offset[3]; /* origin of positions minus camera: added to positions */
+    float depth_a;          /* view depth = depth_b / (depth_a + depth buffer value) */
+    float origin_offset[3]; /* m, origin of positions minus camera: added to positions */
     float depth_b;
     float viewport[4];
-    float light_gain;   /* (look) multiplies light from lights */
-    float min_width_px; /* (look) what is narrower is drawn this wide with less coverage */
-    float soft_m;       /* (look) depth over which geometry is faded into */
-    float near_fade_m;  /* (look) what is nearer to the camera fades out */
-    float pixel_angle;  /* tangent of a pixel's angle at the centre */
-    float far_depth;    /* value of the depth buffer where there is nothing */
+    float light_gain;   /* (look) factor of the light from lights */
+    float min_width_px; /* (look) px; narrower things are drawn with this width and less coverage */
+    float soft_m;       /* (look) m, range of depth over which things fade where they meet geometry */
+    float near_fade_m;  /* (look) m, things nearer to the camera fade out */
+    float pixel_angle;  /* tangent of the angle of a pixel at the centre of the picture */
+    float far_depth;    /* depth buffer value of the background */
     uint depth_given;
     uint color_given;
     uint light_count;
-    float sh[27]; /* environment, coefficient-major RGB */
+    float sh[27]; /* environment light: spherical harmonics, coefficient-major RGB */
     float phase_moment[3];
-    float phase[64]; /* 1/sr by angle, 64 bins over [0; pi] */
+    float phase[64]; /* phase function (1/sr) by angle, 64 bins over [0; pi] */
     virga_light_gpu lights[VIRGA_MAX_LIGHTS];
-    float previous_clip_from_rel[16]; /* from the same positions, to where the camera of the previous frame saw them */
-    float frame_interval_s;           /* from then to the shutter's end */
+    float previous_clip_from_rel[16]; /* the same positions -> clip space of the previous frame's camera */
+    float frame_interval_s;           /* s, from the previous frame to shutter close */
     float motion_scale[2];
-    float motion_coverage; /* what covers less leaves the motion vector that is there */
+    float motion_coverage; /* what covers less keeps the motion vector that is already there */
     float reactive_gain;
     uint motion_given;
-    float lens_px; /* what is d away is blurred over lens_px |inv_focus - 1 / d| pixels */
-    float inv_focus;
+    float lens_px;   /* blur at a distance d: lens_px |inv_focus - 1 / d| pixels */
+    float inv_focus; /* 1/m, 1 / focus distance */
 };
 
-#define VIRGA_VIEW_SH_WORD 61u /* that `sh` begins with */
+#define VIRGA_VIEW_SH_WORD 61u /* offset of `sh` in 32-bit words */
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_light_gpu, 48);
