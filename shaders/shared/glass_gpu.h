@@ -60,7 +60,7 @@ struct virga_glass_blade_gpu {
     float half_width_m;  /* m */
     /* the leading side: 1 to the left of `along` (counter-clockwise), -1 to the right, 0: the blade does not move */
     float side;
-    float wear;   /* [0; 1] */
+    float wear;   /* [0; 1], 1: worn out */
     float film_m; /* m, thickness of the film that it leaves behind */
     uint random;
 };
@@ -70,24 +70,24 @@ struct virga_glass_tick_gpu {
     virga_glass_pane_gpu pane;
     uint tick;
     uint tick_in_step;
-    float tick_s;           /* s, length of a tick */
-    uint arrivals;          /* max drops that land in this tick from the rain rate */
-    uint impacts;           /* max drops that land in this tick from the host's list */
-    float max_acceleration; /* m/s^2, max over the pane */
-    float max_air_m_s;      /* m/s, max speed of the air over the pane */
-    float force[3];         /* m/s^2, gravity minus the acceleration of the pane's origin */
-    float drop_nl_of_m3;    /* spherical cap: water (nl) of a drop with a base of 1 m radius, pi f(angle) 1e12 */
-    float spin[3];          /* rad/s, angular velocity of the pane */
-    float drag;             /* N s/m per metre of base radius: viscous resistance of a running drop */
-    float air[3];           /* m/s, velocity of the free air relative to the pane */
-    float air_share;        /* [0; 2], speed of the air at the drops over that of the free air */
-    float air_drag;         /* N, force on a drop with a base of 1 m radius in air of 1 m/s */
-    float fall[3];          /* unit length, direction of the drops that land */
-    float fall_cosine;      /* max cosine between the opposite of `fall` and the pane's normals */
-    float hold;             /* N per metre of base radius: max force that contact-angle hysteresis resists */
-    float kinetic_hold;     /* fraction of `hold` that acts on a running drop */
-    float affinity_sigma;
-    float meander;
+    float tick_s;            /* s, length of a tick */
+    uint arrivals;           /* max drops that land in this tick from the rain rate */
+    uint impacts;            /* max drops that land in this tick from the host's list */
+    float max_acceleration;  /* m/s^2, max over the pane */
+    float max_air_m_s;       /* m/s, max speed of the air that acts on drops: includes air_share */
+    float force[3];          /* m/s^2, gravity minus the acceleration of the pane's origin */
+    float drop_nl_of_m3;     /* spherical cap: water (nl) of a drop with a base of 1 m radius, pi f(angle) 1e12 */
+    float spin[3];           /* rad/s, angular velocity of the pane */
+    float drag;              /* N s/m per metre of base radius: viscous resistance of a running drop */
+    float air[3];            /* m/s, velocity of the free air relative to the pane */
+    float air_share;         /* [0; 2], speed of the air at the drops over that of the free air */
+    float air_drag;          /* N, force on a drop with a base of 1 m radius in air of 1 m/s */
+    float fall[3];           /* unit length, direction of the drops that land */
+    float fall_cosine;       /* max cosine between the opposite of `fall` and the pane's normals */
+    float hold;              /* N per metre of base radius: max force that contact-angle hysteresis resists */
+    float kinetic_hold;      /* fraction of `hold` that acts on a running drop */
+    float affinity_sigma;    /* >= 0, standard deviation of the logarithm of the cells' affinity */
+    float meander;           /* [0; 1], fraction of sideways steps */
     float path_ease;         /* [0; 1], fraction by which a wet path lowers `hold` */
     float path_dry_s;        /* s, time in which a path dries */
     float merge_distance;    /* drops merge at this distance, in units of the sum of their radii */
@@ -98,13 +98,13 @@ struct virga_glass_tick_gpu {
     float film_m;            /* m, thickness of the trail's film */
     float evaporation_m_s;   /* m/s */
     float mist_nl;           /* nl, smaller drops become part of the film */
-    uint cells_per_tick;
-    float particle_m; /* m, radius of a particle */
-    uint particle_nl; /* nl, water of a particle */
-    float penalty;
-    float band_m;         /* m, width of the band of particles on each side of a blade */
-    uint hold_back_nl;    /* nl, drops of at least this water keep particles near them from becoming drops */
-    uint hold_back_cells; /* reach of that effect, in cells on each side */
+    uint cells_per_tick;     /* max cells that a drop moves in a tick */
+    float particle_m;        /* m, radius of a particle */
+    uint particle_nl;        /* nl, water of a particle */
+    float penalty;           /* [0; 1], extra push between particles, as a fraction of their overlap */
+    float band_m;            /* m, width of the band of particles on each side of a blade */
+    uint hold_back_nl;       /* nl, drops of at least this water keep particles near them from becoming drops */
+    uint hold_back_cells;    /* reach of that effect, in cells on each side */
     uint blade_count;
     uint grid_columns; /* of the grid for neighbour search among particles */
     uint grid_rows;

@@ -33,10 +33,10 @@ typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
 /* A view of the pane: its pose, the resolution of its map, and the settings of its picture. */
 struct virga_glass_picture_gpu {
     virga_glass_pane_gpu pane;
-    float world_from_pane[9];
-    float origin[3];  /* m, origin of the pane's frame, relative to the camera */
-    uint map_columns; /* texels in use */
-    uint map_rows;
+    float world_from_pane[9]; /* rotation, 3 x 3 matrix */
+    float origin[3];          /* m, origin of the pane's frame, relative to the camera */
+    uint map_columns;         /* texels in use, along u */
+    uint map_rows;            /* and along v */
     uint tile_columns;
     uint tile_rows;
     float texel_m[2]; /* m */
@@ -48,20 +48,20 @@ struct virga_glass_picture_gpu {
     float drop_nl_of_m3; /* spherical cap, see virga_glass_tick_gpu */
     float cap_height;    /* of a spherical cap, in radii of its base */
     float particle_m;    /* m, radius */
-    float impact_s;
-    float film_break_s;
-    uint density;  /* virga_glass_density */
-    uint weighted; /* virga_glass_blend */
+    float impact_s;      /* s, time in which a landed drop contracts to its final shape */
+    float film_break_s;  /* s, time after which a film has broken into beads */
+    uint density;        /* virga_glass_density */
+    uint weighted;       /* virga_glass_blend */
     uint compress_steps;
-    float compress_from;
-    float compress_step;
-    float compress_k;
-    float threshold;
-    float paper_shift;
-    float thickness_m;
+    float compress_from; /* V0 */
+    float compress_step; /* fraction of V0 */
+    float compress_k;    /* [0; 1], k */
+    float threshold;     /* density at the outline of a drop */
+    float paper_shift;   /* (paper) displacement of the background by the normal's x and y, in heights of the picture */
+    float thickness_m;   /* m, of the glass */
     float tint[3];
     uint opaque;
-    float gain;
+    float gain;           /* factor of the reflections */
     uint max_tiles;       /* max tiles in a list */
     uint max_entries;     /* max entries of the lists of all tiles together */
     uint written_columns; /* tiles per row of the array that records which tiles of the images hold something */

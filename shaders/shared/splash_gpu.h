@@ -48,10 +48,10 @@ struct virga_splash_tick_gpu {
     float anchor[3];   /* m, origin of positions, in the world */
     float air_density; /* kg/m^3 */
     float shift[3];    /* m, (rebase) anchor before minus anchor now: added to positions */
-    float bounce;
+    float bounce;      /* [0; 1], fraction of the drop's velocity along the surface that its droplets keep */
     float wind[3];     /* m/s */
-    float pile_max_s;  /* s */
-    float pile_max_m;  /* m */
+    float pile_max_s;  /* s, a pile that exceeds this age releases its droplet */
+    float pile_max_m;  /* m, the same for its distance */
     uint max_splashes; /* a power of two */
     uint max_droplets;
     uint max_returned_droplets;
@@ -77,7 +77,7 @@ struct virga_splash_count_gpu {
  * from one buffer to the other. */
 struct virga_splash_state_gpu {
     uint end_droplet; /* number of droplets in this tick, including those that land in it */
-    uint staying;     /* number of droplets after it */
+    uint staying;     /* number of droplets that are still in flight after it */
     uint first_splash;
     uint end_splash;
     uint tick_droplet;   /* first droplet of this tick */
@@ -106,7 +106,7 @@ struct virga_splash_look_gpu {
     uint tick;    /* the newest tick */
     float tick_s; /* s, length of a tick */
     uint style;   /* 0: paper, 1: film */
-    float gain;
+    float gain;   /* factor of the coverage */
     uint max_splashes;
     uint max_droplets;
     uint max_sprites;

@@ -44,15 +44,15 @@ struct virga_view_gpu {
     uint depth_given;
     uint color_given;
     uint light_count;
-    float sh[27]; /* environment light: spherical harmonics, coefficient-major RGB */
-    float phase_moment[3];
-    float phase[64]; /* phase function (1/sr) by angle, 64 bins over [0; pi] */
+    float sh[27];          /* environment light: spherical harmonics, coefficient-major RGB */
+    float phase_moment[3]; /* first three Legendre moments of the phase function */
+    float phase[64];       /* phase function (1/sr) by angle, 64 bins over [0; pi] */
     virga_light_gpu lights[VIRGA_MAX_LIGHTS];
     float previous_clip_from_rel[16]; /* the same positions -> clip space of the previous frame's camera */
     float frame_interval_s;           /* s, from the previous frame to shutter close */
-    float motion_scale[2];
-    float motion_coverage; /* what covers less keeps the motion vector that is already there */
-    float reactive_gain;
+    float motion_scale[2];            /* scale of motion vectors */
+    float motion_coverage;            /* what covers less keeps the motion vector that is already there */
+    float reactive_gain;              /* reactive mask: 1 - (1 - coverage)^reactive_gain */
     uint motion_given;
     float lens_px;   /* blur at a distance d: lens_px |inv_focus - 1 / d| pixels */
     float inv_focus; /* 1/m, 1 / focus distance */
