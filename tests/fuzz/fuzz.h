@@ -5,10 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Runs one input; aborts where something does not hold. Exits with 77 where there is no device. */
+/* Runs one input. Aborts if a condition fails. Exits with 77 if there is no device. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Lets go of the device; aborts where something is left on it. */
+/* Destroys the device. Aborts if objects on it are still alive. */
 void fuzz_close(void);
 
 #endif

@@ -1,5 +1,5 @@
-/* glass_ball_fixture.h - drops at rest on a small pane, each a ball of which a test knows the shape; film, and a plate
- * whose colours tell places. */
+/* glass_ball_fixture.h - drops at rest on a small pane, each a ball whose shape a test knows; film; and a background
+ * picture whose colours encode positions. */
 #ifndef VIRGA_TESTS_GLASS_BALL_FIXTURE_H
 #define VIRGA_TESTS_GLASS_BALL_FIXTURE_H
 
@@ -14,7 +14,7 @@ typedef struct ball {
     double middle[2], radius, height, sag[2];
 } ball;
 
-/* A drop at rest, as the pane has it: upright, so that it sags downwards. */
+/* A drop at rest on an upright pane, so that it sags downwards. */
 static inline ball ball_of(const shot *s, const virga_glass_drop_gpu *drop)
 {
     const double angle = glass_rest_deg(&s->settings), flat = tan(angle * M_PI / 360);
@@ -46,7 +46,7 @@ static inline void open_small(shot *s)
     shot_face(s, 1, 30);
 }
 
-/* An even film of so many nanolitres a cell, not yet drawn together into beads. */
+/* An even film of so many nanolitres per cell, which has not contracted into beads yet. */
 static inline void put_film(shot *s, uint32_t nl)
 {
     for (uint32_t i = 0; i < s->glass->columns * s->glass->rows; i++) {
@@ -55,7 +55,8 @@ static inline void put_film(shot *s, uint32_t nl)
     }
 }
 
-/* Where the plate's colours are places, they tell what was looked up: right and down as shares of the picture. */
+/* If the background's colours encode positions, they show which position a pixel reads: right and down, as fractions of
+ * the picture. */
 static inline void put_even_balls(shot *s)
 {
     float *pixels = malloc(16ull * WIDTH * HEIGHT);

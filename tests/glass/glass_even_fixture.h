@@ -1,4 +1,4 @@
-/* glass_even_fixture.h - even glass on which drops leave nothing behind, and how much water makes a drop. */
+/* glass_even_fixture.h - even glass on which drops leave nothing behind, and the amount of water in a drop. */
 #ifndef VIRGA_TESTS_GLASS_EVEN_FIXTURE_H
 #define VIRGA_TESTS_GLASS_EVEN_FIXTURE_H
 
@@ -10,7 +10,7 @@
 
 static glass_fixture f;
 
-/* Water of a drop whose base has that radius, nl. */
+/* Water (nl) of a drop whose base has that radius. */
 static inline uint32_t water_of(double radius_m)
 {
     return (uint32_t)(glass_cap_volume(glass_rest_deg(&f.settings)) * radius_m * radius_m * radius_m * NL_OF_M3);

@@ -1,4 +1,4 @@
-/* glass_fixture.h - a pane on a device with validation on, with rain and drops that a test chooses. */
+/* glass_fixture.h - a pane on a device with validation, with rain and drops that a test chooses. */
 #ifndef VIRGA_TESTS_GLASS_FIXTURE_H
 #define VIRGA_TESTS_GLASS_FIXTURE_H
 
@@ -15,7 +15,7 @@ typedef struct glass_fixture {
     virga_context *context;
     virga_glass *glass;
     virga_glass_settings settings;
-    virga_glass_step_info info; /* of the next step; ticks are set by it */
+    virga_glass_step_info info; /* of the next step; the fixture sets its ticks */
     host_buffer upload, download, impacts;
     uint32_t impact_count; /* of the next step */
     uint32_t tick;
@@ -93,7 +93,7 @@ static inline void glass_fixture_read(glass_fixture *f, VkCommandBuffer cmd)
     f->film_blocks = glass_fixture_copy(f, cmd, f->glass->film_blocks, &offset);
 }
 
-/* Another drop of the next step, that lands in its first tick. */
+/* Adds a drop to the next step. It lands in the step's first tick. */
 static inline virga_impact_gpu *glass_fixture_land(glass_fixture *f, double u, double v, uint32_t water_nl)
 {
     REQUIRE(f->impact_count < GLASS_MAX_IMPACTS);
@@ -107,7 +107,7 @@ static inline virga_impact_gpu *glass_fixture_land(glass_fixture *f, double u, d
     return impact;
 }
 
-/* One frame of `ticks` ticks. Reads back everything where `read`. */
+/* One frame of `ticks` ticks. Reads back everything if `read`. */
 static inline void glass_fixture_step(glass_fixture *f, uint32_t ticks, bool read)
 {
     REQUIRE(virga_glass_set(f->glass, &f->settings) == VIRGA_OK);
@@ -137,7 +137,7 @@ static inline uint32_t glass_fixture_kind(const virga_glass_drop_gpu *drop)
     return drop->kind & VIRGA_GLASS_KIND;
 }
 
-/* Returns what validation said plus what is still alive: 0 is right. */
+/* Returns the number of validation messages plus the number of live objects: 0 if all is correct. */
 static inline uint32_t glass_fixture_end(glass_fixture *f)
 {
     virga_glass_destroy(&f->glass);

@@ -109,7 +109,7 @@ static inline void shot_open(shot *s, const virga_glass_def *given, uint32_t wid
     shot_step(s, 1);
 }
 
-/* RGBA floats that are seen through the pane, as large as the picture. */
+/* RGBA floats of the background seen through the pane, of the picture's size. */
 static inline void shot_plate(shot *s, const float *pixels)
 {
     const host_image_def def = {.format = VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -130,7 +130,8 @@ static inline void shot_aim(shot *s, const double at[3], const double to[3], dou
     host_camera_at(&path, 0, s->picture.width, s->picture.height, NULL, &s->camera);
 }
 
-/* Straight at the pane's middle, so that all of its width (or height) is on the picture. `side` 1: from outside. */
+/* Looks straight at the pane's centre, so that all of its width (or height) is in the picture. `side` 1: from
+ * outside. */
 static inline void shot_face(shot *s, double side, double fov_deg)
 {
     const double u = 0.5 * (double)s->glass->def.width_m, v = 0.5 * (double)s->glass->def.height_m;
@@ -190,7 +191,7 @@ static inline void shot_memory(VkCommandBuffer cmd, VkPipelineStageFlags from, V
     vkCmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
-/* What the test has put on the pane becomes the pane's state. */
+/* Writes the drops of the test into the pane's state. */
 static inline void shot_put(shot *s, VkCommandBuffer cmd)
 {
     const virga_glass *g = s->glass;
@@ -278,7 +279,7 @@ static inline const float *shot_draw(shot *s, bool refraction)
     return host_target_floats(&s->gpu.device, &s->picture, HOST_LAYER);
 }
 
-/* What validation said plus what is still alive: 0 is right. */
+/* Returns the number of validation messages plus the number of live objects: 0 if all is correct. */
 static inline void shot_close(shot *s)
 {
     virga_target_destroy(&s->layer);

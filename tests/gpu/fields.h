@@ -1,5 +1,5 @@
-/* fields.h - a struct of the API described by its fields, one line each, and every field tried with what it should take
- * and what it should not: the result, and the number of lines in the log, follow from the description. */
+/* fields.h - tests all fields of an API struct from a table with one line per field. Each field is set to valid and
+ * invalid values. The expected result and the expected number of log lines follow from the table. */
 #ifndef VIRGA_TESTS_FIELDS_H
 #define VIRGA_TESTS_FIELDS_H
 
@@ -11,17 +11,17 @@
 typedef enum field_kind { FIELD_FLOAT, FIELD_DOUBLE, FIELD_UINT } field_kind;
 
 typedef enum field_rule {
-    CLAMPED,       /* outside [low; high]: moved into it, one line, VIRGA_DEGRADED (of a definition: VIRGA_OK) */
-    CLAMPED_BUT_0, /* the same, and 0 stands for a default */
-    REFUSED,       /* outside [low; high]: VIRGA_ERROR_INVALID, one line */
-    EMPTY,         /* below low: VIRGA_NOT_READY, one line; above high: refused */
+    CLAMPED,       /* outside [low; high]: clamped, one log line, VIRGA_DEGRADED (in a definition: VIRGA_OK) */
+    CLAMPED_BUT_0, /* the same, but 0 is valid and selects a default */
+    REFUSED,       /* outside [low; high]: VIRGA_ERROR_INVALID, one log line */
+    EMPTY,         /* below low: VIRGA_NOT_READY, one log line; above high: as REFUSED */
 } field_rule;
 
 typedef struct field {
     const char *name;
     size_t offset;
     field_kind kind;
-    uint32_t count; /* of an array, of which the first and the last are tried */
+    uint32_t count; /* elements of an array; the first and the last are tested */
     field_rule rule;
     double low, high;
 } field;
@@ -45,15 +45,15 @@ typedef struct field {
 
 enum { FIELD_MAX_BYTES = 131072 };
 
-/* A struct, and a call that takes it. */
+/* A struct, and a call that reads it. */
 typedef struct field_table {
     const char *name;
-    const void *good; /* what the call takes without a line: fields are changed one at a time */
+    const void *good; /* valid values that cause no log line; fields are changed one at a time */
     size_t size;
     const field *fields;
     uint32_t count;
     virga_result (*call)(void *user, const void *changed);
-    void (*read)(void *user, void *in_force); /* NULL where it can not be asked */
+    void (*read)(void *user, void *in_force); /* NULL if the values in effect cannot be read */
     void *user;
 } field_table;
 
@@ -76,14 +76,14 @@ static inline void field_put(const field *f, void *object, uint32_t index, doubl
         ((uint32_t *)at)[index] = (uint32_t)value;
 }
 
-/* An end of a range as the field holds it. */
+/* A bound of a range, rounded to the field's type. */
 static inline double field_end(const field *f, double end)
 {
-    volatile float rounded = (float)end; /* or the compiler compares with what was not rounded */
+    volatile float rounded = (float)end; /* volatile: otherwise the compiler compares with the unrounded value */
     return f->kind == FIELD_FLOAT ? (double)rounded : end;
 }
 
-/* The next number up or down that the field can hold. */
+/* The next larger or smaller number that the field's type can hold. */
 static inline double field_beside(const field *f, double value, double towards)
 {
     return f->kind == FIELD_FLOAT    ? (double)nextafterf((float)value, (float)towards)
@@ -91,7 +91,7 @@ static inline double field_beside(const field *f, double value, double towards)
                                      : value + (towards > value ? 1 : -1);
 }
 
-/* What a field is tried with. */
+/* The values that a field is tested with. */
 static inline uint32_t field_values(const field *f, double values[16])
 {
     const double max = f->kind == FIELD_FLOAT ? (double)FLT_MAX : DBL_MAX;
@@ -133,7 +133,7 @@ static inline virga_result field_expected(const field *f, double value, uint32_t
     return f->rule == REFUSED ? VIRGA_ERROR_INVALID : VIRGA_DEGRADED;
 }
 
-/* Lines beside those about what was created, and about places that no drops are drawn at. */
+/* Log lines, without those about created objects and about positions where no drops are drawn. */
 static inline uint32_t field_lines(const gpu_fixture *f)
 {
     uint32_t lines = 0;
@@ -165,7 +165,7 @@ static inline void field_try(gpu_fixture *fixture, const field_table *table, con
         fail_msg("%s.%s[%u] = %g: %g is in force", table->name, f->name, index, value, now);
 }
 
-/* Every field of a table with every value, and the struct as it should be in between. */
+/* Tests every field of a table with every value, and the valid struct in between. */
 static inline void fields_try(gpu_fixture *fixture, const field_table *table)
 {
     for (uint32_t i = 0; i < table->count; i++) {

@@ -1,4 +1,5 @@
-/* gpu_fixture.h - a device with validation on, a context that is watched, and rain of all parts but few drops. */
+/* gpu_fixture.h - a device with validation, a context whose Vulkan calls are watched, and rain with all features but
+ * few drops. */
 #ifndef VIRGA_TESTS_GPU_FIXTURE_H
 #define VIRGA_TESTS_GPU_FIXTURE_H
 
@@ -22,8 +23,8 @@ enum { LOG_IDS = VIRGA_LOG_NOT_DRAWN + 1 };
 
 typedef struct gpu_fixture {
     fixture gpu;
-    uint32_t lines[LOG_IDS]; /* that the library has said, by id */
-    uint32_t errors;         /* of which errors */
+    uint32_t lines[LOG_IDS]; /* number of the library's log lines, by id */
+    uint32_t errors;         /* number of those that are errors */
     char last[1024];
 } gpu_fixture;
 
@@ -45,7 +46,7 @@ static inline void gpu_forget_log(gpu_fixture *f)
     f->last[0] = 0;
 }
 
-/* One line was said since gpu_forget_log, as an error, with that id. */
+/* Since gpu_forget_log there was exactly one log line: an error with that id. */
 #define assert_one_error(f, id)                                                                                       \
     do {                                                                                                              \
         if ((f)->errors != 1 || (f)->lines[id] != 1)                                                                  \
@@ -53,7 +54,7 @@ static inline void gpu_forget_log(gpu_fixture *f)
                      (f)->last);                                                                                      \
     } while (0)
 
-/* A definition of a context on the fixture's device, watched. */
+/* A context definition for the fixture's device, with watched Vulkan calls. */
 static inline virga_context_def gpu_context_def(gpu_fixture *f)
 {
     virga_context_def def = virga_default_context_def();
@@ -77,7 +78,7 @@ static inline virga_context *gpu_context(gpu_fixture *f)
     return context;
 }
 
-/* Every part that rain has, and hardly a drop in it. */
+/* Rain with every feature and very few drops. */
 static inline virga_rain_def gpu_rain_def(void)
 {
     virga_rain_def def = virga_default_rain_def();
@@ -118,7 +119,7 @@ static inline void gpu_wait(gpu_fixture *f)
     REQUIRE(host_wait(&f->gpu.device, f->gpu.error, sizeof f->gpu.error));
 }
 
-/* ---- a picture to draw into */
+/* ---- a picture to render to */
 
 typedef struct gpu_picture {
     host_target images;
@@ -154,7 +155,7 @@ static inline virga_view gpu_view(const gpu_picture *picture)
     return view;
 }
 
-/* All of rain's passes but its maps from a host: occlusion, step, points, prepare and draw. */
+/* All of rain's passes except those that read occlusion maps from a host: occlusion, step, points, prepare and draw. */
 static inline void gpu_record(VkCommandBuffer cmd, virga_rain *rain, const gpu_picture *picture)
 {
     const double camera[3] = {0, 1.7, 0};
@@ -173,9 +174,9 @@ static inline void gpu_record(VkCommandBuffer cmd, virga_rain *rain, const gpu_p
     host_target_end_layer(&picture->images, cmd);
 }
 
-/* ---- what each test begins and ends with */
+/* ---- setup and teardown of each test */
 
-/* Exits with 77 where there is no device. */
+/* Exits with 77 if there is no device. */
 static inline int gpu_set_up(void **state)
 {
     gpu_fixture *f = calloc(1, sizeof *f);
@@ -186,7 +187,7 @@ static inline int gpu_set_up(void **state)
     return 0;
 }
 
-/* For cases that do not look at how pipelines are made, only at what is done with them. */
+/* For cases that do not test how pipelines are created, only how they are used. */
 static inline int gpu_set_up_kept(void **state)
 {
     gpu_set_up(state);
@@ -194,7 +195,7 @@ static inline int gpu_set_up_kept(void **state)
     return 0;
 }
 
-/* Nothing that the library made is alive, and validation has said nothing. */
+/* Checks that all objects of the library are destroyed and that there are no validation messages. */
 static inline int gpu_tear_down(void **state)
 {
     gpu_fixture *f = *state;

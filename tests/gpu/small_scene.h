@@ -1,4 +1,4 @@
-/* small_scene.h - a scene of every effect with all of its parts and as little in it as definitions allow. Knows no test
+/* small_scene.h - a scene of every effect with all features, as small as definitions allow. Does not depend on a test
  * framework. */
 #ifndef VIRGA_TESTS_SMALL_SCENE_H
 #define VIRGA_TESTS_SMALL_SCENE_H
@@ -114,7 +114,7 @@ static inline virga_result small_shapes_set(virga_scene *scene)
     return result;
 }
 
-/* Hard rain that runs, splashes and is wiped. */
+/* Heavy rain that runs, splashes and is wiped. */
 static inline virga_result small_weather_set(virga_scene *scene)
 {
     virga_rain_settings rain = virga_default_rain_settings();
@@ -136,7 +136,7 @@ static inline virga_result small_weather_set(virga_scene *scene)
     return result;
 }
 
-/* Lying on their backs at half a metre, so that rain falls on them. */
+/* Panes that lie on their backs at a height of 0.5 m, so that rain falls on them. */
 static inline void small_panes_lay(virga_scene_pane panes[SMALL_PANES])
 {
     static const float up[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
@@ -149,7 +149,7 @@ static inline void small_panes_lay(virga_scene_pane panes[SMALL_PANES])
     }
 }
 
-/* A square of 40 m around the world's origin, two triangles, at height 0; it is ground. */
+/* A square of 40 m around the world's origin, at height 0: two triangles of ground. */
 static const float small_square[12] = {-20, 0, -20, 20, 0, -20, -20, 0, 20, 20, 0, 20};
 static const uint32_t small_square_indices[6] = {0, 2, 1, 1, 2, 3};
 

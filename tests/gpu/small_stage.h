@@ -1,4 +1,4 @@
-/* small_stage.h - a context with rain and a picture, attached, and whether all that they took is given back. */
+/* small_stage.h - a context with attached rain and a picture, and a check that all memory is freed. */
 #ifndef VIRGA_TESTS_SMALL_STAGE_H
 #define VIRGA_TESTS_SMALL_STAGE_H
 

@@ -1,5 +1,5 @@
-/* small_state.h - the state of a scene read back, and what must hold of it whatever the scene was told: all numbers
- * finite, counts in their ranges, water to the nanolitre. Knows no test framework. */
+/* small_state.h - the state of a scene, read back, and the conditions that it must always meet: all numbers are finite,
+ * counts are in their ranges, water is conserved to the nanolitre. Does not depend on a test framework. */
 #ifndef VIRGA_TESTS_SMALL_STATE_H
 #define VIRGA_TESTS_SMALL_STATE_H
 
@@ -19,7 +19,7 @@ typedef struct small_part {
     const char *name;
     VkBuffer buffer;
     VkDeviceSize from, size, to;
-    uint32_t count; /* where the buffer does not say itself */
+    uint32_t count; /* if the buffer does not contain it */
 } small_part;
 
 typedef struct small_state {
@@ -27,7 +27,7 @@ typedef struct small_state {
     uint32_t part_count;
     host_buffer copy;
     uint64_t rained_nl, dropped; /* of all steps so far */
-    char wrong[256];             /* the first thing that does not hold; empty: all does */
+    char wrong[256];             /* the first condition that failed; empty: none */
 } small_state;
 
 static inline void small_state_wrong(small_state *s, const char *format, ...)
@@ -40,7 +40,7 @@ static inline void small_state_wrong(small_state *s, const char *format, ...)
     va_end(arguments);
 }
 
-/* ---- what is read back */
+/* ---- read-back */
 
 static inline void small_state_list(small_state *s, virga_scene *scene)
 {
@@ -88,7 +88,7 @@ static inline void small_state_close(small_state *s, host_device *device)
         host_buffer_destroy(device, &s->copy);
 }
 
-/* Once the scene has been stepped, in the same command buffer. */
+/* Call it after the scene's step, in the same command buffer. */
 static inline void small_state_record(small_state *s, VkCommandBuffer cmd, virga_scene *scene)
 {
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
@@ -103,7 +103,7 @@ static inline void small_state_record(small_state *s, VkCommandBuffer cmd, virga
     }
 }
 
-/* ---- what must hold of it */
+/* ---- conditions */
 
 static inline void small_state_finite(small_state *s, const char *name, uint32_t index, const void *at, uint32_t floats)
 {
@@ -167,7 +167,8 @@ static inline void small_state_pane(small_state *s, const small_part *part)
     }
 }
 
-/* Water of the ground: what came is what is there and what went; and what rained came, or lies elsewhere, or flies. */
+/* Water balance of the ground: all that arrived is still there or has left. All rain arrived, is somewhere else, or is
+ * in flight. */
 static inline void small_state_ground(small_state *s, virga_scene *scene)
 {
     virga_ground_stats g;
@@ -202,8 +203,8 @@ static inline void small_state_glass(small_state *s, const virga_glass *pane, co
         small_state_wrong(s, "%u drops and %u particles in %u places of a pane", g->drops, g->particles, slots);
 }
 
-/* Once the frame has completed, and once for each that was stepped. Returns false with `wrong` filled where something
- * does not hold. */
+/* Call it after the frame has completed, once per stepped frame. Returns false and fills `wrong` if a condition
+ * fails. */
 static inline bool small_state_check(small_state *s, const host_device *device, virga_scene *scene)
 {
     static void (*const checks[])(small_state *, const small_part *) = {small_state_impacts, small_state_drops,

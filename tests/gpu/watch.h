@@ -1,5 +1,6 @@
-/* watch.h - a vkGetInstanceProcAddr that stands between Virga and the loader: it counts what is made and destroyed,
- * fails the call that a test names, and lies about the device where a test wants it to. One for a process. */
+/* watch.h - a vkGetInstanceProcAddr between Virga and the loader. It counts created and destroyed objects, makes the
+ * call fail that a test selects, and changes the reported properties of the device if a test wants that. One per
+ * process. */
 #ifndef VIRGA_TESTS_GPU_WATCH_H
 #define VIRGA_TESTS_GPU_WATCH_H
 
@@ -13,7 +14,7 @@
 
 #include "../host/kept_pipelines.h"
 
-/* Kinds of object that are made by vkCreate(device, info, allocator, object). */
+/* Types of object that are created by vkCreate(device, info, allocator, object). */
 #define WATCH_CREATED(X)   \
     X(Buffer)              \
     X(Image)               \
@@ -45,37 +46,37 @@ static const char *const watch_names[WATCH_KINDS] = {
 
 enum { WATCH_MAX_MEMORIES = 4096 };
 
-/* All zero: nothing has been counted, nothing fails, nothing is lied about. */
+/* All zero: nothing is counted yet, nothing fails, nothing is changed. */
 static struct watch {
     uint32_t live[WATCH_KINDS], made[WATCH_KINDS], destroyed[WATCH_KINDS];
-    VkDeviceSize bytes, max_bytes; /* of device memory, now and at most */
+    VkDeviceSize bytes, max_bytes; /* of device memory: current and max */
     struct {
         VkDeviceMemory memory;
         VkDeviceSize size;
     } memories[WATCH_MAX_MEMORIES];
 
-    uint32_t calls;   /* that can fail, since watch_fail */
-    uint32_t fail_at; /* the call to fail, from 1; 0: none */
-    bool failed;      /* it came to that */
+    uint32_t calls;   /* number of calls since watch_fail that can fail */
+    uint32_t fail_at; /* number of the call to fail, from 1; 0: none */
+    bool failed;      /* that call was reached */
     const char *failed_call;
     VkResult failure;
 
-    const void *cache_data; /* what the newest pipeline cache was made of */
+    const void *cache_data; /* initial data of the newest pipeline cache */
     size_t cache_size;
 
-    uint32_t full_barriers; /* that have been recorded: all commands wait for all */
+    uint32_t full_barriers; /* recorded barriers that make all commands wait for all others */
 
-    void (*before_pipeline)(void); /* called on the thread that makes one, before it does */
+    void (*before_pipeline)(void); /* called before each pipeline creation, on the same thread */
 
-    const char *hidden; /* a function that the instance does not know */
+    const char *hidden; /* a function that the instance does not report */
     void (*lie_properties)(VkPhysicalDeviceProperties *properties);
     void (*lie_features)(VkPhysicalDeviceFeatures2 *features);
     void (*lie_format)(VkFormat format, VkFormatProperties *properties);
     void (*lie_memory)(VkPhysicalDeviceMemoryProperties *properties);
-    uint32_t lie_types; /* of memory that buffers may lie in, a bit each; 0: as it is */
+    uint32_t lie_types; /* bit mask of memory types that buffers may use; 0: unchanged */
 
-    bool keep_pipelines;   /* each kind is made once: see kept_pipelines.h. For one thread */
-    uint64_t device_calls; /* of all that can fail: what a lost device must not be asked any more */
+    bool keep_pipelines;   /* each kind is created once, see kept_pipelines.h; for one thread */
+    uint64_t device_calls; /* calls that can fail; a lost device must not get any more */
 } watch;
 
 static inline uint32_t watch_sum(const uint32_t counts[WATCH_KINDS])
@@ -86,7 +87,7 @@ static inline uint32_t watch_sum(const uint32_t counts[WATCH_KINDS])
     return sum;
 }
 
-/* Starts to count calls that can fail, and fails the one of that number. */
+/* Starts to count the calls that can fail, and makes the call with that number fail. */
 static inline void watch_fail(uint32_t number, VkResult failure)
 {
     watch.calls = 0;
@@ -166,7 +167,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL watch_CreateComputePipelines(VkDevice devi
                                                                    const VkAllocationCallbacks *allocator,
                                                                    VkPipeline *pipelines)
 {
-    memset(pipelines, 0, count * sizeof *pipelines); /* as Vulkan has it where one fails */
+    memset(pipelines, 0, count * sizeof *pipelines); /* as Vulkan requires if one fails */
     if (watch_fails("vkCreateComputePipelines"))
         return watch.failure;
     if (watch.before_pipeline)
@@ -427,7 +428,7 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_GetDeviceProcAddr(VkDevice
     return wrapped ? wrapped : vkGetDeviceProcAddr(device, name);
 }
 
-/* What goes into virga_context_def.get_instance_proc_addr. Hides a function with all its suffixed names. */
+/* The value for virga_context_def.get_instance_proc_addr. Hides a function and all its suffixed names. */
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_get_instance_proc_addr(VkInstance instance, const char *name)
 {
     if (watch.hidden && !strncmp(name, watch.hidden, strlen(watch.hidden)))
@@ -436,7 +437,7 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watch_get_instance_proc_addr(VkI
     return wrapped ? wrapped : vkGetInstanceProcAddr(instance, name);
 }
 
-/* "2 Buffer, 1 Memory": what is alive, for a message. */
+/* "2 Buffer, 1 Memory": the live objects, for a message. */
 static inline const char *watch_alive(void)
 {
     static char text[256];

@@ -1,4 +1,4 @@
-/* ground_fixture.h - ground on a device with validation on, with floors, drops and water that a test chooses. */
+/* ground_fixture.h - ground on a device with validation, with floors, drops and water that a test chooses. */
 #ifndef VIRGA_TESTS_GROUND_FIXTURE_H
 #define VIRGA_TESTS_GROUND_FIXTURE_H
 
@@ -16,21 +16,21 @@ typedef struct ground_fixture {
     virga_context *context;
     virga_ground *ground;
     virga_ground_settings settings;
-    virga_splash *splash;       /* NULL: nothing splashes */
-    bool flying;                /* its droplets do fly, and their water comes back */
-    VkBuffer returned_droplets; /* instead of what it gives back */
+    virga_splash *splash;       /* NULL: no splashes */
+    bool flying;                /* droplets fly, and their water returns */
+    VkBuffer returned_droplets; /* replaces the buffer of returns */
     host_buffer vertices, indices, impacts, upload, download;
     virga_occluder meshes[8];
     uint32_t mesh_count;
-    virga_ground_material_map materials; /* over those of meshes */
+    virga_ground_material_map materials; /* overrides the materials of meshes */
     char logged[512];                    /* the last error */
     virga_impact_gpu drops[MAX_DROPS];   /* of the next step */
     uint32_t drop_count;
     float origin[3];          /* of their positions, in the world */
-    VkDeviceSize list_offset; /* of them in their buffer, with their exact size then */
-    uint32_t told;            /* drops that the list's head tells of; 0: those that are there */
+    VkDeviceSize list_offset; /* offset of the drops in their buffer, which then has exactly their size */
+    uint32_t told;            /* drops according to the list's head; 0: the actual number */
     double camera[3];
-    float open_rain_mm_h, open_drop_m; /* on ground that no drops are counted on */
+    float open_rain_mm_h, open_drop_m; /* rain on ground where no drops are counted */
     float impacts_reach_m;
     uint32_t tick;
     virga_cell_gpu *cells;   /* read back */
@@ -55,7 +55,7 @@ static inline void ground_fixture_open(ground_fixture *f)
     f->context = effect_fixture_open(&f->gpu, false, ground_fixture_log, f);
 }
 
-/* Quads of ground, each of four corners and a material. */
+/* Quads of ground: four corners and a material each. */
 static inline void ground_fixture_quads(ground_fixture *f, const float (*corners)[4][3], const uint32_t *materials,
                                         uint32_t count)
 {
@@ -80,7 +80,7 @@ static inline void ground_fixture_quads(ground_fixture *f, const float (*corners
                                         .ground = true};
 }
 
-/* A level floor 100 m wide at height 0. */
+/* A level floor, 100 m on each side, at height 0. */
 static inline void ground_fixture_floor(ground_fixture *f, uint32_t material)
 {
     static const float quad[1][4][3] = {{{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}}};
@@ -108,7 +108,7 @@ static inline void ground_fixture_ground(ground_fixture *f, const virga_ground_d
     REQUIRE(host_buffer_create(&f->gpu.device, 512 + sizeof(virga_impacts_gpu) + sizeof f->drops,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                HOST_BUFFER_UPLOAD, "drops", &f->impacts, error, size));
-    memset(f->impacts.mapped, 0xff, f->impacts.size); /* what is behind a list's drops is of no tick */
+    memset(f->impacts.mapped, 0xff, f->impacts.size); /* what follows the list's drops belongs to no tick */
     REQUIRE(host_buffer_create(&f->gpu.device, cells * sizeof(virga_cell_gpu), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                HOST_BUFFER_UPLOAD, "cells up", &f->upload, error, size));
     REQUIRE(host_buffer_create(
@@ -134,7 +134,7 @@ static inline void ground_fixture_splash(ground_fixture *f, bool flying)
     f->flying = flying;
 }
 
-/* A drop on the middle of a cell (numbers of the world), falling straight. */
+/* A drop that falls vertically on the centre of a cell (cell numbers of the world). */
 static inline virga_impact_gpu *ground_fixture_drop(ground_fixture *f, int x, int z, double height_m, uint32_t water_nl)
 {
     REQUIRE(f->drop_count < MAX_DROPS);
@@ -201,8 +201,8 @@ static inline void ground_fixture_fly(ground_fixture *f, VkCommandBuffer cmd, ui
     REQUIRE(virga_splash_step(f->splash, cmd, &info) == VIRGA_OK);
 }
 
-/* One frame of `ticks` ticks; the drops set are of its first, or so many ticks later as their `tick` says. Reads back
- * cells, floors, landings and spawns. */
+/* One frame of `ticks` ticks. The drops belong to its first tick, or to a later one by their `tick`. Reads back cells,
+ * floors, landings and spawns. */
 static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
     virga_impacts_gpu *head = (virga_impacts_gpu *)((char *)f->impacts.mapped + f->list_offset);
@@ -238,7 +238,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
     f->drop_count = 0;
 }
 
-/* Puts f->upload's contents into the cells. */
+/* Copies f->upload's contents into the cells. */
 static inline void ground_fixture_put(ground_fixture *f)
 {
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
@@ -246,7 +246,7 @@ static inline void ground_fixture_put(ground_fixture *f)
     ground_fixture_submit(f);
 }
 
-/* Place of a cell of the world in the buffers of a window of `tiles`. */
+/* Index of a cell of the world in the buffers of a window of `tiles`. */
 static inline uint32_t ground_fixture_index(const ground_fixture *f, int x, int z)
 {
     const uint32_t mask = f->ground->window.tiles - 1;
@@ -259,7 +259,7 @@ static inline uint32_t ground_fixture_free(const ground_fixture *f, int x, int z
     return f->cells[ground_fixture_index(f, x, z)].free_nl;
 }
 
-/* All water of the window. */
+/* All water in the window. */
 static inline uint64_t ground_fixture_sum(const ground_fixture *f)
 {
     uint64_t sum = 0;

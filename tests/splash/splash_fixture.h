@@ -1,4 +1,4 @@
-/* splash_fixture.h - splashes on a device with validation on, with spawns and droplets that a test chooses. */
+/* splash_fixture.h - splashes on a device with validation, with spawns and droplets that a test chooses. */
 #ifndef VIRGA_TESTS_SPLASH_FIXTURE_H
 #define VIRGA_TESTS_SPLASH_FIXTURE_H
 
@@ -9,7 +9,8 @@
 #include <virga/shared/random.h>
 #include <virga/virga.h>
 
-#define JUST_BELOW_1 0x1.fffffep-1f /* share of a tick: a drop that falls then leaves its droplets no time to move */
+/* fraction of a tick: a drop that falls then leaves its droplets no time to move */
+#define JUST_BELOW_1 0x1.fffffep-1f
 
 typedef struct splash_fixture {
     fixture gpu;
@@ -70,7 +71,7 @@ static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def
     splash_fixture_buffers(f);
 }
 
-/* Another splash of the next step: a drop of 2 mm that falls straight at the origin, at the start of the step's first
+/* Adds a splash to the next step: a drop of 2 mm that falls vertically at the origin, at the start of the step's first
  * tick, on level ground of a material in a state. */
 static inline virga_spawn_gpu *splash_fixture_spawn(splash_fixture *f, uint32_t material, uint32_t state)
 {
@@ -143,7 +144,7 @@ static inline void splash_fixture_step(splash_fixture *f, uint32_t ticks)
     f->spawn_count = 0;
 }
 
-/* These droplets are in the air, and nothing else; all counts begin anew. */
+/* Exactly these droplets are in the air; all counts are reset. */
 static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu *droplets, uint32_t count)
 {
     if (!f->splash->base.has_contents)
@@ -181,7 +182,7 @@ static inline uint64_t splash_fixture_water(const splash_fixture *f)
     return sum;
 }
 
-/* Returns what validation said plus what is still alive: 0 is right. */
+/* Returns the number of validation messages plus the number of live objects: 0 if all is correct. */
 static inline uint32_t splash_fixture_end(splash_fixture *f)
 {
     virga_splash_destroy(&f->splash);

@@ -1,5 +1,5 @@
-/* splash_picture_fixture.h - splashes, a camera before them, the picture that they are drawn into, and droplets that a
- * test chooses. */
+/* splash_picture_fixture.h - splashes, a camera in front of them, the picture that they are drawn to, and droplets that
+ * a test chooses. */
 #ifndef VIRGA_TESTS_SPLASH_PICTURE_FIXTURE_H
 #define VIRGA_TESTS_SPLASH_PICTURE_FIXTURE_H
 
@@ -19,19 +19,19 @@
 
 enum { SIDE = 128, FEW_SPRITES = 64, BLOB_POSITIONS = 4 };
 
-/* ---- a shot: splashes, a picture, and what prepare wrote for it */
+/* ---- a shot: splashes, a picture, and the output of prepare */
 
 typedef struct shot {
     splash_fixture f;
     host_target picture;
-    tested_pass tested; /* with the plate's depth attached */
+    tested_pass tested; /* with the background's depth attached */
     virga_target *layer;
     virga_target_def layer_def;
     host_camera camera;
-    double shutter_s, after_s; /* open for so long; drawn so long after the newest tick */
-    float scene_depth;         /* in the depth buffer's terms */
+    double shutter_s, after_s; /* s, length of the shutter interval; drawn time after the newest tick */
+    float scene_depth;         /* depth buffer value */
     bool give_depth, give_color, reversed;
-    bool even; /* the scene is white all over */
+    bool even; /* the whole scene is white */
     host_buffer sprites, prepared;
 } shot;
 
@@ -66,7 +66,7 @@ static inline void apply_settings(shot *s)
     REQUIRE(virga_splash_set(s->f.splash, &s->f.settings) == VIRGA_OK);
 }
 
-/* Nothing fades for being near; edges at the scene are hard; the shutter does not stay open. */
+/* No near fade, hard edges at the scene, and a shutter interval of 0. */
 static inline void open_shot_of(shot *s, const virga_splash_def *def)
 {
     memset(s, 0, sizeof *s);
@@ -124,13 +124,13 @@ static inline float stored_depth(const shot *s, double distance_m)
     return picture_stored_depth(&s->camera, s->reversed, distance_m);
 }
 
-/* Metres that a pixel is wide at a distance along the axis. */
+/* Width of a pixel in metres, at a distance along the camera's axis. */
 static inline double pixel_m(const shot *s, double distance_m)
 {
     return 2 * tan(FOV_DEG * M_PI / 360) / s->picture.height * distance_m;
 }
 
-/* Pixels right and down, of a place in the world. */
+/* Pixels right and down, of a position in the world. */
 static inline double to_pixels(const shot *s, const double position[3], double pixel[2])
 {
     const float *m = s->camera.view_from_world, *p = s->camera.clip_from_view;
@@ -154,7 +154,7 @@ static inline void clear_part(VkCommandBuffer cmd, VkRect2D part, float r, float
     vkCmdClearAttachments(cmd, 1, &clear, 1, &rect);
 }
 
-/* The scene: one depth; white, or red on the left, green on the right, and blue as well in the upper half. */
+/* The scene: a constant depth; white, or red on the left and green on the right, with blue in the upper half. */
 static inline void record_plate(const shot *s, VkCommandBuffer cmd)
 {
     const uint32_t w = s->picture.width / 2, h = s->picture.height / 2;
@@ -212,7 +212,7 @@ static const float *finish_frame(shot *s, VkCommandBuffer cmd)
     return host_target_floats(&s->f.gpu.device, &s->picture, HOST_LAYER);
 }
 
-/* Both layers hold nothing. */
+/* Both layers are empty. */
 static inline void record_empty(const shot *s, VkCommandBuffer cmd)
 {
     host_target_begin_layer(&s->picture, cmd);
@@ -270,8 +270,8 @@ static inline void assert_near(double value, double expected, double share)
 
 /* ---- droplets that a test chooses */
 
-/* One that flies far above its ground, and has no pile any more. After a tick it is about where it is to be, and moves
- * so. */
+/* A droplet that flies high above its ground and has left its pile. After a tick it is near the chosen position and has
+ * the chosen velocity. */
 static inline virga_droplet_gpu flying(double diameter_m, const double position[3], const double velocity[3])
 {
     const double tick_s = 1.0 / 60, up = velocity[1] + GRAVITY * tick_s;
@@ -297,7 +297,7 @@ static inline void put_flying(shot *s, double diameter_m, const double position[
     REQUIRE(s->f.state->staying == 1);
 }
 
-/* Where the droplet is so long after the newest tick. */
+/* Position of the droplet at a time after the newest tick. */
 static inline void droplet_at(const shot *s, double time_s, double position[3])
 {
     const virga_droplet_gpu *droplet = &s->f.droplets[0];
@@ -306,7 +306,7 @@ static inline void droplet_at(const shot *s, double time_s, double position[3])
                       (i == 1 ? 0.5 * GRAVITY * time_s * time_s : 0);
 }
 
-/* A droplet whose pile rises from 20 mm below the picture's middle. */
+/* A droplet whose pile rises from 20 mm below the picture's centre. */
 static inline virga_droplet_gpu rising(float age_s)
 {
     return (virga_droplet_gpu){.position = {0, -0.02f, 0},
@@ -326,7 +326,7 @@ static inline void put_pile(shot *s, float age_s)
     splash_fixture_step(&s->f, 1);
 }
 
-/* A drop of 2 mm on deep water, at the start of the newest tick. It lets nothing go. */
+/* A drop of 2 mm on deep water, at the start of the newest tick. It releases no droplets. */
 static inline void put_crowns(shot *s, float weight)
 {
     splash_fixture_clear(&s->f);
