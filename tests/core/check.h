@@ -1,4 +1,4 @@
-/* check.h - cmocka, and a comparison of numbers that says what it saw. */
+/* check.h - cmocka, and a comparison of numbers that prints both values. */
 #ifndef VIRGA_TESTS_CORE_CHECK_H
 #define VIRGA_TESTS_CORE_CHECK_H
 
@@ -19,7 +19,7 @@
         }                                                                                                    \
     } while (0)
 
-/* Within a share of the expected value. */
+/* Within a relative tolerance of the expected value. */
 #define assert_ratio(value, expected, share) assert_near((value) / (expected), 1.0, share)
 
 #endif

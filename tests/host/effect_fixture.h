@@ -1,8 +1,8 @@
-/* effect_fixture.h - what the fixtures of rain, ground, splash and glass have in common: a context on a device with
- * validation on, frames that are waited for, reading back, and a check that nothing is left.
+/* effect_fixture.h - the common part of the fixtures of rain, ground, splash and glass: a context on a device with
+ * validation, frames that are waited for, read-back, and a check that all objects are destroyed.
  *
- * All cases of a program have one device, and pipelines are kept from case to case (kept_pipelines.h). Its main ends
- * with effect_fixture_close. */
+ * All cases of a program share one device, and pipelines are cached between cases (kept_pipelines.h). The program's
+ * main ends with effect_fixture_close. */
 #ifndef VIRGA_TESTS_EFFECT_FIXTURE_H
 #define VIRGA_TESTS_EFFECT_FIXTURE_H
 
@@ -24,7 +24,7 @@
             fail_msg("not so: %s", #condition); \
     } while (0)
 
-/* Errors on stderr; for fixtures that keep nothing of what the library says. */
+/* Prints errors to stderr. For fixtures that do not store log lines. */
 static inline void effect_fixture_log(void *user, virga_log_level level, virga_log_id id, const char *text)
 {
     (void)user;
@@ -32,15 +32,15 @@ static inline void effect_fixture_log(void *user, virga_log_level level, virga_l
         fprintf(stderr, "%s: %s\n", virga_log_name(id), text);
 }
 
-/* The device of all cases. A case works with a copy of it, which it gives back; one that has two fixtures at a time
- * gets a device of its own for the second. */
+/* The device of all cases. A case works with a copy of it and returns it. A case with two fixtures at a time gets a
+ * separate device for the second. */
 static struct effect_device {
     fixture fixture;
     bool there, lent;
-    uint32_t messages; /* of validation, up to the case before */
+    uint32_t messages; /* of validation, before the current case */
 } effect_device;
 
-/* A program that makes a device and forgets to destroy it would not see what validation says then. */
+/* Catches programs that create a device and do not destroy it: validation reports leaks only when it is destroyed. */
 static inline void effect_device_expect_closed(void)
 {
     if (!effect_device.there)
@@ -49,7 +49,7 @@ static inline void effect_device_expect_closed(void)
     _exit(1);
 }
 
-/* Exits with 77 where there is no device. */
+/* Exits with 77 if there is no device. */
 static inline void effect_device_lend(fixture *gpu)
 {
     fixture *made = effect_device.lent ? gpu : &effect_device.fixture;
@@ -64,7 +64,7 @@ static inline void effect_device_lend(fixture *gpu)
     effect_device.there = effect_device.lent = true;
     *gpu = effect_device.fixture;
     gpu->device.warn_user = gpu;
-    gpu->device.frame = gpu->device.completed = 0; /* frames count from 1 in each case; none is under way */
+    gpu->device.frame = gpu->device.completed = 0; /* frames count from 1 in each case; none is in flight */
     for (int i = 0; i < HOST_FRAMES; i++)
         gpu->device.frames[i].index = 0;
 }
@@ -74,7 +74,7 @@ static inline bool effect_device_is_shared(const fixture *gpu)
     return gpu->device.instance == &effect_device.fixture.instance;
 }
 
-/* Returns what validation has said in this case plus what is still alive of it. */
+/* Returns the number of validation messages in this case plus the number of its live objects. */
 static inline uint32_t effect_device_give_back(fixture *gpu)
 {
     if (!effect_device_is_shared(gpu))
@@ -91,8 +91,8 @@ static inline uint32_t effect_device_give_back(fixture *gpu)
     return live + messages;
 }
 
-/* Destroys the device, of which validation then says what objects are left. What main returns, of the number of cases
- * that failed. */
+/* Destroys the device; validation then reports leaked objects. Returns the exit code of main, from the number of failed
+ * cases. */
 static inline int effect_fixture_close(int failed)
 {
     if (effect_device.there) {
@@ -103,8 +103,8 @@ static inline int effect_fixture_close(int failed)
     return fixture_result(failed);
 }
 
-/* Device and context. Exits with 77 where there is no device. Without timings, unless a test is of those: their
- * barriers around each pass would hide those that are missing. */
+/* Device and context. Exits with 77 if there is no device. Timings are off, except in tests of timings: their barriers
+ * around each pass would hide missing ones. */
 static inline virga_context *effect_fixture_open(fixture *gpu, bool timings, virga_log_fn log, void *user)
 {
     effect_device_lend(gpu);
@@ -138,14 +138,14 @@ static inline void effect_fixture_submit(fixture *gpu)
     REQUIRE(host_wait(&gpu->device, gpu->error, sizeof gpu->error));
 }
 
-/* And tells the library, so that statistics are there at once. */
+/* The same, and reports it to the library, so that statistics are available at once. */
 static inline void effect_fixture_complete(fixture *gpu, virga_context *context)
 {
     effect_fixture_submit(gpu);
     REQUIRE(virga_frame_completed(context, gpu->device.completed) == VIRGA_OK);
 }
 
-/* What passes and copies have written may be copied. */
+/* Makes what passes and copies have written available to copies. */
 static inline void effect_fixture_transfers(VkCommandBuffer cmd)
 {
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
@@ -155,7 +155,7 @@ static inline void effect_fixture_transfers(VkCommandBuffer cmd)
     vkCmdPipelineBarrier(cmd, stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
-/* Copies a whole buffer behind what `to` holds already, and says where it will be. */
+/* Appends a whole buffer to `to` and returns its offset there. */
 static inline const void *effect_fixture_copy(VkCommandBuffer cmd, VkBuffer from, VkDeviceSize size,
                                               const host_buffer *to, VkDeviceSize *offset)
 {
@@ -166,7 +166,8 @@ static inline const void *effect_fixture_copy(VkCommandBuffer cmd, VkBuffer from
     return there;
 }
 
-/* After effects and context are destroyed. Returns what validation said plus what is still alive: 0 is right. */
+/* Call it after effects and context are destroyed. Returns the number of validation messages plus the number of live
+ * objects: 0 if all is correct. */
 static inline uint32_t effect_fixture_end(fixture *gpu, host_buffer *const *buffers, size_t count)
 {
     for (size_t i = 0; i < count; i++)

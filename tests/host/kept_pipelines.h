@@ -1,13 +1,13 @@
-/* kept_pipelines.h - pipelines that outlive the context they were made for, so that each kind is compiled once in a
+/* kept_pipelines.h - a pipeline cache that outlives contexts, so that each kind of pipeline is compiled once per
  * process.
  *
- * Software Vulkan takes 10 to 75 ms for a pipeline, and tests make the same hundred in every case. The first of a kind
- * is kept until kept_forget, whatever becomes of its context: Vulkan lets a pipeline outlive its layout and render
- * pass, and lets it be used with any that are compatible. Validation sees each kind once, with its shaders.
+ * Software Vulkan needs 10 to 75 ms to compile a pipeline, and tests create the same hundred in every case. The first
+ * of a kind is cached until kept_forget, even if its context is destroyed. Vulkan lets a pipeline outlive its layout
+ * and render pass, and lets it be used with any compatible ones. Validation sees each kind once, with its shaders.
  *
- * A shader module is then a number that stands for its code. Two pipelines are of one kind if all that makes them is
- * equal: code, constants, fixed state, and what their render passes must agree in. Layouts follow from the shaders.
- * That is enough for the pipelines of the library. */
+ * A shader module is then a number that identifies its code. Two pipelines are of one kind if all their inputs are
+ * equal: code, constants, fixed state, and the compatibility of their render passes. Layouts follow from the shaders.
+ * That is enough for the library's pipelines. */
 #ifndef VIRGA_TESTS_KEPT_PIPELINES_H
 #define VIRGA_TESTS_KEPT_PIPELINES_H
 
@@ -21,7 +21,7 @@
 
 #include <vulkan/vulkan.h>
 
-/* A description in bytes, to be compared with others. */
+/* A description as bytes, to compare with others. */
 typedef struct kept_key {
     uint32_t size;
     unsigned char bytes[1020];
@@ -37,20 +37,20 @@ static struct kept_all {
     struct kept_code {
         uint32_t *code;
         size_t size;
-    } codes[512]; /* by number of module - 1 */
+    } codes[512]; /* index: number of the module - 1 */
     uint32_t code_count;
     struct kept_pipeline {
         kept_key key;
         VkPipeline pipeline;
     } pipelines[1024];
     uint32_t pipeline_count;
-    kept_pass passes[256]; /* that are alive */
+    kept_pass passes[256]; /* the live ones */
     uint32_t pass_count;
 } kept_all;
 
 #define KEPT_CAPACITY(array) (sizeof(array) / sizeof(array)[0])
 
-/* A limit of this header is reached: raise it. */
+/* A limit of this header is exceeded: increase it. */
 static inline void kept_require(bool condition)
 {
     if (condition)
@@ -76,7 +76,7 @@ static inline bool kept_equal(const kept_key *a, const kept_key *b)
     return a->size == b->size && !memcmp(a->bytes, b->bytes, a->size);
 }
 
-/* ---- render passes: those of hosts too, as vkCreateRenderPass here stands in front of the loader's */
+/* ---- render passes, those of hosts included: this vkCreateRenderPass replaces the loader's */
 
 static inline void kept_add_references(kept_key *key, const VkAttachmentReference *references, uint32_t count)
 {
@@ -85,7 +85,7 @@ static inline void kept_add_references(kept_key *key, const VkAttachmentReferenc
         kept_add_word(key, references[i].attachment);
 }
 
-/* What passes must have in common to be compatible: formats, samples, references and dependencies. */
+/* The properties that compatible passes share: formats, samples, references and dependencies. */
 static inline void kept_describe_pass(const VkRenderPassCreateInfo *info, kept_key *key)
 {
     key->size = 0;
@@ -185,7 +185,7 @@ static inline void kept_add_target(kept_key *key, const VkGraphicsPipelineCreate
     const VkPipelineRenderingCreateInfo *rendering = info->pNext;
     if (info->renderPass) {
         const kept_pass *pass = kept_find_pass(info->renderPass);
-        kept_require(pass); /* made by vkCreateRenderPass above, as all are */
+        kept_require(pass); /* created by vkCreateRenderPass above, like all passes */
         kept_add(key, pass->key.bytes, pass->key.size);
         kept_add_word(key, info->subpass);
     } else {
@@ -212,7 +212,7 @@ static inline void kept_describe_graphics(const VkGraphicsPipelineCreateInfo *in
     kept_add_target(key, info);
 }
 
-/* The pipeline of that kind, or where to keep it. */
+/* The cached pipeline of that kind, or the entry to store it in. */
 static inline VkPipeline *kept_find(VkDevice device, const kept_key *key)
 {
     uint32_t i = 0;
@@ -265,7 +265,7 @@ static inline VkResult kept_graphics(VkDevice device, VkPipelineCache cache, con
     return VK_SUCCESS;
 }
 
-/* Before the device goes. */
+/* Call it before the device is destroyed. */
 static inline void kept_forget(void)
 {
     for (uint32_t i = 0; i < kept_all.pipeline_count; i++)
@@ -277,7 +277,7 @@ static inline void kept_forget(void)
     kept_all.code_count = kept_all.pipeline_count = 0;
 }
 
-/* ---- for a context: these in place of the loader's */
+/* ---- for a context: these functions replace the loader's */
 
 static inline VKAPI_ATTR VkResult VKAPI_CALL kept_CreateShaderModule(VkDevice device,
                                                                      const VkShaderModuleCreateInfo *info,
@@ -358,7 +358,7 @@ static inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL kept_get_device_proc_addr
     return function ? function : vkGetDeviceProcAddr(device, name);
 }
 
-/* What goes into virga_context_def.get_instance_proc_addr. */
+/* The value for virga_context_def.get_instance_proc_addr. */
 static inline VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL kept_get_instance_proc_addr(VkInstance instance,
                                                                                    const char *name)
 {

@@ -9,7 +9,7 @@
 #include "plate_fixture.h"
 #include "temporal_picture.h"
 
-/* Layers in the order in which they are added behind the first, which is the rain's. */
+/* Layers in the order in which they are added after the first, which is the rain's. */
 enum { OFFLINE_SPLASH = HOST_LAYER + 1, OFFLINE_PANE };
 
 typedef struct offline {
@@ -19,16 +19,16 @@ typedef struct offline {
     virga_scene *scene;
     host_target images;
     virga_target *layer;
-    temporal_picture moving; /* for motion vectors and the reactive mask */
+    temporal_picture moving; /* motion vectors and the reactive mask */
     virga_target *moving_target;
     world_street street;
     world_state state;
     uint32_t frame;
-    float low[WORLD_PIXELS * 3], high[WORLD_PIXELS * 3]; /* of all jitters drawn in this frame */
+    float low[WORLD_PIXELS * 3], high[WORLD_PIXELS * 3]; /* min and max of all jitters drawn in this frame */
     double covered[3]; /* share of the picture that splashes, rain and pane cover by 1 % and more, over all jitters */
 } offline;
 
-/* Virga finds its functions through `find`. */
+/* Virga loads its functions through `find`. */
 static inline void offline_open_through(offline *o, uint32_t seed, PFN_vkGetInstanceProcAddr find)
 {
     memset(o, 0, sizeof *o);
@@ -95,7 +95,7 @@ static inline void offline_submit(offline *o)
     REQUIRE(host_wait(&o->f.device, o->f.error, sizeof o->f.error));
 }
 
-/* Runs all frames, without pictures, and takes the state of the last. */
+/* Runs all frames without pictures and copies the state of the last. */
 static inline void offline_run(offline *o, world_bits *bits)
 {
     for (o->frame = 1; o->frame <= WORLD_FRAMES; o->frame++) {
@@ -145,7 +145,7 @@ static inline void offline_pane(offline *o, VkCommandBuffer cmd, virga_view view
     host_target_end_layer(&o->images, cmd);
 }
 
-/* Plate, layers and panes of the newest frame, with that jitter. */
+/* Background, layers and panes of the newest frame, with that jitter. */
 static inline void offline_record(offline *o, VkCommandBuffer cmd, const float jitter_px[2])
 {
     world_moment moment;
@@ -169,7 +169,7 @@ static inline void offline_record(offline *o, VkCommandBuffer cmd, const float j
     picture_end(&o->moving, cmd);
 }
 
-/* Layers over the plate, with a share of 1 in `count`. */
+/* Layers over the background, with a weight of 1 / `count`. */
 static inline void offline_add(offline *o, uint32_t count, float *rgb)
 {
     static const int over[3] = {OFFLINE_SPLASH, HOST_LAYER, OFFLINE_PANE};
@@ -206,10 +206,10 @@ static inline void offline_draw(offline *o, const float (*jitters_px)[2], uint32
     printf("covered by splashes %.3f, rain %.3f, drops on the pane %.3f\n", o->covered[0], o->covered[1],
            o->covered[2]);
     for (int k = 0; k < 3; k++)
-        assert_true(o->covered[k] > 0.01); /* else a host that leaves it out would go unseen */
+        assert_true(o->covered[k] > 0.01); /* otherwise a host that omits it would pass */
 }
 
-/* From here on offline_draw leaves motion vectors and the reactive mask of its last jitter in `moving`. */
+/* From now on offline_draw writes the motion vectors and the reactive mask of its last jitter to `moving`. */
 static inline void offline_add_moving(offline *o)
 {
     picture_open(&o->f.device, WORLD_WIDTH, WORLD_HEIGHT, &o->moving);

@@ -1,4 +1,4 @@
-/* plate_fixture.h - a device with validation on, for tests that draw. A machine without one skips them. */
+/* plate_fixture.h - a device with validation, for tests that draw. Tests are skipped on a machine without a device. */
 #ifndef VIRGA_TESTS_PLATE_FIXTURE_H
 #define VIRGA_TESTS_PLATE_FIXTURE_H
 
@@ -12,7 +12,7 @@ typedef struct fixture {
     host_instance instance;
     host_device device;
     char error[1024];
-    char warning[1024]; /* the last one */
+    char warning[1024]; /* the last warning */
 } fixture;
 
 static inline void fixture_warn(void *user, const char *text)
@@ -21,14 +21,15 @@ static inline void fixture_warn(void *user, const char *text)
     snprintf(f->warning, sizeof f->warning, "%s", text);
 }
 
-/* Software driver and layer stay loaded: a leak checker cannot name what was unloaded, and blames it. */
+/* The software driver and the layer stay loaded: a leak checker cannot name functions of unloaded libraries and would
+ * report false leaks. */
 static inline void fixture_keep_loaded(void)
 {
     dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
     dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
-/* Validation where the layer is installed; VIRGA_VALIDATE=1 insists on it. */
+/* Validation is on if the layer is installed. With VIRGA_VALIDATE=1 it is required. */
 static inline bool fixture_begin(fixture *f)
 {
     host_device_info infos[HOST_MAX_DEVICES];
@@ -49,10 +50,10 @@ static inline bool fixture_begin(fixture *f)
     return true;
 }
 
-/* Live objects plus validation messages of all devices that were destroyed: 0 is right. */
+/* Live objects plus validation messages of all destroyed devices: 0 if all is correct. */
 static uint32_t fixture_wrong;
 
-/* Returns those of this device. */
+/* Returns the number for this device. */
 static inline uint32_t fixture_end(fixture *f)
 {
     const uint32_t live = host_device_destroy(&f->device);
@@ -61,7 +62,7 @@ static inline uint32_t fixture_end(fixture *f)
     return live + f->instance.messages;
 }
 
-/* What main returns, of the number of cases that failed: cmocka does not count the teardown of a group. */
+/* The exit code of main, from the number of failed cases: cmocka does not count the teardown of a group. */
 static inline int fixture_result(int failed)
 {
     return failed + (int)fixture_wrong;

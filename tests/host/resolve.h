@@ -1,11 +1,12 @@
-/* resolve.h - a plain temporal anti-aliasing on the CPU, and how far it is from the truth with and without what Virga
- * tells it: of moving water before a wall with a pattern.
+/* resolve.h - a simple temporal anti-aliasing (TAA) on the CPU, and its error with and without Virga's temporal
+ * outputs. The picture shows moving water in front of a wall with a pattern.
  *
- * Each frame is drawn with a jitter (Halton 2, 3). Its history is fetched, by a Catmull-Rom spline, from where the
- * motion vectors lead, and weighs 0.9; with a neighbourhood clamp it is first cut to the range of the 3 x 3 pixels
- * around. Without Virga's outputs motion vectors are the wall's. With them, pixels that draws have written have their
- * vectors, and the reactive mask takes weight from the history: the larger of this frame's and the last one's at the
- * history's place, as virga_temporal says. The truth is the mean of 16 jittered frames of the same moment. */
+ * Each frame is drawn with a jitter (Halton 2, 3). The history is read with a Catmull-Rom spline at the position that
+ * the motion vector leads to, and has a weight of 0.9. With the neighbourhood clamp it is first clamped to the range of
+ * the 3 x 3 pixels around. Without Virga's outputs the motion vectors are the wall's. With them, pixels that draws have
+ * written have their own vectors, and the reactive mask reduces the weight of the history: the maximum of this frame's
+ * mask and the last one's at the position of the history, as virga_temporal says. The reference is the mean of 16
+ * jittered frames of the same moment. */
 #ifndef VIRGA_TESTS_RESOLVE_H
 #define VIRGA_TESTS_RESOLVE_H
 
@@ -17,15 +18,15 @@ enum { RESOLVE_FRAMES = 24, RESOLVE_WARM = 8, RESOLVE_TRUTH = 16, RESOLVES = 4 }
 
 #define WALL_Z -6.0 /* the wall's plane, m */
 
-/* What a test resolves: `advance` goes on to a frame, `draw` draws it with a jitter into `picture`, and says which
- * cameras it is and the previous frame were seen with. */
+/* Input of a test: `advance` steps to a frame, `draw` draws it with a jitter into `picture` and returns the cameras of
+ * this and the previous frame. */
 typedef struct resolve_scene {
     temporal_picture *picture;
     host_camera now, before;
     const char *name;
     void (*advance)(struct resolve_scene *scene, uint32_t frame);
     void (*draw)(struct resolve_scene *scene, const float jitter_px[2]);
-    const float *wall_motion; /* (optional) in place of that of a wall that stands still, x and y of each pixel */
+    const float *wall_motion; /* (optional) replaces the motion of a static wall, x and y of each pixel */
 } resolve_scene;
 
 /* Root mean square errors, by clamp (0: without, 1: with) and outputs (0: without, 1: with). */
@@ -35,14 +36,14 @@ typedef struct resolve_errors {
 
 /* ---- the wall */
 
-/* Waves of 0.4 to 1 m, as smooth as filtered textures are, at dusk; and every 3 m a post with hard edges. */
+/* Waves of 0.4 to 1 m, as smooth as filtered textures, at dusk; every 3 m a post with hard edges. */
 static inline double wall_light(double x, double y)
 {
     const double post = x / 3 - floor(x / 3);
     return post < 0.05 ? 0.02 : 0.06 + 0.02 * sin(14 * x + 2 * sin(6 * y)) + 0.02 * sin(11 * y - 5 * x);
 }
 
-/* Where the ray through a place of the picture meets the wall. */
+/* Intersection of the wall with the ray through a position of the picture. */
 static inline void wall_position(const host_camera *camera, double x_px, double y_px, double position[3])
 {
     const float *p = camera->clip_from_view, *m = camera->view_from_world;
@@ -56,7 +57,7 @@ static inline void wall_position(const host_camera *camera, double x_px, double 
         position[i] = camera->position_m[i] + way * d[i];
 }
 
-/* Pixels right and down, of a place in the world; the depth along the camera's axis is returned. */
+/* Pixels right and down, of a position in the world. Returns the depth along the camera's axis. */
 static inline double camera_pixel(const host_camera *camera, const double position[3], double pixel[2])
 {
     const float *p = camera->clip_from_view, *m = camera->view_from_world;
@@ -81,7 +82,7 @@ static inline void wall_picture(const host_camera *camera, float *light)
         }
 }
 
-/* From a pixel to where what it shows of the wall was. */
+/* Motion vector of the wall at a pixel: to the position of the same point in the previous frame. */
 static inline void wall_motion(const resolve_scene *scene, size_t pixel, double motion[2])
 {
     const double x = (double)(pixel % scene->now.width) + 0.5, y = (double)(pixel / scene->now.width) + 0.5;
@@ -92,7 +93,7 @@ static inline void wall_motion(const resolve_scene *scene, size_t pixel, double 
     motion[1] = before[1] - y;
 }
 
-/* ---- frames: light of one channel does, as all is grey */
+/* ---- frames: one channel, because everything is grey */
 
 static inline void resolve_compose(const resolve_scene *scene, float *light)
 {
@@ -112,7 +113,7 @@ static inline float bilinear(const float *image, uint32_t width, uint32_t height
            ty * ((1 - tx) * image[at + width] + tx * image[at + width + 1]);
 }
 
-/* Weights of Catmull and Rom's spline, which blurs history less than straight lines between pixels. */
+/* Weights of the Catmull-Rom spline, which blurs the history less than linear interpolation. */
 static inline void spline_weights(double t, double w[4])
 {
     w[0] = ((-0.5 * t + 1) * t - 0.5) * t;
@@ -151,7 +152,7 @@ static inline float clamp_to_neighbours(const float *image, uint32_t width, uint
     return fminf(fmaxf(value, low), high);
 }
 
-/* `history` becomes this frame's; `mask` is the last frame's reactive mask. */
+/* `history` is replaced by this frame's. `mask` is the last frame's reactive mask. */
 static inline void resolve_frame(const resolve_scene *scene, const float *light, const float *mask, bool clamped,
                                  bool outputs, float **history, float **spare)
 {
@@ -177,7 +178,7 @@ static inline void resolve_frame(const resolve_scene *scene, const float *light,
     *spare = swap;
 }
 
-/* ---- pictures, where VIRGA_TEST_PICTURES says a folder: the truth, without outputs, with them, side by side */
+/* ---- pictures, if VIRGA_TEST_PICTURES names a folder: the reference, without outputs, with them, side by side */
 
 static inline void resolve_save(const resolve_scene *scene, const char *kind, const float *const lights[], int count)
 {

@@ -10,8 +10,8 @@
 
 #include <virga/vulkan.h>
 
-#define NO_MOTION 30000.0f /* what the motion is cleared to */
-#define OTHER_ID  77u      /* what the other attachment is cleared to */
+#define NO_MOTION 30000.0f /* clear value of the motion attachment */
+#define OTHER_ID  77u      /* clear value of the other attachment */
 
 enum { PICTURE_COLOR, PICTURE_OTHER, PICTURE_MOTION, PICTURE_REACTIVE, PICTURE_IMAGES };
 
@@ -29,7 +29,7 @@ static const struct {
     uint32_t bytes;
 } picture_formats[PICTURE_IMAGES] = {
     [PICTURE_COLOR] = {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-    [PICTURE_OTHER] = {VK_FORMAT_R32_UINT, 4}, /* a host's own; it stays as it is */
+    [PICTURE_OTHER] = {VK_FORMAT_R32_UINT, 4}, /* an attachment of the host, which draws do not change */
     [PICTURE_MOTION] = {VK_FORMAT_R16G16_SFLOAT, 4},
     [PICTURE_REACTIVE] = {VK_FORMAT_R8_UNORM, 1},
 };
@@ -168,7 +168,7 @@ static inline float picture_half(uint32_t bits)
     return (float)(bits & 0x8000 ? -size : size);
 }
 
-/* Once the device has completed the frame. */
+/* Call it after the device has completed the frame. */
 static inline void picture_read(const host_device *device, temporal_picture *p)
 {
     const size_t pixels = (size_t)p->width * p->height;

@@ -113,7 +113,7 @@ static inline void world_occluders(VkBuffer vertices, VkBuffer indices, virga_oc
 
 /* ---- water */
 
-/* Rain that drives towards the camera, a ground of 12.8 m, splashes, and a pane that catches drops. */
+/* Wind-driven rain towards the camera, a ground of 12.8 m, splashes, and a pane that catches drops. */
 static inline virga_scene_def world_scene_def(uint32_t seed, virga_glass_def *pane)
 {
     virga_scene_def def = virga_default_scene_def();
@@ -219,8 +219,8 @@ static inline void world_at(uint32_t frame, const float jitter_px[2], bool rever
     moment->ripple_center_m[2] -= 2;
 }
 
-/* A pane before the right half of the picture, its outer side away from the camera, with which it moves: u goes to the
- * left, as seen from behind. */
+/* A pane in front of the right half of the picture. Its outer side faces away from the camera, and it moves with the
+ * camera: u points to the left, as seen from behind. */
 static inline virga_scene_pane world_pane(uint32_t frame)
 {
     virga_scene_pane pane = {.pose = {.world_from_pane = {-1, 0, 0, 0, 1, 0, 0, 0, -1},
@@ -239,7 +239,7 @@ static inline virga_scene_pane world_pane(uint32_t frame)
 
 /* ---- pictures: RGB floats */
 
-/* Share of the pixels with a channel that differs by more than `bound`; the root mean square goes to *rms. */
+/* Fraction of the pixels with a channel that differs by more than `bound`; the root mean square goes to *rms. */
 static inline double world_differs(const float *a, const float *b, float bound, double *rms)
 {
     uint32_t beyond = 0;
@@ -257,7 +257,7 @@ static inline double world_differs(const float *a, const float *b, float bound, 
     return beyond / (double)WORLD_PIXELS;
 }
 
-/* Where VIRGA_TEST_PICTURES says a folder: as a portable pixmap, 6 times as large, for looking at. */
+/* If VIRGA_TEST_PICTURES names a folder: writes a portable pixmap, 6 times enlarged, to look at. */
 static inline void world_save(const char *name, const float *rgb)
 {
     const char *folder = getenv("VIRGA_TEST_PICTURES");

@@ -46,7 +46,7 @@ static inline void world_free(void *user, const virga_memory_block *block)
     vkFreeMemory(gpu->device, block->memory, NULL);
 }
 
-/* Exits with 77 where no device can run Virga or has the extensions. */
+/* Exits with 77 if no device can run Virga or has the extensions. */
 static inline VkPhysicalDevice world_pick(world_gpu *gpu, const char *const *extensions, uint32_t extension_count)
 {
     host_device_info infos[HOST_MAX_DEVICES];
@@ -108,11 +108,12 @@ static inline void world_gpu_open(world_gpu *gpu, const char *const *extensions,
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->types);
     gpu->memory = (virga_device_memory){gpu, world_allocate, world_free};
-    dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE); /* a leak checker cannot name what is gone */
+    /* a leak checker cannot name functions of unloaded libraries */
+    dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
     dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
-/* Nothing may be left, and validation may have said nothing. */
+/* All objects must be destroyed, and there must be no validation messages. */
 static inline void world_gpu_close(world_gpu *gpu)
 {
     vkDestroyDevice(gpu->device, NULL);
@@ -129,7 +130,7 @@ static inline virga_context_def world_context_def(const world_gpu *gpu)
     def.queue_family = gpu->family;
     def.get_instance_proc_addr = vkGetInstanceProcAddr;
     def.log = world_log;
-    def.timings = false; /* their barriers around each pass would hide those that are missing */
+    def.timings = false; /* their barriers around each pass would hide missing ones */
     return def;
 }
 
@@ -218,7 +219,7 @@ static inline void world_image_drop(world_gpu *gpu, world_image *image)
     *image = (world_image){0};
 }
 
-/* As Virga is told of it: sampled by compute and fragments in that layout, and left so. */
+/* As given to Virga: sampled by compute and fragment shaders in that layout, which stays the same. */
 static inline virga_image world_image_sampled(const world_image *image, VkImageLayout layout)
 {
     const virga_image_state state = {layout,
@@ -255,7 +256,7 @@ static inline void world_memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlag
     vkCmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
-/* From TRANSFER_SRC_OPTIMAL; a later barrier shows it to the CPU. */
+/* From TRANSFER_SRC_OPTIMAL. A later barrier makes it visible to the CPU. */
 static inline void world_image_read(VkCommandBuffer cmd, const world_image *image, const world_buffer *to)
 {
     const VkBufferImageCopy all = {.imageSubresource = {image->aspect, 0, 0, 1},
@@ -265,16 +266,16 @@ static inline void world_image_read(VkCommandBuffer cmd, const world_image *imag
 
 /* ---- the street, drawn */
 
-#define WORLD_SLOTS 8 /* frames in flight, at most */
+#define WORLD_SLOTS 8 /* max frames in flight */
 
-/* As shaders/street_block.glsl has it. */
+/* Same layout as shaders/street_block.glsl. */
 typedef struct street_block {
     float clip_now[16], clip_before[16];
     int32_t low_cell[2], cells;
     float cell_m, low_m[2], base_m, wetted, size_px[2];
 } street_block;
 
-#define STREET_STRIDE 256 /* of blocks: what any device allows at most */
+#define STREET_STRIDE 256 /* of blocks: the largest offset alignment that a device may require */
 
 typedef struct world_street {
     world_buffer vertices, indices, blocks;
@@ -287,11 +288,11 @@ typedef struct world_street {
     VkPipeline pipeline;
 } world_street;
 
-/* What an engine's passes decide. */
+/* The properties of an engine's passes. */
 typedef struct street_pass {
     VkRenderPass render_pass; /* VK_NULL_HANDLE: `dynamic` */
     const VkPipelineRenderingCreateInfo *dynamic;
-    uint32_t color_count; /* the first takes color; the others nothing, but motion where there is any */
+    uint32_t color_count; /* the first is the colour; the others are unused, except motion if there is any */
     bool motion, reversed;
     VkSampleCountFlagBits samples;
 } street_pass;
@@ -333,7 +334,7 @@ static inline void street_layouts(world_gpu *gpu, world_street *street)
     VK_REQUIRE(vkCreatePipelineLayout(gpu->device, &layout, NULL, &street->layout));
 }
 
-/* Virga's maps stay the same as long as the ground lives. */
+/* Virga's maps do not change while the ground exists. */
 static inline void street_bind_maps(world_gpu *gpu, world_street *street, const virga_ground *ground)
 {
     virga_ground_maps maps;
@@ -363,7 +364,7 @@ static inline VkShaderModule street_module(world_gpu *gpu, const uint32_t *code,
     return made;
 }
 
-/* What is the same in every pass. */
+/* The common part of all passes. */
 static const VkVertexInputBindingDescription street_binding = {0, sizeof(world_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
 static const VkVertexInputAttributeDescription street_attributes[3] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
                                                                        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 12},
@@ -455,7 +456,7 @@ static inline void street_close(world_gpu *gpu, world_street *street)
     world_buffer_drop(gpu, &street->blocks);
 }
 
-/* After the ground's step, inside rendering. `slot` is the frame's among those in flight. */
+/* Call it after the ground's step, inside rendering. `slot` is the frame's index among those in flight. */
 static inline void street_draw(const world_street *street, VkCommandBuffer cmd, const world_moment *moment,
                                const virga_ground *ground, uint32_t slot)
 {
@@ -485,7 +486,7 @@ static inline void street_draw(const world_street *street, VkCommandBuffer cmd, 
     vkCmdDrawIndexed(cmd, WORLD_INDICES, 1, 0, 0, 0);
 }
 
-/* ---- Virga's state, to be compared bit for bit */
+/* ---- Virga's state, for a bitwise comparison */
 
 enum { STATE_DROPS, STATE_IMPACTS, STATE_DROPLETS, STATE_PANE, STATE_FLOORS, STATE_CELLS, STATE_PARTS };
 
@@ -520,7 +521,7 @@ static inline void state_parts(virga_scene *scene, state_part parts[STATE_PARTS]
     parts[STATE_CELLS] = (state_part){cells.cells, 0, cells.size};
 }
 
-/* A buffer with room for all of it. While nothing is being recorded. */
+/* A buffer that is large enough for all of it. Call it while nothing is being recorded. */
 static inline void state_open(world_gpu *gpu, virga_scene *scene, world_state *state)
 {
     state_part parts[STATE_PARTS];
@@ -546,7 +547,7 @@ static inline void state_copy(VkCommandBuffer cmd, virga_scene *scene, const wor
                          VK_ACCESS_HOST_READ_BIT);
 }
 
-/* State on the CPU. Places that hold nothing are zero: what they were left with is no state. */
+/* State on the CPU. Empty slots are zeroed: their old contents are not part of the state. */
 typedef struct world_bits {
     uint8_t *bytes;
     VkDeviceSize offsets[STATE_PARTS + 1];

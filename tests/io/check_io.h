@@ -1,4 +1,4 @@
-/* check_io.h - cmocka, a folder to write in, and ways to make writing fail. */
+/* check_io.h - cmocka, a folder to write to, and ways to make writing fail. */
 #ifndef VIRGA_TESTS_IO_CHECK_IO_H
 #define VIRGA_TESTS_IO_CHECK_IO_H
 
@@ -23,7 +23,7 @@
 static char folder[64];
 static char error[512];
 
-/* Each test begins with an empty folder and no error. */
+/* Each test starts with an empty folder and no error. */
 static inline int make_folder(void **state)
 {
     (void)state;
@@ -56,7 +56,7 @@ static inline int remove_folder(void **state)
     return rmdir(folder);
 }
 
-/* "FOLDER/name"; good until the fourth call from here. */
+/* "FOLDER/name"; valid until the fourth call after this one. */
 static inline const char *in_folder(const char *name)
 {
     static char paths[4][128];
@@ -88,7 +88,7 @@ static inline char *get_file(const char *path, size_t *size)
     return data;
 }
 
-/* Files of this process may not grow beyond `bytes`: writing fails in the middle, as it does on a full disk. */
+/* Limits the size of files of this process to `bytes`: writing fails in the middle, as on a full disk. */
 static inline void limit_files(rlim_t bytes)
 {
     struct rlimit limit;
@@ -106,14 +106,14 @@ static inline void unlimit_files(void)
     setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-/* The error is one line and holds both texts. */
+/* The error is one line and contains both texts. */
 static inline void assert_error(const char *one, const char *other)
 {
     if (!strstr(error, one) || !strstr(error, other) || strchr(error, '\n'))
         fail_msg("error is '%s', expected one line with '%s' and '%s'", error, one, other);
 }
 
-/* A small generator of our own, so that every run sees the same numbers. */
+/* A small random number generator, so that every run sees the same numbers. */
 static inline uint32_t random_bits(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;

@@ -1,4 +1,4 @@
-/* scene_text.h - scene files from text: the smallest one, and ways to load what a test writes. */
+/* scene_text.h - scene files from text: the smallest one, and ways to load a test's text. */
 #ifndef VIRGA_TESTS_IO_SCENE_TEXT_H
 #define VIRGA_TESTS_IO_SCENE_TEXT_H
 

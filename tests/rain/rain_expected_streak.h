@@ -1,5 +1,4 @@
-/* rain_expected_streak.h - where a streak lies, what it covers and what is around it, worked out in doubles from its
- * drop. */
+/* rain_expected_streak.h - the position, coverage and surroundings of a streak, computed in doubles from its drop. */
 #ifndef VIRGA_TESTS_RAIN_EXPECTED_STREAK_H
 #define VIRGA_TESTS_RAIN_EXPECTED_STREAK_H
 
@@ -51,8 +50,8 @@ static inline void to_clip(const host_camera *camera, bool reversed, const doubl
     clip[2] = reversed ? clip[3] - clip[2] : clip[2];
 }
 
-/* What one drop covers: D / way of the time, all of it where it moves by less than D; less where it is narrower than
- * the sampling, times the drops that it stands for up to a quarter, and nothing below 1 / 400. */
+/* Coverage of one drop: D / distance that it moves in the shutter interval; 1 if it moves by less than D. Less if it is
+ * narrower than the sampling. Multiplied by the drops that it represents, up to a quarter. Zero below 1 / 400. */
 static inline double coverage_of(const shot *s, const expected *e)
 {
     const double min = 1.0 / 400, narrow = fmin(e->width_px / (double)s->f.settings.min_width_px, 1);
@@ -60,7 +59,7 @@ static inline double coverage_of(const shot *s, const expected *e)
     return fmin(one * e->weight, fmax(one, 0.25)) * clamp01(one * e->weight / min - 1);
 }
 
-/* False where an end is behind the camera or nearly so. */
+/* False if an end is behind the camera or nearly so. */
 static inline bool expect_streak(const shot *s, uint32_t slot, expected *e)
 {
     const virga_rain *rain = s->f.rain;
@@ -111,7 +110,7 @@ static inline uint32_t slot_of(const virga_streak_gpu *streak)
     return streak->id & ((1u << VIRGA_RAIN_ID_SLOT_BITS) - 1);
 }
 
-/* A streak that falls straight before a level camera, so that all of it is equally far away. */
+/* A streak that falls vertically in front of a level camera, so that all of it has the same depth. */
 static inline int choose_streak(const shot *s, double *distance_m)
 {
     for (uint32_t i = 0; i < streak_count(s); i++) {

@@ -1,4 +1,4 @@
-/* rain_fixture.h - a device with validation on, rain on it, a floor to land on, and read-back of what rain writes. */
+/* rain_fixture.h - a device with validation, rain on it, a floor to land on, and read-back of rain's output. */
 #ifndef VIRGA_TESTS_RAIN_FIXTURE_H
 #define VIRGA_TESTS_RAIN_FIXTURE_H
 
@@ -18,7 +18,7 @@ typedef struct rain_fixture {
     double camera[3];
     double origin[3]; /* of the newest drops read back */
     uint32_t slots;
-    uint32_t errors; /* lines that the library logged as errors */
+    uint32_t errors; /* log lines of the library that are errors */
     virga_log_id last_error;
 } rain_fixture;
 
@@ -33,14 +33,14 @@ static inline void rain_fixture_log(void *user, virga_log_level level, virga_log
     }
 }
 
-/* Device and context, without rain. Exits with 77 where there is no device. */
+/* Device and context, without rain. Exits with 77 if there is no device. */
 static inline void rain_fixture_open(rain_fixture *f)
 {
     memset(f, 0, sizeof *f);
     f->context = effect_fixture_open(&f->gpu, false, rain_fixture_log, f);
 }
 
-/* Quads, each of four corners: positions only. */
+/* Quads of four corners each: positions only. */
 static inline void rain_fixture_quads(rain_fixture *f, const float (*corners)[4][3], uint32_t count)
 {
     uint32_t indices[8 * 6];
@@ -65,7 +65,7 @@ static inline void rain_fixture_quads(rain_fixture *f, const float (*corners)[4]
                                            .material = i + 1};
 }
 
-/* A level floor 200 m wide at height 0. */
+/* A level floor, 200 m on each side, at height 0. */
 static inline void rain_fixture_floor(rain_fixture *f)
 {
     static const float floor_quad[1][4][3] = {{{-100, 0, -100}, {100, 0, -100}, {100, 0, 100}, {-100, 0, 100}}};
@@ -100,7 +100,7 @@ static inline void rain_fixture_step(rain_fixture *f, double dt_s)
     if (f->occluder_count)
         REQUIRE(virga_rain_draw_occlusion(f->rain, cmd, f->camera, f->occluders, f->occluder_count) == VIRGA_OK);
     const virga_rain_step_info info = {.dt_s = dt_s, .camera_m = {f->camera[0], f->camera[1], f->camera[2]}};
-    REQUIRE(virga_rain_step(f->rain, cmd, &info) >= 0); /* ticks may be dropped */
+    REQUIRE(virga_rain_step(f->rain, cmd, &info) >= 0); /* may skip ticks */
     virga_rain_impacts(f->rain, &impacts);
     virga_rain_drops(f->rain, &drops, NULL, f->origin);
     rain_fixture_copy(cmd, &impacts, &f->impacts);
@@ -173,7 +173,7 @@ static inline const virga_point_gpu *rain_fixture_points_step(rain_fixture *f, d
     return read->mapped;
 }
 
-/* Destroys everything and checks that nothing was left and nothing was said by validation. */
+/* Destroys everything and checks that all objects are gone and that there are no validation messages. */
 static inline void rain_fixture_close(rain_fixture *f)
 {
     virga_rain_destroy(&f->rain);

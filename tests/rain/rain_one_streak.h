@@ -1,11 +1,11 @@
-/* rain_one_streak.h - a prepared draw cut down to one of its streaks. */
+/* rain_one_streak.h - a prepared draw, reduced to one of its streaks. */
 #ifndef VIRGA_TESTS_RAIN_ONE_STREAK_H
 #define VIRGA_TESTS_RAIN_ONE_STREAK_H
 
 #include "memory.h"
 #include "rain/rain_internal.h"
 
-/* Between prepare and draw: the streak at a place of the list alone, as a thin one. */
+/* Call it between prepare and draw: only the streak at an index of the list is drawn, as a thin one. */
 static inline void record_only(const virga_rain *rain, VkCommandBuffer cmd, uint32_t streak)
 {
     const virga_draw_gpu draws[3] = {{0, 1, 0, 0, 0}, {0, 1, 0, 0, 0}, {6, 1, 0, 0, 0}};

@@ -1,5 +1,5 @@
-/* rain_picture_fixture.h - rain, a camera in it, the picture that its streaks are drawn into by any way to render, and
- * what prepare wrote for it. */
+/* rain_picture_fixture.h - rain, a camera in it, the picture that its streaks are drawn to by any kind of pass, and the
+ * output of prepare. */
 #ifndef VIRGA_TESTS_RAIN_PICTURE_FIXTURE_H
 #define VIRGA_TESTS_RAIN_PICTURE_FIXTURE_H
 
@@ -14,7 +14,7 @@
 #include "rain/rain_internal.h"
 #include "target.h"
 
-/* ---- a device that can also render dynamically, where there is such a thing */
+/* ---- a device with dynamic rendering, if it is supported */
 
 static bool dynamic_rendering_there;
 static PFN_vkCmdBeginRenderingKHR begin_rendering;
@@ -33,7 +33,7 @@ static inline bool has_dynamic_rendering(VkPhysicalDevice physical)
     return found;
 }
 
-/* Stands in front of the loader's: tools/host asks for no more than it uses, and dynamic rendering it does not use. */
+/* Replaces the loader's: tools/host enables only what it uses, and it does not use dynamic rendering. */
 VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo *info,
                                               const VkAllocationCallbacks *allocator, VkDevice *device)
 {
@@ -59,24 +59,24 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, const V
     return result;
 }
 
-/* ---- a shot: rain, a picture, and what prepare wrote for it */
+/* ---- a shot: rain, a picture, and the output of prepare */
 
 enum { EVERY_STREAK = -1 };
 
 typedef struct shot {
     rain_fixture f;
     host_target picture;
-    tested_pass tested;  /* with the plate's depth attached */
-    virga_target *layer; /* of the pass that is drawn into */
+    tested_pass tested;  /* with the background's depth attached */
+    virga_target *layer; /* of the pass that is drawn to */
     virga_target_def layer_def;
     host_camera camera, open;
-    double shutter_s, frame_interval_s; /* the time drawn is so much before that of the rain */
+    double shutter_s, frame_interval_s; /* s; the drawn time is frame_interval_s before the time of the rain */
     uint32_t sub_frames;
     float aperture_m, focus_m;
     host_buffer streaks, prepared, slots, order;
-    float scene_depth; /* in the depth buffer's terms */
+    float scene_depth; /* depth buffer value */
     bool give_depth, reversed;
-    int only; /* the one streak to be drawn, by its place */
+    int only; /* index of the one streak to draw */
 } shot;
 
 static inline void add_picture(shot *s, uint32_t width, uint32_t height)
@@ -95,7 +95,7 @@ static inline void remove_picture(shot *s)
     host_target_destroy(&s->f.gpu.device, &s->picture);
 }
 
-/* Rain, a camera at a man's height that looks level along -Z. */
+/* Rain, and a camera at eye height that looks level along -Z. */
 static inline void open_shot_of(shot *s, const virga_rain_def *def, float rate_mm_h)
 {
     memset(s, 0, sizeof *s);
@@ -181,7 +181,7 @@ static inline void record_scene_depth(const shot *s, VkCommandBuffer cmd)
     host_target_end_plate(&s->picture, cmd);
 }
 
-/* What prepare left is read back, and its draw cut down to one streak where one is asked for. */
+/* Reads the output of prepare back and reduces its draw to one streak if `only` requests one. */
 static inline void record_prepared(shot *s, VkCommandBuffer cmd)
 {
     const virga_rain *rain = s->f.rain;
