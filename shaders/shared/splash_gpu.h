@@ -57,17 +57,18 @@ struct virga_splash_tick_gpu {
     uint max_returned_droplets;
 };
 
-/* A count of 64 bits. */
+/* A 64-bit count. */
 struct virga_splash_count_gpu {
     uint low;
     uint high;
 };
 
-/* Indices into the counts. From VIRGA_SPLASH_BY_MODEL on: index + model x VIRGA_SPLASH_MATERIALS + material. */
+/* Indices into the counts. Splashes by model and material: VIRGA_SPLASH_BY_MODEL + model x VIRGA_SPLASH_MATERIALS +
+ * material. */
 #define VIRGA_SPLASH_DROPLETS         0 /* droplets */
-#define VIRGA_SPLASH_FALLEN           1
-#define VIRGA_SPLASH_FLOWN            2 /* nl */
-#define VIRGA_SPLASH_RETURNED         3 /* nl */
+#define VIRGA_SPLASH_FALLEN           1 /* droplets that landed */
+#define VIRGA_SPLASH_FLOWN            2 /* nl that flew up */
+#define VIRGA_SPLASH_RETURNED         3 /* nl of it that returned */
 #define VIRGA_SPLASH_WITHOUT_DROPLETS 4
 #define VIRGA_SPLASH_BY_MODEL         5
 #define VIRGA_SPLASH_COUNTS           165
@@ -76,10 +77,10 @@ struct virga_splash_count_gpu {
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
  * from one buffer to the other. */
 struct virga_splash_state_gpu {
-    uint end_droplet; /* number of droplets in this tick, including those that land in it */
-    uint staying;     /* number of droplets that are still in flight after it */
-    uint first_splash;
-    uint end_splash;
+    uint end_droplet;    /* number of droplets in this tick, including those that land in it */
+    uint staying;        /* number of droplets that are still in flight after it */
+    uint first_splash;   /* number of the oldest splash */
+    uint end_splash;     /* number after the newest splash */
     uint tick_droplet;   /* first droplet of this tick */
     uint tick_splash;    /* first splash of this tick */
     uint full_from;      /* rank among this tick's spawns from which on the droplet buffer is full */
@@ -103,11 +104,11 @@ struct virga_splash_state_gpu {
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */
 struct virga_splash_look_gpu {
-    uint tick;    /* the newest tick */
-    float tick_s; /* s, length of a tick */
-    uint style;   /* 0: paper, 1: film */
-    float gain;   /* factor of the coverage */
-    uint max_splashes;
+    uint tick;         /* the newest tick */
+    float tick_s;      /* s, length of a tick */
+    uint style;        /* 0: paper, 1: film */
+    float gain;        /* factor of the coverage */
+    uint max_splashes; /* a power of two */
     uint max_droplets;
     uint max_sprites;
     uint max_crowns;

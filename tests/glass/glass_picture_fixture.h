@@ -1,5 +1,5 @@
-/* glass_picture_fixture.h - a pane whose places a test fills itself, a camera before or behind it, and a plate to
- * see through it. */
+/* glass_picture_fixture.h - a pane whose slots a test fills, a camera behind it or in front of it, and a background
+ * picture to look at. */
 #ifndef VIRGA_TESTS_GLASS_PICTURE_FIXTURE_H
 #define VIRGA_TESTS_GLASS_PICTURE_FIXTURE_H
 
@@ -25,12 +25,12 @@ typedef struct shot {
     virga_target *layer;
     host_image plate; /* what is seen through the pane */
     bool give_color, give_depth;
-    float scene_depth;     /* in the depth buffer's terms */
+    float scene_depth;     /* depth buffer value */
     uint32_t post_columns; /* of the picture, from the left, where the scene has another depth */
     float post_depth;
     host_camera camera;
     virga_glass_pose pose;
-    double late_s; /* drawn so long before the newest tick */
+    double late_s; /* s, from the drawn time to the newest tick */
     host_buffer upload, download;
     const float *map, *relief; /* RGBA of the newest frame, `columns` to a row */
     uint32_t columns, rows;

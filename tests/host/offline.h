@@ -25,7 +25,8 @@ typedef struct offline {
     world_state state;
     uint32_t frame;
     float low[WORLD_PIXELS * 3], high[WORLD_PIXELS * 3]; /* min and max of all jitters drawn in this frame */
-    double covered[3]; /* share of the picture that splashes, rain and pane cover by 1 % and more, over all jitters */
+    /* fraction of the picture that splashes, rain and pane cover by 1 % or more, over all jitters */
+    double covered[3];
 } offline;
 
 /* Virga loads its functions through `find`. */

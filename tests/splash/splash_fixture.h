@@ -66,7 +66,7 @@ static inline void splash_fixture_open(splash_fixture *f, const virga_splash_def
     REQUIRE(virga_splash_create(f->context, given ? given : &small, &f->splash) == VIRGA_OK);
     f->settings = virga_default_splash_settings();
     f->settings.mode = VIRGA_SPLASH_MODE_PAPER;
-    f->settings.wind_share = 1; /* as the paper has it */
+    f->settings.wind_share = 1; /* as in the paper */
     REQUIRE(virga_splash_set(f->splash, &f->settings) == VIRGA_OK);
     splash_fixture_buffers(f);
 }
