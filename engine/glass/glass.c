@@ -1,4 +1,4 @@
-/* glass/glass.c - create, destroy, settings, and what others read. */
+/* glass/glass.c - creates and destroys panes, applies settings, and answers queries. */
 #include "glass/glass_internal.h"
 
 #include "core/light.h"
@@ -132,14 +132,14 @@ static virga_result check_def(const virga_log *log, void *given)
     return VIRGA_OK;
 }
 
-/* Whole cells over the pane; the last may stick out by a part. */
+/* Number of cells that cover a length. The last cell may extend beyond it. */
 uint32_t glass_cells_along(float length_m, float cell_m)
 {
     const double cells = ceil((double)length_m / (double)cell_m - 1e-4);
     return cells < 1 ? 1 : (uint32_t)cells;
 }
 
-/* ---- what it is made of */
+/* ---- resources */
 
 uint32_t glass_film_blocks(const virga_glass_def *def)
 {
@@ -243,10 +243,10 @@ static const virga_effect_buffer buffers[] = {
     {"glass.ranks", AT(ranks), STORAGE_USE, DEVICE, 0, 4, COUNT_SEEDS},
     {"glass.grid", AT(grid), STORAGE_USE, DEVICE, 0, 4, COUNT_GRID, FILL},
     {"glass.moved", AT(moved), STORAGE_USE, DEVICE, 0, 16, COUNT_SLOTS},
-    /* What the pane is like. */
+    /* The surface of the pane. */
     {"glass.surface", AT(surface), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS},
     {"glass.nodes", AT(nodes), VIRGA_USE_TEXELS, DEVICE, NODE_BYTES},
-    /* Its picture. */
+    /* The height map and the draws. */
     {"glass.balls", AT(picture.balls), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_ball_gpu), COUNT_BALLS},
     {"glass.tiles", AT(picture.tiles), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
     {"glass.entries", AT(picture.entries), STORAGE_USE, DEVICE, 0, 4, COUNT_ENTRIES},
@@ -268,8 +268,8 @@ static const virga_effect_ring rings[] = {
 #define WRITTEN_USE  (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)
 #define READ_BACK    VK_IMAGE_USAGE_TRANSFER_SRC_BIT
 
-/* What draws filter is cleared: beside the last texel that a view writes lies one that it does not, and not a number
- * times a weight of 0 is none. */
+/* Images that draws filter are cleared first. The filter also reads texels next to those that a view writes. If such a
+ * texel were NaN, the result would be NaN even with a weight of 0. */
 static const virga_effect_image images[] = {
     {"glass.relief", AT(picture.relief), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT,
      CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
@@ -292,7 +292,7 @@ static const virga_effect_image images[] = {
 
 enum { BIND_IMPACTS = 14 };
 
-/* As in shaders/glass: what each file declares. */
+/* The same bindings as in shaders/glass, where each file declares those it uses. */
 static const virga_binding_kind bindings[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring),
      sizeof(virga_glass_tick_gpu)},                                                     /* 0 */
@@ -365,13 +365,14 @@ static const virga_effect_pass passes[] = {
      .layout = LAYOUT_PICTURE},
 };
 
-/* How many drops it holds and how fine its picture is. Its cells stay: they say where drops can be. */
+/* The sizes that may shrink to fit the memory budget: the number of drops and the resolution of the height map. The
+ * number of cells is fixed, because cells define where drops can be. */
 static const virga_effect_pool pools[] = {
     {"max_drops", offsetof(virga_glass_def, max_drops), VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP},
     {"max_texels", offsetof(virga_glass_def, max_texels), 64, 1},
 };
 
-/* The uploads of the shape. */
+/* Size of the upload buffers of the shape. */
 static VkDeviceSize extra_bytes(const void *given)
 {
     const virga_glass_def *def = given;
@@ -392,7 +393,7 @@ static virga_result create(void *object)
 {
     virga_glass *glass = object;
     const virga_result result = glass_picture_create(glass);
-    return result < 0 ? result : glass_shape_init(glass); /* and the gathers of the shape */
+    return result < 0 ? result : glass_shape_init(glass); /* this also creates the gather passes */
 }
 
 static void destroy(void *object)
@@ -563,7 +564,7 @@ virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *set
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-/* ---- what others read */
+/* ---- queries */
 
 double virga_glass_time(const virga_glass *glass)
 {

@@ -1,4 +1,4 @@
-/* glass/glass.h - what a scene uses of this effect beside its public functions. Internal. */
+/* glass/glass.h - declares what a scene uses of this effect, in addition to its public functions. Internal. */
 #ifndef VIRGA_GLASS_GLASS_H
 #define VIRGA_GLASS_GLASS_H
 

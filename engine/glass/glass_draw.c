@@ -1,4 +1,4 @@
-/* glass/glass_draw.c - what a view sees of a pane: the height map (prepare), drawing. */
+/* glass/glass_draw.c - renders a pane for a view: prepare makes the height map, draw shades it. */
 #include "glass/glass_internal.h"
 
 #include "core/settings.h"
@@ -30,12 +30,12 @@
 #define BLOCK      VIRGA_GLASS_MIST_BLOCK
 #define PI         3.14159265358979323846
 #define GRAVITY    9.80665
-#define UNSEEN     0.0078 /* texels: pixels that lie so near to a dry one are not drawn for the wet one beside it */
-#define MIN_TEXELS 64u    /* of the map, along the longer side, however far away the pane is */
+#define UNSEEN     0.0078 /* texels: a pixel this close to a dry texel does not show the wet texel beside it */
+#define MIN_TEXELS 64u    /* min texels of the map along the pane's longer side, at any distance */
 
-/* ---- the pane, as a view has it */
+/* ---- the size of the pane in a view */
 
-/* The pane's axes in the world; none given: they are the world's. */
+/* Copies the pane's axes in the world. If none are given, they are the world's axes. */
 static void copy_rotation(const virga_glass_pose *pose, float m[9])
 {
     bool none = true;
@@ -59,9 +59,8 @@ static void project(const glass_view_block *block, const float point[3], double 
         clip[i] = (double)p[i] * at[0] + (double)p[4 + i] * at[1] + (double)p[8 + i] * at[2] + (double)p[12 + i];
 }
 
-/* Pixels that a metre of the pane is long on the picture where it is largest, between the 3 x 3 points that outline
- * it; a part
- * that passes the camera counts as large as any. */
+/* Max length in pixels of a metre of the pane, measured between its 3 x 3 outline points. If a point is behind or very
+ * near the camera, the result is a very large number. */
 static double pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
 {
     double pixels[9][2], max = 0;
@@ -90,7 +89,7 @@ static uint32_t whole_tiles(double texels, uint32_t max)
     return (uint32_t)fmin(fmax(tiles, 1), max);
 }
 
-/* About a texel a pixel, whole tiles, not more than there are. */
+/* Sets the resolution of the height map: about one texel per pixel, in whole tiles, within the max size. */
 static void fit_map(const virga_glass *glass, glass_view_block *block)
 {
     const struct glass_picture *picture = &glass->picture;
@@ -107,8 +106,8 @@ static void fit_map(const virga_glass *glass, glass_view_block *block)
     look->written_columns = picture->max_tile_columns;
 }
 
-/* The least of the pane, in pixels, that a metre of it is long at one of the 9 points that outline it, in whatever
- * direction; 0 where one lies behind the camera. The least singular value of the projection's derivative. */
+/* Min length in pixels of a metre of the pane, over its 9 outline points and all directions. It is the smallest
+ * singular value of the Jacobian of the projection. 0 if a point is behind the camera. */
 static double min_pixels_per_metre(const virga_glass *glass, const glass_view_block *block)
 {
     double min = 1e12;
@@ -134,8 +133,8 @@ static double min_pixels_per_metre(const virga_glass *glass, const glass_view_bl
     return min;
 }
 
-/* What a pixel shows is between four texels, so a texel's water shows up to the middles of those beside it. A pixel
- * covers more where the pixel beside it has other water: where one is wider than a texel that is as much farther. */
+/* Sets how far the water of a texel is visible beyond the texel. A pixel interpolates four texels, so water is visible
+ * up to the centers of the neighbour texels. If a pixel is larger than a texel, the difference adds to this distance. */
 static void fit_bounds(const virga_glass *glass, glass_view_block *block)
 {
     const double texel = fmin((double)block->look.texel_m[0], (double)block->look.texel_m[1]);
@@ -143,7 +142,8 @@ static void fit_bounds(const virga_glass *glass, glass_view_block *block)
     block->look.beside = (float)(0.5 - UNSEEN + fmin(fmax(1 / fmax(pixels, 1e-6) - 1, 0), TILE));
 }
 
-/* A cell to a texel, or where cells are much smaller than pixels so many that a texel is about one. */
+/* Sets the resolution of the mist map. A texel holds one cell. If cells are much smaller than pixels, a texel holds
+ * several cells and is about one pixel large. */
 static void fit_mist(virga_glass *glass, virga_glass_picture_gpu *look)
 {
     struct glass_picture *picture = &glass->picture;
@@ -161,7 +161,7 @@ static void fit_mist(virga_glass *glass, virga_glass_picture_gpu *look)
     look->mist_scale[1] = 1 / ((float)cells * glass->def.cell_m * (float)picture->max_mist.height);
 }
 
-/* ---- numbers of a view */
+/* ---- the uniforms of a view */
 
 static void fill_pane(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose,
                       virga_glass_picture_gpu *look)
@@ -233,7 +233,8 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
 
 /* ---- prepare */
 
-/* Tiles have all to be written once, and once more after another style, whose images are others. */
+/* Marks all tiles as holding old contents, so that every tile is written. Needed at the start, and after a change of
+ * the style, because each style has its own images. */
 static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
 {
     struct glass_picture *picture = &glass->picture;
@@ -243,7 +244,7 @@ static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
     picture->has_written = true;
 }
 
-/* Texels of the mist's map in use, whole blocks. */
+/* Columns of the mist map in use, in texels, rounded up to whole blocks. */
 static uint32_t mist_pitch(const struct glass_picture *picture)
 {
     return (picture->mist_size.width + BLOCK - 1) / BLOCK * BLOCK;
@@ -254,13 +255,13 @@ static uint32_t mist_rows(const struct glass_picture *picture)
     return (picture->mist_size.height + BLOCK - 1) / BLOCK * BLOCK;
 }
 
-/* Lists of what lies over each tile begin anew, and so does the mist's map, of which only what has film is made. */
+/* Clears the ball lists of the tiles and the mist map. Later passes write the mist map only where there is film. */
 static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
     struct glass_picture *picture = &glass->picture;
     const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    /* The draw before, of this or an earlier frame, may still read the map and the plate's copies. */
+    /* The previous draw, of this or an earlier frame, may still read the map and the copies of the plate. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
@@ -281,7 +282,7 @@ static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipel
     virga_dispatch_indirect(glass->base.context, cmd, pipeline, glass->picture.work->buffer, groups);
 }
 
-/* The mist's map, from film; and the tiles that have film with a shape. */
+/* Writes the mist map from the film, and the list of tiles with visible film. */
 static void record_film(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
@@ -304,13 +305,13 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
-/* Workgroups of a pass over all tiles in use. */
+/* Number of workgroups of a pass over all tiles in use. */
 static uint32_t tile_groups(const struct glass_picture *picture)
 {
     return (picture->columns / TILE * (picture->rows / TILE) + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP;
 }
 
-/* Balls, and the list of each tile's. */
+/* Writes the balls, and the list of balls of each tile. */
 static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
@@ -326,7 +327,8 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
-/* Smaller copies of the host's picture. Its barriers may have had only draws in mind. */
+/* Makes smaller copies of the host's color image. The host's barriers may cover only fragment shaders, so this adds one
+ * for compute. */
 static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view)
 {
     virga_context *context = glass->base.context;
@@ -359,7 +361,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
-    virga_indirect_barrier(context, cmd); /* both say how much the next has to do */
+    virga_indirect_barrier(context, cmd); /* both gather passes write group counts of later passes */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],
               offsetof(virga_glass_work_gpu, film_groups));
     virga_indirect_barrier(context, cmd);
@@ -382,7 +384,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
                                  2 * sizeof(uint32_t));
 }
 
-/* The passes of all panes, and the gathers of its density and blend. */
+/* Checks that the passes of all panes exist, and the gather passes of this pane's density and blend. */
 static virga_result ready_to_prepare(const virga_glass *glass)
 {
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
@@ -403,7 +405,7 @@ virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose
     return now ? now : glass_axes_check(log, "glass_pose.previous_world_from_pane", pose->previous_world_from_pane);
 }
 
-/* Which side of the pane all of it is seen from; 0 where that is not known. */
+/* The side from which the whole pane is seen. 0 if it is not the same for all points, or too close to edge-on. */
 static uint32_t side_of(const virga_glass *glass, const virga_view *view, const virga_glass_pose *pose)
 {
     float m[9];
@@ -497,7 +499,7 @@ static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
 static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
                                        ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
 
-/* In the order of GLASS_DRAW_... */
+/* In the order of the GLASS_DRAW_... indices. */
 const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
     {"glass.physical", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FRAGMENT_FORMS(glass_draw_physical_frag), physical, 16},
     {"glass.paper", VIRGA_FORM(glass_draw_paper_vert), VIRGA_FRAGMENT_FORMS(glass_draw_paper_frag), paper_draws, 4},

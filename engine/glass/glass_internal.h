@@ -1,13 +1,13 @@
-/* glass/glass_internal.h - the object behind virga_glass, and what its files do for each other. Internal.
+/* glass/glass_internal.h - defines the struct of virga_glass and the functions its files share. Internal.
  *
  *   glass.c          create, destroy, settings, statistics
- *   glass_kinds.c    what holds drops on which surface
- *   glass_shape.c    panes flat and bent, masks, bumps: what the cells know
- *   glass_wipers.c   where blades are at a time
+ *   glass_kinds.c    contact angles and adhesion of each kind of surface
+ *   glass_shape.c    the shape of a pane, its mask and its bump map
+ *   glass_wipers.c   the pose of each wiper blade at a time
  *   glass_step.c     ticks
- *   glass_picture.c  what the height map and the draws need
+ *   glass_picture.c  resources and descriptor sets of the height map and the draws
  *   glass_draw.c     prepare, attach, draw
- *   glass_temporal.c where a pane was in the previous frame's picture
+ *   glass_temporal.c motion of a pane since the previous frame
  */
 #ifndef VIRGA_GLASS_INTERNAL_H
 #define VIRGA_GLASS_INTERNAL_H
@@ -20,53 +20,53 @@
 #include <virga/glass.h>
 #include <virga/shared/glass_gpu.h>
 
-#define GLASS_MAX_ARRIVALS 8192 /* of the rate, in a tick: beyond it each stands for several */
-#define GLASS_MAX_IMPACTS  8192 /* of the host's list, in a step */
+#define GLASS_MAX_ARRIVALS 8192 /* drops from the rain rate in a tick; above it, each drop represents several */
+#define GLASS_MAX_IMPACTS  8192 /* impacts from the host's list in a step */
 
-/* Side of a cell of the particles' grid, at the least. */
+/* Min side of a cell of the particle grid. */
 static inline float glass_min_grid_m(const virga_glass_def *def)
 {
     return def->cell_m > 0.003f ? def->cell_m : 0.003f;
 }
 
-/* What is read back of one frame. */
+/* The data that is read back for one frame. */
 typedef struct glass_readback {
-    virga_glass_state_gpu state;          /* of its step */
-    uint32_t balls, ball_entries_dropped; /* of its prepare, as in virga_glass_work_gpu */
+    virga_glass_state_gpu state;          /* written by the step */
+    uint32_t balls, ball_entries_dropped; /* written by the prepare, as in virga_glass_work_gpu */
 } glass_readback;
 
-enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* of the statistics */
+enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* parts of the statistics */
 
 struct virga_glass {
     virga_effect base; /* first */
     virga_glass_def def;
     uint32_t columns, rows; /* cells */
     virga_glass_settings settings;
-    uint64_t ticks; /* run since creation */
+    uint64_t ticks; /* since creation */
     uint32_t last_tick;
-    double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) at the end of the newest step */
+    double host_deg[VIRGA_GLASS_MAX_WIPERS]; /* (host) wiper angles at the end of the newest step */
     bool host_known;
 
     /* State of the pane. */
     virga_buffer *state, *drops, *picks, *list, *claims, *occupants, *film, *passed, *seeds, *ranks, *grid, *moved,
         *active, *film_blocks;
-    /* What the pane is like: cells (affinity, bump, mask) and the grid of its shape. */
+    /* The surface of the pane: cells (affinity, bump, mask) and the nodes of its shape. */
     virga_buffer *surface, *nodes;
-    virga_buffer *surface_upload, *nodes_upload; /* wait for the next step; NULL: none do */
+    virga_buffer *surface_upload, *nodes_upload; /* copied by the next step; NULL: nothing to copy */
     virga_ring tick_ring;
     uint32_t tick_offset; /* of the newest tick */
     virga_bindings *bindings;
     virga_pipeline *live_mark, *live_scan, *live_compact, *begin_tick, *active_scan, *active_compact, *choose_cell,
         *enter_cell, *capture_mark, *capture, *wipe_film, *split_drops, *empty_bins, *particle_grid, *push_particles,
         *to_drops_claim, *to_drops, *spawn_claim, *spawn_scan, *spawn, *end_tick, *dry_film, *film_compact, *measure;
-    float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, for what lands */
-    float farthest_m;                                        /* of the nodes from the pane's origin */
-    bool masked;                                             /* there may be cells without glass */
-    float outline[9][3];         /* 3 x 3 points of the shape, row by row, for how large it is on a picture */
-    virga_glass_tick_gpu blades; /* of the tick that is recorded */
-    bool particles_ever;         /* there may be particles */
+    float normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES][3]; /* of the nodes, to compute which drops land */
+    float farthest_m;                                        /* max distance of a node from the pane's origin */
+    bool masked;                                             /* some cells may have no glass */
+    float outline[9][3];         /* 3 x 3 points of the shape, row by row, to estimate its size on the image */
+    virga_glass_tick_gpu blades; /* of the tick being recorded */
+    bool particles_ever;         /* particles may exist */
     VkDescriptorSet step_set;
-    VkBuffer impacts; /* of the step that is recorded */
+    VkBuffer impacts; /* of the step being recorded */
     VkDeviceSize impacts_offset;
     virga_glass_stats stats;
 
@@ -75,9 +75,10 @@ struct virga_glass {
 
 /* ---- glass_kinds.c */
 
-/* Water (m^3) of a cap on a base with a radius of 1 m, by its contact angle: pi (2 - 3 cos + cos^3) / (3 sin^3). */
+/* Volume (m^3) of a spherical cap with a base radius of 1 m and this contact angle:
+ * pi (2 - 3 cos + cos^3) / (3 sin^3). */
 double glass_cap_volume(double angle_deg);
-/* Mean of the two angles: that of a drop at rest. */
+/* The contact angle of a drop at rest: the mean of the advancing and the receding angle. */
 double glass_rest_deg(const virga_glass_settings *settings);
 /* See virga_glass_tick_gpu. */
 double glass_hold(const virga_glass_settings *settings);
@@ -92,13 +93,13 @@ void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double sh
 
 /* ---- glass.c */
 
-/* Whole cells over a length; the last may stick out by a part. */
+/* Number of cells that cover a length. The last cell may extend beyond it. */
 uint32_t glass_cells_along(float length_m, float cell_m);
-/* Blocks of VIRGA_GLASS_FILM_BLOCK x VIRGA_GLASS_FILM_BLOCK cells. */
+/* Number of blocks of VIRGA_GLASS_FILM_BLOCK x VIRGA_GLASS_FILM_BLOCK cells. */
 uint32_t glass_film_blocks(const virga_glass_def *def);
 VkDescriptorSet glass_write_set(virga_glass *glass);
 
-/* The pane as its passes know it. */
+/* The description of the pane that its passes read. */
 virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);
 
 /* ---- glass_step.c */

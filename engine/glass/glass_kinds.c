@@ -1,16 +1,17 @@
-/* glass/glass_kinds.c - what holds drops on which surface, and the shapes of drops at rest. */
+/* glass/glass_kinds.c - contact angles, adhesion and drag of drops by kind of surface, and their shape at rest. */
 #include "glass/glass_internal.h"
 
 #include <math.h>
 
 #define PI 3.14159265358979323846
 
-/* Contact angles, advancing and receding, and what differs beside them.
+/* The advancing and receding contact angle of each kind, and the other settings that depend on the kind.
  *
- * The paper's pane lets drops run from a radius of 2.2 mm on (section 4.6). Upright, a drop of base radius a runs when
- * its weight rho g pi f a^3 exceeds 24/pi^3 sigma 2 a (cos r - cos a): with 63 and 38 degrees that is at 2.2 mm. Clean
- * glass and coated glass: within what is published for soda-lime glass after cleaning, and for silane coatings
- * (hysteresis of 10 to 15 degrees); a leaf: the waxy ones, e.g. lotus has even more. */
+ * Paper: drops run from a radius of 2.2 mm on (section 4.6). On a vertical pane, a drop of base radius a runs when its
+ * weight rho g pi f a^3 exceeds 24/pi^3 sigma 2 a (cos r - cos a). With 63 and 38 degrees this radius is 2.2 mm.
+ * Clean glass: in the published range for soda-lime glass after cleaning.
+ * Coated glass: in the published range for silane coatings (hysteresis of 10 to 15 degrees).
+ * Leaf: a waxy leaf. Some have larger angles still, e.g. lotus. */
 static const struct {
     float advancing_deg, receding_deg, kinetic_hold, film_um, tail_max_radius_mm, affinity;
 } kinds[VIRGA_GLASS_KINDS] = {
@@ -46,8 +47,9 @@ double glass_rest_deg(const virga_glass_settings *settings)
     return 0.5 * ((double)settings->advancing_deg + (double)settings->receding_deg);
 }
 
-/* Furmidge 1962: the force along the surface that sets a drop of width 2 a in motion is k sigma 2 a (cos r - cos a);
- * ElSherbini and Jacobi 2006 have k = 24 / pi^3 for the contact angle as it goes around a drop's rim. */
+/* The adhesion force per radius. Furmidge 1962: a drop of width 2 a starts to move when the force along the surface
+ * is k sigma 2 a (cos r - cos a). ElSherbini and Jacobi 2006: k = 24 / pi^3, because the contact angle varies along the
+ * contact line. */
 double glass_hold(const virga_glass_settings *settings)
 {
     const double receding = cos((double)settings->receding_deg * PI / 180);
@@ -55,12 +57,13 @@ double glass_hold(const virga_glass_settings *settings)
     return 24 / (PI * PI * PI) * VIRGA_SURFACE_TENSION * 2 * (receding - advancing);
 }
 
-/* Resistance of a running drop over its speed and the radius of its base.
+/* Viscous drag of a running drop, divided by its speed and by its base radius. It is the sum of two parts, as in Kim,
+ * Lee and Kang 2002.
  *
- * Bulk: a film of the drop's mean height f a sheared at the glass, 3 mu v / (f a) on pi a^2. Wedge: the corner at the
- * rim, after Huh and Scriven 1971 3 mu v ln(L) / t a length of rim, with the dynamic contact angle t and the ratio L of
- * the drop's size to molecules'; the rim's front and back together, seen along the way, are pi a. Kim, Lee and Kang
- * 2002 add the two in the same way. */
+ * Bulk: the shear of a film of the drop's mean height f a. The stress is 3 mu v / (f a), on an area of pi a^2.
+ * Wedge: the shear near the contact line, after Huh and Scriven 1971. The force is 3 mu v ln(L) / t per length of the
+ * contact line. t is the dynamic contact angle, L the ratio of the drop's size to that of a molecule. The front and
+ * back of the contact line together, projected along the motion, have a length of pi a. */
 double glass_drag(const virga_glass_settings *settings)
 {
     const double viscosity = 1.002e-3, log_ratio = 10, angle_deg = glass_rest_deg(settings);

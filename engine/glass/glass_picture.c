@@ -1,4 +1,5 @@
-/* glass/glass_picture.c - what the height map and the draws need: create, destroy, and what their sets hold. */
+/* glass/glass_picture.c - creates and destroys the resources of the height map and the draws, and writes their
+ * descriptor sets. */
 #include "glass/glass_internal.h"
 
 #include "gpu/errors.h"
@@ -29,10 +30,10 @@ static uint32_t blocks_of(uint32_t cells)
     return (cells + VIRGA_GLASS_MIST_BLOCK - 1) / VIRGA_GLASS_MIST_BLOCK;
 }
 
-/* A drop's balls do not lie on those of another, as drops merge: the squares of their radii add up to no more than the
- * pane's texels over pi. One that reaches r texels, which is two to three radii, is in (2 r / 8 + 1)^2 tiles on
- * average: that is a quarter of an entry for each texel of the large ones, and some four entries
- * each for the smallest. */
+/* Estimates the number of ball entries in tiles. The balls of two drops do not overlap, because such drops merge. So
+ * the sum of their squared radii is at most the pane's texels over pi. A ball with a reach of r texels (two to three
+ * radii) is in (2 r / 8 + 1)^2 tiles on average. That is a quarter of an entry per texel for large balls, and about
+ * four entries per ball for the smallest. */
 void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *picture)
 {
     const float longer = def->width_m > def->height_m ? def->width_m : def->height_m;
@@ -59,7 +60,7 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
 
 enum { BIND_RELIEF = 12, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIEWS = 28 };
 
-/* As in shaders/glass: what each file declares. */
+/* The same bindings as in shaders/glass, where each file declares those it uses. */
 const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring),
      sizeof(glass_view_block)},                                                  /* 0 */
@@ -75,13 +76,13 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                           /* 10 */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                       /* 11 */
     [BIND_RELIEF] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.relief)}, /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)},                    /* 13 of the plate, written */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)},                    /* 13 copies of the plate, written */
     {SAMPLED, FRAGMENT | VERTEX, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
     [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                                    /* 15 */
     [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                          /* 16 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.written)},          /* 17 what tiles hold */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.written)},          /* 17 contents of tiles */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.work)},             /* 18 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.corners)}, /* 19 what is to be drawn */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.corners)}, /* 19 indices of the draws */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.relief)},              /* 20 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.mist_map), .sampler = VIRGA_SAMPLER_LINEAR}, /* 21 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                             /* 22 */
@@ -110,10 +111,11 @@ VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, cons
 
 /* ---- creating */
 
-/* Lanes of a subgroup that passes may hand values around in by shuffles; 0: they use shared memory. Of processors
- * alone, where it was measured to gain and where a workgroup of whole subgroups has no lane missing. Other devices
- * may run a shader with fewer lanes than they say, or with some that do not exist, as Vulkan 1.2 cannot ask for full
- * subgroups: what comes out of a lane that is not there is undefined. */
+/* Lanes of a subgroup in which passes exchange values by shuffles. 0: they use shared memory.
+ *
+ * Only software Vulkan uses shuffles. There they were measured to be faster, and a workgroup of whole subgroups has no
+ * inactive lane. Other devices may run a shader with fewer lanes than they report, or with inactive lanes. Vulkan 1.2
+ * can not require full subgroups, and a value read from an inactive lane is undefined. */
 static uint32_t shuffled_lanes(const virga_context *context)
 {
     if (!context->software)
@@ -127,7 +129,7 @@ static uint32_t shuffled_lanes(const virga_context *context)
     return can ? subgroup.subgroupSize : 0;
 }
 
-/* Whether samplers filter four whole floats. */
+/* Whether the device can filter images of four 32-bit floats. */
 static bool can_filter(const virga_context *context)
 {
     VkFormatProperties found;
@@ -143,8 +145,8 @@ uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settin
            (paper && glass->masked ? GLASS_GATHER_MASKED : 0) | (usual_steps ? GLASS_GATHER_USUAL_STEPS : 0);
 }
 
-/* Those for these settings that are not there yet: without film, with sheets of it, and with beads too. All of them
- * would be a hundred and eighty, of which a pane uses three. */
+/* Creates the gather passes for these settings that do not exist yet: without film, with sheets of film, and with
+ * sheets and beads. There are 180 variants in total, and a pane uses three. */
 virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *settings)
 {
     static const uint32_t films[3] = {0, GLASS_GATHER_FILM, GLASS_GATHER_FILM | GLASS_GATHER_BEADS};
@@ -172,7 +174,7 @@ static void retire_gathers(virga_context *context, struct glass_picture *picture
         VIRGA_RETIRE(context, picture->gather_passes[i]);
 }
 
-/* Without and with a mask. */
+/* Creates the relief passes without and with a mask. */
 static virga_result create_reliefs(virga_glass *glass)
 {
     struct glass_picture *picture = &glass->picture;

@@ -1,4 +1,4 @@
-/* glass/glass_shape.c - panes flat and bent, masks, bumps: what nodes and cells know. */
+/* glass/glass_shape.c - the shape of a pane (flat or bent), its mask and its bump map. Fills the nodes and cells. */
 #include "glass/glass_internal.h"
 
 #include "core/settings.h"
@@ -51,7 +51,7 @@ void virga_glass_fill_windshield(float width_m, float height_m, float rake_deg, 
         }
 }
 
-/* Barycentric coordinates of p in a triangle; false where it has no area. */
+/* Barycentric coordinates of p in a triangle. False if the triangle has no area. */
 static bool barycentric(const float *a, const float *b, const float *c, const double p[2], double out[3])
 {
     const double ab[2] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1]};
@@ -65,7 +65,7 @@ static bool barycentric(const float *a, const float *b, const float *c, const do
     return true;
 }
 
-/* The grid points that a triangle covers get their place on it; false where an index is out of range. */
+/* Sets the position of each grid point that the triangle covers. Returns whether it covers any. */
 static bool cover(const float *positions, const float *uvs, const uint32_t corners[3], float width_m, float height_m,
                   uint32_t columns, uint32_t rows, float *grid, uint8_t *mask)
 {
@@ -88,7 +88,7 @@ static bool cover(const float *positions, const float *uvs, const uint32_t corne
     return any;
 }
 
-/* The covered column nearest to `column` in a row, the left one of two; -1 where there is none. */
+/* The covered column nearest to `column` in a row. Of two at the same distance, the left one. -1 if there is none. */
 static float nearest_in_row(const uint8_t *row, uint32_t columns, uint32_t column)
 {
     for (uint32_t away = 0; away < columns; away++) {
@@ -100,8 +100,8 @@ static float nearest_in_row(const uint8_t *row, uint32_t columns, uint32_t colum
     return -1;
 }
 
-/* The covered point nearest to one that is not, the first in order of rows where several are: of each row's nearest.
- * Uncovered points hold them as x. */
+/* The covered grid point nearest to the uncovered point i. Of several at the same distance, the one in the first row.
+ * The x of an uncovered point holds the nearest covered column of its row, see nearest_in_row. */
 static uint32_t nearest_covered(uint32_t columns, uint32_t rows, const float *grid, const uint8_t *mask, uint32_t i)
 {
     const double column = i % columns, row = i / columns;
@@ -118,8 +118,8 @@ static uint32_t nearest_covered(uint32_t columns, uint32_t rows, const float *gr
     return nearest;
 }
 
-/* Grid points beside the mesh go on as the nearest covered ones: their frames must be sound for drops at the rim. What
- * is found is kept where the points will be, so that the largest grid takes seconds and not hours. */
+/* Gives each uncovered grid point the position of the nearest covered one, because drops at the edge need valid frames.
+ * Intermediate results are stored in the grid itself. With them the largest grid needs seconds instead of hours. */
 static void fill_uncovered(uint32_t columns, uint32_t rows, float *grid, const uint8_t *mask)
 {
     for (uint32_t i = 0; i < columns * rows; i++)
@@ -169,7 +169,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* False where there is no direction. */
+/* False if the vector has no direction. */
 static bool normalise(double v[3])
 {
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -178,7 +178,7 @@ static bool normalise(double v[3])
     return length > 1e-9;
 }
 
-/* A point of the shape at shares [0; 1] of its sides, between its four neighbours. */
+/* The point of the shape at (s, t), each in [0; 1], interpolated between four grid points. */
 static void point_of(const virga_glass_shape *shape, double s, double t, float out[3])
 {
     const double x = s * (shape->columns - 1), y = t * (shape->rows - 1);
@@ -233,7 +233,7 @@ static bool fill_nodes(const virga_glass *glass, const virga_glass_shape *shape,
 
 /* ---- cells */
 
-/* Smooth noise: values of a hashed grid, blended by the cubic with even ends. */
+/* Value noise: hashed values on a grid, interpolated by a cubic whose slope is 0 at both ends (smoothstep). */
 static double noise(uint32_t seed, double x, double y)
 {
     const int32_t ix = (int32_t)floor(x), iy = (int32_t)floor(y);
@@ -248,8 +248,9 @@ static double noise(uint32_t seed, double x, double y)
     return (corner[0] * (1 - fx) + corner[1] * fx) * (1 - fy) + (corner[2] * (1 - fx) + corner[3] * fx) * fy;
 }
 
-/* The logarithm of a cell's affinity in standard deviations: spots of the settings' width, and half as strong ones of a
- * third of it. The sum of two even numbers has a variance of 1/6, blending halves it about. */
+/* Logarithm of a cell's affinity, in standard deviations. It is a sum of two octaves of noise. The first has the width
+ * from the settings. The second has a third of this width and half the amplitude. The sum of two uniform random numbers
+ * has a variance of 1/6; interpolation reduces it to about half. */
 static double uneven(const virga_glass *glass, double u, double v)
 {
     const double width = (double)glass->def.affinity_size_m;
@@ -258,7 +259,7 @@ static double uneven(const virga_glass *glass, double u, double v)
     return sum / 0.27;
 }
 
-/* Height of the bump map at a place, repeated, between its four neighbours. */
+/* Height of the bump map at a position: bilinear filter, repeated in both directions. */
 static double bump(const virga_glass_shape *shape, double u, double v)
 {
     const double x = u / (double)shape->bump_width_m * shape->bump_columns,
@@ -309,7 +310,7 @@ static void fill_cells(const virga_glass *glass, const virga_glass_shape *shape,
             const double u = (column + 0.5) * cell, v = (row + 0.5) * cell;
             double affinity = uneven(glass, u, v), slope[2] = {0, 0};
             if (shape->bumps_m) {
-                /* Low places draw drops on: affinity from the bump map, which Chen and Zhang leave to the future. */
+                /* Low areas attract drops. Chen and Zhang name affinity from the bump map as future work. */
                 affinity -= (double)shape->bump_affinity * (bump(shape, u, v) - mean) / deviation;
                 slope[0] = (bump(shape, u + 0.5 * cell, v) - bump(shape, u - 0.5 * cell, v)) / cell;
                 slope[1] = (bump(shape, u, v + 0.5 * cell) - bump(shape, u, v - 0.5 * cell)) / cell;
@@ -322,7 +323,7 @@ static void fill_cells(const virga_glass *glass, const virga_glass_shape *shape,
         }
 }
 
-/* ---- taking it over */
+/* ---- setting a shape */
 
 static virga_result check_shape(const virga_log *log, const virga_glass_shape *shape)
 {
@@ -361,7 +362,7 @@ static virga_result check_shape(const virga_log *log, const virga_glass_shape *s
     return VIRGA_OK;
 }
 
-/* What the host's side needs of it. */
+/* Copies the parts of the shape that the CPU needs later. */
 static void remember(virga_glass *glass, const virga_glass_node_gpu *nodes)
 {
     glass->farthest_m = 0;
@@ -391,7 +392,7 @@ void virga_glass_rectangle(const virga_glass *glass, float corner[3], float alon
     direction(glass->outline[0], glass->outline[6], v);
     cross(u, v, n);
     normalise(n);
-    cross(n, u, v); /* at right angles, as a rectangle's sides are */
+    cross(n, u, v); /* perpendicular to u, as the sides of a rectangle are */
     for (int i = 0; i < 9; i++)
         for (int axis = 0; axis < 3; axis++)
             middle[axis] += (double)glass->outline[i][axis] / 9;
@@ -405,7 +406,7 @@ void virga_glass_rectangle(const virga_glass *glass, float corner[3], float alon
     *height_m = glass->def.height_m;
 }
 
-/* Made whole in new upload buffers, which the next step copies. */
+/* Writes the shape into new upload buffers. The next step copies them. */
 virga_result virga_glass_shape_set(virga_glass *glass, const virga_glass_shape *shape)
 {
     if (!glass)

@@ -1,4 +1,4 @@
-/* glass/glass_step.c - a step: drops land, run, meet blades and dry, tick by tick. */
+/* glass/glass_step.c - records a step. In each tick drops land, run, are wiped by blades, and dry. */
 #include "glass/glass_internal.h"
 
 #include "core/settings.h"
@@ -14,12 +14,12 @@
 #define PI 3.14159265358979323846
 
 #define ROUNDS       VIRGA_GLASS_ROUNDS
-#define RELAX_ROUNDS 8u  /* even: positions end where they began */
-#define DRY_SHARE    16u /* the film of so many parts of the rows dries in turn */
+#define RELAX_ROUNDS 8u  /* even, so the final positions are in the buffer of the initial ones */
+#define DRY_SHARE    16u /* each tick dries the film of 1 / DRY_SHARE of the rows */
 
-#define TAIL_SHARE     0.12f /* of a running drop's water that one left behind gets, at most */
-#define HOLD_BACK      1.27  /* times the radius from which drops run: the most uneven glass holds no larger ones */
-#define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, times half the density below */
+#define TAIL_SHARE     0.12f /* max share of a running drop's water that a drop in its tail gets */
+#define HOLD_BACK      1.27  /* times the min radius of running drops: no glass holds larger drops, however uneven */
+#define DRAG_OF_SPHERE 0.9   /* drag coefficient of a cap in a flow along the glass, without half the density */
 
 /* ---- statistics */
 
@@ -48,7 +48,7 @@ static void read_state(virga_glass_stats *stats, uint64_t frame, const virga_gla
     stats->particles_waiting = state->particles_waiting;
 }
 
-/* A frame may draw without a step, and the other way round. */
+/* A frame may have a prepare without a step, or a step without a prepare: `parts` has a bit for each. */
 void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
     (void)ring_slot;
@@ -63,7 +63,7 @@ void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
     }
 }
 
-/* ---- the world, from the pane */
+/* ---- from the world to the pane's frame */
 
 static void to_pane(const virga_glass_step_info *info, const double world[3], double out[3])
 {
@@ -95,10 +95,10 @@ static void store(const double from[3], float out[3])
         out[i] = (float)from[i];
 }
 
-/* ---- what lands
+/* ---- drops that land
  *
- * Drops of the diameter D fall with their terminal speed v(D) in air that moves with the wind, the pane moves too: seen
- * from it they come with V(D) = wind - v(D) up - pane, and N(D) dD |V . n| of them meet a square metre in a second. */
+ * A drop of diameter D falls at its terminal speed v(D) and is carried by the wind. Its velocity relative to the pane
+ * is V(D) = wind - v(D) up - pane. N(D) dD |V . n| drops hit a square metre per second. */
 
 #define SIZES 128
 
@@ -128,7 +128,7 @@ static void landing_of(virga_glass *glass, const virga_glass_step_info *info, vi
     const double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
     if (!(length > 0))
         return;
-    /* The place of the pane that faces the rain most; others get less by the cosine. */
+    /* Find the node that faces the rain best. Other positions get less rain, by the cosine. */
     double facing = 0, normal[3] = {0, 0, 0};
     for (int i = 0; i < VIRGA_GLASS_NODES * VIRGA_GLASS_NODES; i++) {
         const float *n = glass->normals[i];
@@ -156,7 +156,7 @@ static void landing_of(virga_glass *glass, const virga_glass_step_info *info, vi
     glass_fill_sizes(diameters, fluxes, SIZES, stands_for, tick->sizes_m);
 }
 
-/* Classes of equal numbers, each with the diameter of its drops' mean water. */
+/* Splits the drops into classes of equal number. A class has the diameter of the mean volume of its drops. */
 void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
                       float sizes_m[VIRGA_GLASS_SIZES])
 {
@@ -179,7 +179,7 @@ void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t co
         sizes_m[i] = (float)cbrt(stands_for * water[i] / share);
 }
 
-/* ---- a tick's numbers */
+/* ---- the uniforms of a tick */
 
 static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
 {
@@ -189,7 +189,7 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->hold = (float)glass_hold(s);
     out->drag = (float)glass_drag(s);
     out->kinetic_hold = s->kinetic_hold;
-    /* A cap's section: the circle's segment over its base, a^2 (t - sin t cos t) / sin^2 t. */
+    /* The cross-section of a cap is a circle segment: a^2 (t - sin t cos t) / sin^2 t. */
     const double section = (angle - sin(angle) * cos(angle)) / (sin(angle) * sin(angle));
     out->air_drag = (float)(0.5 * VIRGA_AIR_DENSITY * DRAG_OF_SPHERE * section);
     out->air_share = s->air_share;
@@ -201,7 +201,8 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->tail_spacing_m = s->tail_spacing_m;
     out->tail_share = TAIL_SHARE;
     out->tail_max_radius_m = s->tail_max_radius_mm * 1e-3f;
-    /* One of the largest shrinks away in tail_lifetime_s if its base keeps its shape: water over base over time. */
+    /* The largest tail drop disappears in tail_lifetime_s while the shape of its base stays the same. The rate is
+     * volume / base area / time. */
     out->shrink_nl_s = (float)(cap / PI * (double)s->tail_max_radius_mm * 1e-3 * 1e12 / (double)s->tail_lifetime_s * 3);
     out->film_m = s->film_um * 1e-6f;
     out->evaporation_m_s = s->evaporation_mm_h * 1e-3f / 3600;
@@ -209,9 +210,9 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->cells_per_tick = ROUNDS;
 }
 
-/* The radius from which drops run on this pane as it stands: what holds them (by the radius) against their weight along
- * it (by its cube). The threshold of section 4.6 must not be less, or a drop that holds particles back may stay for
- * ever. */
+/* The min radius of drops that run on this pane in its current pose and motion. The adhesion grows with the radius, the weight
+ * along the pane with its cube. The threshold of section 4.6 must not be smaller than this radius. Otherwise a drop
+ * that holds particles back may never start to run. */
 static double running_radius(const virga_glass *glass, const virga_glass_tick_gpu *tick)
 {
     const float *n = glass->normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES / 2];
@@ -233,7 +234,7 @@ static void fill_particles(const virga_glass *glass, virga_glass_tick_gpu *out)
     const double particle = (double)s->particle_radius_mm * 1e-3;
     const double hold_back = fmax((double)s->hold_back_mm * 1e-3, HOLD_BACK * running_radius(glass, out));
     out->particle_m = (float)particle;
-    /* A hemisphere's, whatever the glass: before a blade water stands as high as that, not as flat as drops at rest. */
+    /* The volume of a hemisphere on every kind of glass: water in front of a blade is higher than a drop at rest. */
     out->particle_nl = (uint32_t)fmax(2 * PI / 3 * particle * particle * particle * 1e12, 1);
     out->penalty = s->penalty;
     out->band_m = (float)((double)s->particle_band * 2 * particle);
@@ -262,7 +263,7 @@ static void fill_motion(const virga_glass *glass, const virga_glass_step_info *i
     store(local, out->spin);
     to_pane(info, air, local);
     store(local, out->air);
-    /* What acts anywhere on the pane, at most: turning pulls the more the farther from the axis. */
+    /* The max acceleration anywhere on the pane. The centrifugal part grows with the distance from the axis. */
     const double spin = length_of(turn);
     out->max_acceleration = (float)(1.01 * (length_of(gravity) + spin * spin * (double)glass->farthest_m));
     out->max_air_m_s = (float)(1.01 * length_of(air) * (double)glass->settings.air_share);
@@ -297,7 +298,7 @@ static void bind(virga_glass *glass, VkCommandBuffer cmd)
                                                   &glass->step_set, 1, &glass->tick_offset);
 }
 
-/* Over the list of places in use, or over all seeds: as large as a pass before it has written at `groups`. */
+/* Dispatches over the list of slots in use, or over all seeds. An earlier pass wrote the group count at `groups`. */
 static void over(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
     virga_dispatch_indirect_and_barrier(glass->base.context, cmd, pipeline, glass->state->buffer, groups);
@@ -343,7 +344,7 @@ static void record_motion(virga_glass *glass, VkCommandBuffer cmd)
     virga_pass_end(glass->base.context, cmd, scope);
 }
 
-/* The cells around all that a blade passes over in a tick. */
+/* Bounds, in cells, of the area that a blade sweeps in a tick. */
 static bool blade_bounds(const virga_glass *glass, const virga_glass_blade_gpu *blade, uint32_t box[4])
 {
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
@@ -359,7 +360,8 @@ static bool blade_bounds(const virga_glass *glass, const virga_glass_blade_gpu *
             high[axis] = fmax(high[axis], corner[axis]);
         }
     }
-    /* The blade's end moves on an arc, which bulges out of the box of its poses by next to nothing in a tick. */
+    /* The tip of the blade moves on an arc. In one tick the arc extends beyond the bounds of the two poses by a
+     * negligible distance. */
     const uint32_t size[2] = {glass->columns, glass->rows};
     for (int axis = 0; axis < 2; axis++) {
         const double first = fmax(floor(low[axis] / (double)glass->def.cell_m) - 1, 0);
@@ -472,7 +474,7 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
     return virga_effect_ready(&glass->base);
 }
 
-/* The motion of pane and air in its ranges. */
+/* Clamps the motion of the pane and of the air to the valid ranges. Returns whether a value changed. */
 static bool clamp_motion(const virga_log *log, virga_glass_step_info *info)
 {
     bool changed = false;
@@ -524,8 +526,8 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     glass->impacts = info->impacts;
     glass->impacts_offset = info->impacts_offset;
     glass->step_set = glass_write_set(glass);
-    glass->impacts = VK_NULL_HANDLE; /* the host's, and not to be looked at again */
-    /* What read drops and film in the frame before is done with them. */
+    glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
+    /* Wait for the previous frame's reads of drops and film. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |

@@ -1,11 +1,11 @@
-/* glass/glass_temporal.c - where a pane was in the previous frame's picture. */
+/* glass/glass_temporal.c - computes the motion of a pane since the previous frame, for motion vectors. */
 #include "glass/glass_internal.h"
 
 #include "gpu/view.h"
 
 #include <string.h>
 
-/* out = a b, of rotations column by column. */
+/* out = a b, for 3 x 3 rotation matrices in column-major order. */
 static void turn(const double a[9], const double b[9], double out[9])
 {
     for (int column = 0; column < 3; column++)
@@ -16,7 +16,7 @@ static void turn(const double a[9], const double b[9], double out[9])
         }
 }
 
-/* A pose that the host has not given is that of now. */
+/* Whether the host gave the previous pose. Otherwise the current pose is used. */
 static bool has_before(const virga_glass_pose *pose)
 {
     for (int i = 0; i < 9; i++)
@@ -25,8 +25,9 @@ static bool has_before(const virga_glass_pose *pose)
     return false;
 }
 
-/* What is at x now, relative to the camera, and stays where it is on the pane, was at Q x + t relative to the previous
- * frame's camera: Q turns the pane's axes now into those of then, and its origin o goes to where it was. */
+/* A point that does not move on the pane is now at x, relative to the camera. In the previous frame it was at Q x + t,
+ * relative to that frame's camera. Q (rotation) maps the pane's current axes to its previous axes. t (shift) follows
+ * from the current and the previous position of the pane's origin. */
 static void motion_of_pane(const virga_view *view, const virga_glass_pose *pose, const float world_from_pane[9],
                            const double camera[3], double rotation[9], double shift[3])
 {
@@ -59,7 +60,7 @@ void glass_fill_before(const virga_view *view, const virga_glass_pose *pose, vir
                 sum += (double)clip[4 * i + row] * way[i];
             look->previous_from_here[4 * column + row] = (float)sum;
         }
-    /* The eye of then: where Q x + t is 0. */
+    /* The previous eye position: the x for which Q x + t is 0. */
     for (int column = 0; column < 3; column++) {
         double sum = 0;
         for (int i = 0; i < 3; i++)

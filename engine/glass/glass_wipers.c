@@ -1,4 +1,4 @@
-/* glass/glass_wipers.c - where blades are at a time. */
+/* glass/glass_wipers.c - computes the pose of each wiper blade at a time. */
 #include "glass/glass_internal.h"
 
 #include <virga/shared/random.h>
@@ -22,8 +22,8 @@ virga_glass_wiper virga_default_glass_wiper(void)
                                .wear = 0.3f};
 }
 
-/* A crank turns a motor's even turning into a swing: half a cosine from end to end, so blades stop before they turn
- * back. */
+/* A crank converts the motor's constant rotation into a swing. The angle follows half a cosine from end to end, so the
+ * speed of a blade is 0 at both ends. */
 double virga_glass_wiper_deg(const virga_glass_wiper *wiper, double time_s)
 {
     if (!wiper)
@@ -52,7 +52,7 @@ static void pose(const virga_glass_wiper *wiper, double arm_deg, float middle[2]
     along[1] = (float)sin(blade);
 }
 
-/* Which side leads: that to which the blade's middle moves. */
+/* The leading side of the blade: the side to which its middle moves. */
 static float leading_side(const virga_glass_blade_gpu *blade)
 {
     const float step[2] = {blade->middle[0] - blade->before_middle[0], blade->middle[1] - blade->before_middle[1]};

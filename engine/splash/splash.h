@@ -1,4 +1,4 @@
-/* splash/splash.h - what a scene uses of this effect beside its public functions. Internal. */
+/* splash/splash.h - declares what a scene uses of this effect, in addition to its public functions. Internal. */
 #ifndef VIRGA_SPLASH_SPLASH_H
 #define VIRGA_SPLASH_SPLASH_H
 
