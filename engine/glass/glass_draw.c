@@ -134,7 +134,7 @@ static double min_pixels_per_metre(const virga_glass *glass, const glass_view_bl
 }
 
 /* Sets how far the water of a texel is visible beyond the texel. A pixel interpolates four texels, so water is visible
- * up to the centers of the neighbour texels. If a pixel is larger than a texel, the difference adds to this distance. */
+ * up to the centers of the neighbour texels. Where a pixel is larger than a texel, the difference is added. */
 static void fit_bounds(const virga_glass *glass, glass_view_block *block)
 {
     const double texel = fmin((double)block->look.texel_m[0], (double)block->look.texel_m[1]);

@@ -210,9 +210,9 @@ static void fill_holding(const virga_glass *glass, virga_glass_tick_gpu *out)
     out->cells_per_tick = ROUNDS;
 }
 
-/* The min radius of drops that run on this pane in its current pose and motion. The adhesion grows with the radius, the weight
- * along the pane with its cube. The threshold of section 4.6 must not be smaller than this radius. Otherwise a drop
- * that holds particles back may never start to run. */
+/* The min radius of drops that run on this pane in its current pose and motion. The adhesion grows with the radius, the
+ * weight along the pane with its cube. The threshold of section 4.6 must not be smaller than this radius. Otherwise a
+ * drop that holds particles back may never start to run. */
 static double running_radius(const virga_glass *glass, const virga_glass_tick_gpu *tick)
 {
     const float *n = glass->normals[VIRGA_GLASS_NODES * VIRGA_GLASS_NODES / 2];

@@ -1,4 +1,4 @@
-/* splash/splash.c - create, destroy, settings, and what others read. */
+/* splash/splash.c - creates and destroys splash objects, applies settings, and answers queries. */
 #include "splash/splash_internal.h"
 
 #include "core/light.h"
@@ -92,20 +92,21 @@ static virga_result check_def(const virga_log *log, void *given)
     return VIRGA_OK;
 }
 
-/* ---- what it is made of */
+/* ---- resources */
 
-/* Quads of sprites, pyramids, the mesh of a sheet, and lines of sprites. */
+/* Number of indices: quads of sprites, pyramids, the mesh of a sheet, and lines of sprites. */
 static VkDeviceSize index_count(const virga_splash_def *def)
 {
     return 20ull * splash_max_sprites(def) + VIRGA_CROWN_INDICES;
 }
 
-/* What storage buffers of this device can hold, its indices count and its dispatches reach. */
+/* Reduces the definition to the device's limits: storage buffer size, max index value and workgroup count. */
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_splash_def *def = given;
     const VkDeviceSize max = context->properties.limits.maxStorageBufferRange;
-    /* Both are wider than a droplet; what they have beside that for each is a block's, which is left out below. */
+    /* Indices and sprites need more bytes per droplet than the droplet itself. The parts of their buffers that do not
+     * grow with droplets fit in one block, which is subtracted below. */
     const VkDeviceSize indices = index_count(def) * sizeof(uint32_t) / def->max_droplets;
     const VkDeviceSize widest = indices > SPLASH_SPRITE_BYTES ? indices : SPLASH_SPRITE_BYTES;
     const VkDeviceSize indexed = context->properties.limits.maxDrawIndexedIndexValue / 8;
@@ -146,12 +147,12 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SPLASHES] = def->max_splashes;
     counts[COUNT_SPAWNS] = def->max_spawns;
     counts[COUNT_RETURNS] = def->max_returned_droplets;
-    /* Of droplets as lines, as quads and for their piles, and of splashes for sprites and for sheets. */
+    /* Three lists of droplets (lines, quads, piles) and two of splashes (sprites, sheets). */
     counts[COUNT_PICK_BYTES] =
         VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
     counts[COUNT_LISTED] = (VkDeviceSize)splash_max_sprites(def) + splash_max_crowns(def);
     counts[COUNT_INDICES] = index_count(def);
-    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one for a new anchor */
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more for a move of the anchor */
     counts[COUNT_VIEWS] = SPLASH_MAX_VIEWS;
 }
 
@@ -185,7 +186,7 @@ static const virga_effect_ring rings[] = {
     {"splash.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(splash_view_block), COUNT_VIEWS},
 };
 
-/* For what a view has not. */
+/* Bound where a view has no depth or color. */
 static const virga_effect_image images[] = {
     {"splash.blank_depth", AT(blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
      VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
@@ -203,7 +204,7 @@ static const virga_effect_image images[] = {
 
 enum { BIND_SPAWNS = 3, BIND_DROPLETS = 6, BIND_KEPT = 12, BIND_DEPTH = 16, BIND_COLOR, BIND_DROPLET_TEXELS };
 
-/* As in shaders/splash: what each file declares. */
+/* The same bindings as in shaders/splash, where each file declares those it uses. */
 static const virga_binding_kind bindings[] = {
     {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_splash_tick_gpu)},   /* 0 */
     {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(splash_view_block)},       /* 1 */
@@ -249,7 +250,7 @@ static const virga_effect_pass passes[] = {
      .forms = VIRGA_SPLASH_FORMS},
 };
 
-/* What lives at a time. What it shares with the ground stays. */
+/* The sizes that may shrink to fit the memory budget. Buffers that are shared with the ground have a fixed size. */
 static const virga_effect_pool pools[] = {
     {"max_splashes", offsetof(virga_splash_def, max_splashes), 256, 0},
     {"max_droplets", offsetof(virga_splash_def, max_droplets), VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
@@ -369,7 +370,7 @@ virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings 
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-/* ---- what others read */
+/* ---- queries */
 
 void splash_push_rules(virga_splash *splash)
 {

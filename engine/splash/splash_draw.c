@@ -1,5 +1,5 @@
-/* splash/splash_draw.c - what a view sees: selection and shading (prepare), pipelines for
- * a target (attach), drawing. */
+/* splash/splash_draw.c - renders splashes for a view: prepare selects and shades sprites, draw records the draw calls.
+ * A table lists the pipelines of a target (attach). */
 #include "splash/splash_internal.h"
 
 #include "gpu/builds.h"
@@ -39,8 +39,8 @@
 
 /* ---- prepare */
 
-/* Which way round triangles come out that are counter-clockwise seen from outside: the sign of the volume that the
- * picture's right, its down and its depth span. */
+/* The winding on the image of triangles that are counter-clockwise seen from outside. It is the sign of the volume
+ * (triple product) of the image's right, down and depth axes. */
 static float handedness(const float clip_from_rel[16])
 {
     const float *m = clip_from_rel; /* columns */
@@ -50,7 +50,7 @@ static float handedness(const float clip_from_rel[16])
     return volume < 0 ? -1.0f : 1.0f;
 }
 
-/* VIRGA_SPLASH_FORM_... of the passes of a prepare. */
+/* VIRGA_SPLASH_FORM_... bits that select the passes of a prepare. */
 static uint32_t choose_form(const virga_splash *splash)
 {
     const virga_splash_settings *settings = &splash->settings;
@@ -81,7 +81,7 @@ static void fill_view(const virga_splash *splash, const virga_view *view, double
                                         .handed = handedness(out->view.clip_from_rel)};
 }
 
-/* What is to be seen of sprites and of sheets, found side by side. */
+/* Lists the visible sprites and sheets. Both lists are made in the same passes. */
 static void record_lists(virga_splash *splash, VkCommandBuffer cmd, uint32_t style)
 {
     virga_context *context = splash->base.context;
@@ -103,7 +103,7 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd, VkDescript
 {
     virga_context *context = splash->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.prepare");
-    /* The draw before, of this or an earlier frame, may still read lists and sprites. */
+    /* The previous draw, of this or an earlier frame, may still read lists and sprites. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -152,7 +152,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     record_prepare(splash, cmd, set, choose_form(splash));
     virga_effect_set_view(&splash->base, set, view->viewport);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
-    splash->prepared_line_px = splash->settings.min_width_px + 1; /* as corners would be, see sprite_corner.glsl */
+    splash->prepared_line_px = splash->settings.min_width_px + 1; /* as wide as quads, see sprite_corner.glsl */
     splash->prepared_style = splash->settings.style;
     return virga_check_uploads(context);
 }
@@ -170,7 +170,7 @@ static const uint32_t plain[2] = {0, DEPTH}, lines[2] = {LINES, LINES | DEPTH}, 
 #define WIDE_FRAGMENT    VIRGA_FRAGMENT_FORMS(splash_draw_sprite_wide_frag)
 #define PYRAMID_FRAGMENT VIRGA_FRAGMENT_FORMS(splash_draw_pyramid_frag)
 
-/* In the order of SPLASH_DRAW_... */
+/* In the order of the SPLASH_DRAW_... indices. */
 const virga_effect_draw splash_draws[SPLASH_DRAW_ROWS] = {
     {"splash.lines", SPRITE_VERTEX, THIN_FRAGMENT, lines, 2, .lines = true},
     {"splash.thin", SPRITE_VERTEX, THIN_FRAGMENT, plain, 2},

@@ -1,7 +1,7 @@
-/* splash/splash_internal.h - the object behind virga_splash, and what its files do for each other. Internal.
+/* splash/splash_internal.h - defines the struct of virga_splash and the functions its files share. Internal.
  *
- *   splash.c         create, destroy, settings, what others read
- *   splash_table.c   which splash on which material
+ *   splash.c         create, destroy, settings, queries
+ *   splash_table.c   the splash rule of each material and state
  *   splash_step.c    ticks
  *   splash_draw.c    prepare, attach, draw
  */
@@ -28,25 +28,25 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
-#define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of passes that know of the style alone */
+#define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of the passes that depend only on the style */
 
-/* What is read back of one frame. */
+/* The data that is read back for one frame. */
 typedef struct splash_readback {
-    virga_splash_state_gpu state;       /* of its step */
-    virga_splash_prepared_gpu prepared; /* of its prepare */
+    virga_splash_state_gpu state;       /* written by the step */
+    virga_splash_prepared_gpu prepared; /* written by the prepare */
 } splash_readback;
 
-enum { SPLASH_PART_STEP, SPLASH_PART_PREPARE }; /* of the statistics */
+enum { SPLASH_PART_STEP, SPLASH_PART_PREPARE }; /* parts of the statistics */
 
-/* A view's block in its ring. */
+/* The uniform block of a view, in its ring. */
 typedef struct splash_view_block {
     virga_view_gpu view;
     virga_splash_look_gpu look;
 } splash_view_block;
 
-/* A target's pipelines: each without and, behind it, with the scene's depth to read. */
+/* Index of each pipeline of a target. The pipeline at an index does not read the scene's depth, the next one does. */
 enum {
-    SPLASH_DRAW_LINES = 0, /* where the context has them */
+    SPLASH_DRAW_LINES = 0, /* if the context draws lines */
     SPLASH_DRAW_THIN = 2,
     SPLASH_DRAW_PUFFS = 4,
     SPLASH_DRAW_WIDE = 6,
@@ -56,7 +56,7 @@ enum {
     SPLASH_DRAW_ROWS = 7
 };
 
-/* A sprite, and behind all of them its motion. */
+/* A sprite and its motion. The buffer holds all sprites first, then the motion of all. */
 #define SPLASH_SPRITE_BYTES (sizeof(virga_sprite_gpu) + 16)
 
 struct virga_splash {
@@ -65,31 +65,31 @@ struct virga_splash {
     virga_splash_settings settings;
     double anchor_m[3];
     bool anchored;
-    uint64_t ticks; /* run since creation */
+    uint64_t ticks; /* since creation */
     uint32_t last_tick;
 
-    virga_buffer *droplet_buffers[2], *droplets; /* the last: that of the two which is current */
+    virga_buffer *droplet_buffers[2], *droplets; /* `droplets` is the current one of the two */
     virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *lists, *sprites,
         *prepared_buffer, *index_buffer;
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
-    virga_image_2d *blank_depth, *blank_color;       /* for what a view has not */
+    virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
     virga_bindings *bindings;
     virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices;
     virga_pipeline *view_scan, *view_compact;
     virga_pipeline *few_mark[SPLASH_STYLES], *droplet_mark[SPLASH_STYLES], *splash_mark[SPLASH_STYLES];
     virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];
 
-    VkDescriptorSet step_sets[2]; /* by which buffer of droplets is current */
+    VkDescriptorSet step_sets[2]; /* by index of the current droplet buffer */
     VkBuffer spawns;
     VkDeviceSize spawns_offset, spawns_range;
     bool prepared_depth;
     virga_splash_style prepared_style;
-    float prepared_line_px; /* width of lines */
+    float prepared_line_px; /* line width */
     virga_splash_stats stats;
 };
 
-/* Places for what one view sees. */
+/* Max number of sprites in one view. */
 static inline uint32_t splash_max_sprites(const virga_splash_def *def)
 {
     return def->max_droplets;
@@ -97,19 +97,19 @@ static inline uint32_t splash_max_sprites(const virga_splash_def *def)
 
 static inline uint32_t splash_max_crowns(const virga_splash_def *def)
 {
-    /* As pyramids they share the indices of sprites. */
+    /* Crowns drawn as pyramids share the index buffer with the sprites. */
     const uint32_t max = def->max_droplets / VIRGA_CROWN_PYRAMIDS;
     return def->max_splashes < max ? def->max_splashes : max;
 }
 
 /* ---- splash.c */
 
-/* `current` is the buffer of droplets; `view` NULL where nothing is drawn with the set. */
+/* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
 uint32_t splash_current(const virga_splash *splash);
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
-/* Writes the rules of this frame, once. */
+/* Writes the rules of this frame. Later calls in the same frame do nothing. */
 void splash_push_rules(virga_splash *splash);
 
 /* ---- splash_step.c */

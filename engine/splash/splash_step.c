@@ -1,4 +1,5 @@
-/* splash/splash_step.c - a step: spawns become splashes, droplets fly, and what fell is given back. */
+/* splash/splash_step.c - records a step: spawns become splashes, droplets fly, and fallen droplets return to the
+ * ground. */
 #include "splash/splash_internal.h"
 
 #include "core/settings.h"
@@ -9,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ANCHOR_M 64.0 /* anchors lie on multiples of it: floats around them are exact to some micrometres */
+#define ANCHOR_M 64.0 /* anchors are multiples of it: floats relative to them are exact to some micrometres */
 
 /* ---- statistics */
 
@@ -34,7 +35,7 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->droplets_alive = state->staying;
 }
 
-/* A frame may draw without a step, and the other way round. */
+/* A frame may have a prepare without a step, or a step without a prepare: `parts` has a bit for each. */
 void splash_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
 {
     (void)ring_slot;
@@ -75,7 +76,7 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
     splash->tick_offset = virga_ring_push(splash->base.context, &splash->tick_ring, &out, sizeof out);
 }
 
-/* As large as a scan before it has written at `groups` in the state. */
+/* Dispatches indirectly. An earlier scan wrote the group count at `groups` in the state. */
 static void over(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
 {
     virga_dispatch_indirect_and_barrier(splash->base.context, cmd, pipeline, splash->state->buffer, groups);
@@ -101,7 +102,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     splash->last_tick = info->first_tick + i;
 }
 
-/* Positions count from an anchor that follows the camera in wide steps. */
+/* Positions are relative to an anchor. When the camera is more than ANCHOR_M away, the anchor moves near it. */
 static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
 {
     double shift[3];
@@ -180,8 +181,8 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
         context, info->spawns_size, sizeof(virga_spawns_gpu) + splash->def.max_spawns * sizeof(virga_spawn_gpu));
     for (uint32_t i = 0; i < 2; i++)
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
-    splash->spawns = VK_NULL_HANDLE; /* the host's, and not to be looked at again */
-    /* What read splashes and droplets in the frame before is done with them; the ground may still read the returns. */
+    splash->spawns = VK_NULL_HANDLE; /* the host owns it and may destroy it */
+    /* Wait for the previous frame's reads of splashes and droplets, and for the ground's reads of returned droplets. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |

@@ -1,11 +1,15 @@
-/* splash/splash_table.c - which splash a drop makes on a material in a state, in one readable place.
+/* splash/splash_table.c - the default splash rule for each material and state of the ground.
  *
- * Asphalt is table 1 of Mizukami et al. as printed. Concrete makes none while it is only moist, and weaker ones than
- * asphalt where a film or a puddle stands on it; 10 mm of water give a crown-cone on all materials; on dry ones a drop
- * leaves a spot, but a disk on dry steel (their sections 2.2 and 4.3). The others are set by likeness: rough and hard
- * as asphalt, smooth and hard as concrete; what is smooth and takes up nothing shows a disk as steel does; soft ones
- * and leaves take most of the drop. Shares of water are ours: the paper has none. They make droplets of 0.3 to 0.7 mm
- * from a drop of 2 mm, as such splashes have (Bai, Rusche and Gosman 2002). */
+ * From Mizukami et al.:
+ *   asphalt    as printed in their table 1
+ *   concrete   no splash while it is only moist; weaker splashes than asphalt with a film or a puddle
+ *   all        a crown-cone on 10 mm of water
+ *   dry        a drop leaves a spot; on dry steel it makes a disk (their sections 2.2 and 4.3)
+ *
+ * The other materials are set by similarity. Rough hard materials are as asphalt, smooth hard ones as concrete. Smooth
+ * materials that absorb no water make a disk, as steel does. Soft materials and leaves absorb the larger part of the
+ * drop. The paper gives no shares of water, so we chose them. With them, a drop of 2 mm makes droplets of 0.3 to
+ * 0.7 mm, which is the size in such splashes (Bai, Rusche and Gosman 2002). */
 #include "splash/splash_internal.h"
 
 #include "core/settings.h"
@@ -16,9 +20,9 @@
 
 /* ---- rows by state */
 
-#define MIN_MM \
-    0.8f /* smaller drops hardly splash: between 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
-                       * where Bai, Rusche and Gosman's droplets begin on a wet wall */
+/* Smaller drops hardly splash. It is between two thresholds: 0.69 mm, where Mundo's We^1/2 Re^1/4 is 57.7, and 0.92 mm,
+ * from which Bai, Rusche and Gosman find droplets on a wet wall. */
+#define MIN_MM 0.8f
 
 static const virga_splash_rule none = {.model = VIRGA_SPLASH_NONE};
 
@@ -51,7 +55,7 @@ static const virga_splash_rule puddle_5 = {.model = VIRGA_SPLASH_SCATTERING,
                                            .strength = 1.0f,
                                            .circle_radius = 1.6f};
 
-/* The angle is that of the cone's droplet; a crown's own piles, where it lets any go, rise at 50 to 80 degrees. */
+/* The angle is that of the cone's droplet. Piles of the crown itself, if there are any, rise at 50 to 80 degrees. */
 static const virga_splash_rule puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
                                             .min_diameter_mm = MIN_MM,
                                             .share = {0.03f, 0.10f},
@@ -61,17 +65,17 @@ static const virga_splash_rule puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
                                             .strength = 1.0f,
                                             .circle_radius = 2.0f};
 
-/* ---- materials: how much of asphalt's splash each makes */
+/* ---- materials: their splashes relative to asphalt */
 
 typedef struct splash_surface {
-    float count, speed, angle; /* times those of asphalt */
-    float wet_depth_mm;        /* of film that a wet surface needs */
+    float count, speed, angle; /* factors of the values of asphalt */
+    float wet_depth_mm;        /* min depth of film for a splash on a wet surface */
     bool dry_disk;
 } splash_surface;
 
 static const splash_surface hard_rough = {1, 1, 1, 0, false};
 static const splash_surface hard_smooth = {0.6f, 0.75f, 0.8f, 0.5f, false};
-static const splash_surface smooth = {1, 1, 1, 0, true}; /* takes up nothing, so any water on it is a film */
+static const splash_surface smooth = {1, 1, 1, 0, true}; /* absorbs nothing, so any water on it is a film */
 static const splash_surface soft = {0.5f, 0.8f, 1, 0, false};
 static const splash_surface yielding = {0.4f, 0.5f, 1, 0.5f, false};
 
@@ -120,7 +124,7 @@ void splash_default_rows(virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GR
         row[VIRGA_GROUND_PUDDLE_3] = adapt_rule(puddle_3, surface);
         row[VIRGA_GROUND_PUDDLE_5] = adapt_rule(puddle_5, surface);
         row[VIRGA_GROUND_PUDDLE_10] = puddle_10;
-        /* What is not ground is taken to be wet: roofs, cars, walls. There is no film to be known there. */
+        /* Surfaces that are not ground (roofs, cars, walls) count as wet. Their film depth is unknown. */
         row[VIRGA_GROUND_NONE] = row[VIRGA_GROUND_WET];
         row[VIRGA_GROUND_NONE].min_depth_mm = 0;
     }
@@ -173,13 +177,13 @@ virga_result splash_check_rows(const virga_log *log,
     return VIRGA_OK;
 }
 
-/* ---- for the device */
+/* ---- uniforms */
 
 void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules)
 {
     const virga_splash_settings *settings = &splash->settings;
     const float degree = 0.0174532925f;
-    /* Splashes last for about a tenth of a second (disks stay, on what is dry only); there are dots beside them. */
+    /* A splash lives about a tenth of a second. Disks live longer, but only on dry ground. There are dots too. */
     rules->mode = (uint32_t)settings->mode;
     rules->quota = (float)(splash->def.max_splashes * splash->def.tick_s / 0.25);
     rules->droplet_range_m = fmaxf(settings->droplet_range_m, 1e-3f);
