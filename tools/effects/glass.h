@@ -1,4 +1,4 @@
-/* glass.h - the panes of a scene file, which drops run down. */
+/* glass.h - declares the panes of a scene file. Drops run down them. */
 #ifndef VIRGA_EFFECTS_GLASS_H
 #define VIRGA_EFFECTS_GLASS_H
 
@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-#define SCENE_FILE_MAX_PANES  16 /* as many as the library's scene takes */
-#define SCENE_FILE_MAX_WIPERS 8  /* of a pane, as many as the library takes */
+#define SCENE_FILE_MAX_PANES  16 /* the max of the library's scene */
+#define SCENE_FILE_MAX_WIPERS 8  /* per pane, the max of the library */
 
-/* Words of panes are numbers of the library: virga/glass.h says what each means. */
+/* Keywords of panes. virga/glass.h explains their meaning. */
 typedef enum scene_pane_shape { SCENE_PANE_FLAT, SCENE_PANE_WINDSHIELD, SCENE_PANE_MESH } scene_pane_shape;
 typedef enum scene_pane_follow { SCENE_PANE_WORLD, SCENE_PANE_CAMERA } scene_pane_follow;
 typedef enum scene_pane_motion { SCENE_PANE_MOTION_PATH, SCENE_PANE_MOTION_GIVEN } scene_pane_motion;
@@ -33,41 +33,41 @@ typedef struct scene_wiper {
     uint32_t drive; /* scene_wiper_drive */
     double sweep_s, pause_s, phase_s;
     double film_mm, wear;
-    scene_wiper_key *keys; /* (keys) by rising time; linear between them, constant outside; at least 1 */
+    scene_wiper_key *keys; /* (keys) in order of time; linear between them, constant outside; min 1 */
     uint32_t key_count;
-    bool drawn; /* arm and blade are seen */
+    bool drawn; /* arm and blade are visible */
 } scene_wiper;
 
 /* A height map of the surface. */
 typedef struct scene_bumps {
-    char *file;        /* a PNG of numbers (see png_read_numbers), as it can be opened; NULL: smooth */
-    double size_mm[2]; /* that the picture covers, along and up; repeated */
-    double depth_mm;   /* of black under white */
+    char *file;        /* path of a PNG with numbers (see png_read_numbers); NULL: smooth */
+    double size_mm[2]; /* width and height that the image covers; it repeats */
+    double depth_mm;   /* depth of black below white */
     double affinity;
 } scene_bumps;
 
-/* Drops on a pane. Numbers behind a pointer are NULL where `kind` has them. */
+/* A pane with its drops. A member that is a pointer to a number is NULL if `kind` gives the number. */
 typedef struct scene_pane {
     char *name;
     uint32_t shape; /* scene_pane_shape */
     double width_m, height_m;
     double rake_deg, bend_m; /* (windshield) */
-    char *mesh;              /* (mesh) in the name of a mesh or its material, in any case */
-    char *mask;              /* a PNG, black where there is no glass, as it can be opened; NULL: glass everywhere */
-    uint32_t follow;         /* scene_pane_follow: what place and angles are given in */
-    /* of the middle of the lower edge (mesh: of the model's origin): in the world, or to the right of the camera, above
-     * it and ahead of it */
+    char *mesh;              /* (mesh) part of the name of a mesh or its material, in upper or lower case */
+    char *mask;              /* path of a PNG, black where there is no glass; NULL: glass everywhere */
+    uint32_t follow;         /* scene_pane_follow: the frame of position and angles */
+    /* Position of the middle of the lower edge (mesh: of the model's origin). In the world, or relative to the camera:
+     * to the right of it, above it and ahead of it. */
     double position_m[3];
-    double yaw_deg;   /* to the left seen from above; at 0 outside faces +Z, or ahead */
-    double pitch_deg; /* back */
-    double roll_deg;  /* to the left seen from outside */
+    double yaw_deg;   /* to the left, seen from above; at 0 the outside faces +Z, or ahead */
+    double pitch_deg; /* backward */
+    double roll_deg;  /* to the left, seen from outside */
     uint32_t motion;  /* scene_pane_motion */
     double velocity_m_s[3], acceleration_m_s2[3], angular_velocity_deg_s[3]; /* (given) in the frame of position_m */
     double shelter;
     double frame_m; /* width of a dark frame around it; 0: none */
     uint32_t kind;  /* virga_glass_kind */
     double *advancing_deg, *receding_deg, *kinetic_hold, *affinity, *film_um, *tail_max_radius_mm;
-    bool *opaque; /* NULL: metal and leaves are */
+    bool *opaque; /* NULL: only metal and leaves are opaque */
     double drag, meander, path_ease, path_dry_s, merge_distance;
     double tail_spacing_m, tail_lifetime_s, film_break_s, evaporation_mm_h, mist_max_mm, air_share;
     scene_wiper *wipers;
@@ -86,7 +86,7 @@ typedef struct scene_pane {
     scene_bumps bumps;
 } scene_pane;
 
-/* All panes, distant ones first. */
+/* All panes, the most distant first. */
 typedef struct scene_glass {
     scene_pane *panes; /* the key `glass` */
     uint32_t pane_count;
@@ -95,12 +95,12 @@ typedef struct scene_glass {
 /* The panes of a scene. */
 scene_glass *scene_glass_of(const scene_file *scene);
 
-/* The keywords that a file has for them. */
+/* The keyword of each value in scene files. */
 const char *scene_pane_shape_name(uint32_t shape);
 const char *scene_pane_kind_name(uint32_t kind);
 const char *scene_pane_style_name(uint32_t style);
 
-/* Angle of the arm of a wiper with keys. */
+/* The angle of the arm at a time, for a wiper that is driven by keys. */
 double scene_wiper_angle_deg(const scene_wiper *wiper, double time_s);
 
 #ifdef __cplusplus

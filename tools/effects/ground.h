@@ -1,4 +1,4 @@
-/* ground.h - the ground of a scene file, which gets wet. */
+/* ground.h - declares the ground of a scene file. The ground gets wet. */
 #ifndef VIRGA_EFFECTS_GROUND_H
 #define VIRGA_EFFECTS_GROUND_H
 
@@ -8,19 +8,19 @@
 extern "C" {
 #endif
 
-#define SCENE_FILE_MAX_MATERIALS 255 /* of a material map, whose pixels are bytes; 255 is none of them */
+#define SCENE_FILE_MAX_MATERIALS 255 /* per material map: its pixels are bytes, and 255 means no material */
 
 typedef struct scene_ground_rule {
-    char *match;    /* in the name of a mesh or its material, in any case */
-    char *material; /* as asphalt, concrete, ... */
-    bool walkable;  /* false: no cells on it */
+    char *match;    /* part of the name of a mesh or its material, in upper or lower case */
+    char *material; /* asphalt, concrete, ... */
+    bool walkable;  /* false: it gets no cells */
 } scene_ground_rule;
 
-/* A picture of materials, over those of meshes. */
+/* An image of materials. It overrides the materials of the meshes. */
 typedef struct scene_material_map {
-    char *file;                 /* a PNG of numbers (see png_read_numbers), as it can be opened; NULL: no map */
-    double low_m[2], high_m[2]; /* corners in x and z: its first pixel lies at low_m, its rows go along x */
-    char **materials;           /* by number; pixels of others leave the mesh's material */
+    char *file;                 /* path of a PNG with numbers (see png_read_numbers); NULL: no map */
+    double low_m[2], high_m[2]; /* corners (x, z): the first pixel is at low_m, rows are along x */
+    char **materials;           /* by number; pixels with other numbers have the mesh's material */
     uint32_t material_count;
 } scene_material_map;
 
@@ -32,7 +32,7 @@ typedef struct scene_ground {
     uint32_t far_cells;
     double evaporation_mm_h;
     double start_wetness, start_water_mm;
-    scene_ground_rule *materials; /* the first that matches counts; none: words in names decide */
+    scene_ground_rule *materials; /* the first match applies; without one, keywords in names decide */
     uint32_t material_count;
     scene_material_map material_map;
 } scene_ground;

@@ -1,16 +1,16 @@
-/* point_columns.h - what the rows of all point caches begin with. */
+/* point_columns.h - defines the columns that all point caches have first. */
 #ifndef VIRGA_EFFECTS_POINT_COLUMNS_H
 #define VIRGA_EFFECTS_POINT_COLUMNS_H
 
 #include "ply.h"
 
-/* Members of a struct of a row. */
+/* The first members of the struct of a row. */
 #define POINT_MEMBERS                         \
     float position[3], velocity[3], radius_m; \
     uint32_t id;                              \
     float age_s
 
-/* The columns of such a struct. */
+/* The PLY columns of these members. */
 #define POINT_COLUMN(type, member, index) (offsetof(type, member) + 4 * (index))
 /* clang-format off */
 #define POINT_COLUMNS(type)                                  \

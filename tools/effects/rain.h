@@ -1,4 +1,4 @@
-/* rain.h - the rain of a scene file. */
+/* rain.h - declares the settings of rain in a scene file. */
 #ifndef VIRGA_EFFECTS_RAIN_H
 #define VIRGA_EFFECTS_RAIN_H
 
@@ -24,7 +24,7 @@ typedef struct scene_rain_key {
 typedef struct scene_rain {
     double rate_mm_h;
     uint32_t sizes;          /* scene_sizes */
-    scene_size_entry *table; /* by rising diameter; at least 2 if sizes is SCENE_SIZES_TABLE */
+    scene_size_entry *table; /* in order of diameter; min 2 entries if sizes is SCENE_SIZES_TABLE */
     uint32_t table_count;
     double air_density;
     double wind_m_s[3];
@@ -36,14 +36,14 @@ typedef struct scene_rain {
     double streak_gain, light_gain, min_width_px, soft_m, near_fade_m, oscillation, haze, haze_sky_m, glow,
         streak_min_mm;
     uint32_t occlusion_size, occlusion_cascades, occlusion_slants, occlusion_interval;
-    scene_rain_key *keys; /* by rising time; linear between them, constant outside; none: rate and wind as above */
+    scene_rain_key *keys; /* in order of time; linear between, constant outside; none: rate_mm_h and wind_m_s apply */
     uint32_t key_count;
 } scene_rain;
 
 /* The rain of a scene. */
 scene_rain *scene_rain_of(const scene_file *scene);
 
-/* Rate and wind at a time, from the keys or without them. */
+/* Rate and wind at a time: from the keys, or constant if there are none. */
 void scene_rain_weather(const scene_rain *rain, double time_s, double *rate_mm_h, double wind_m_s[3]);
 
 #ifdef __cplusplus

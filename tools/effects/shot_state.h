@@ -1,5 +1,5 @@
-/* shot_state.h - a scene file on a device, as the effects of the program see it. tools/virga/shot opens, steps and
- * draws it. */
+/* shot_state.h - declares the shot: a scene file loaded on a device, as the effects see it. tools/virga/shot opens,
+ * steps and draws it. */
 #ifndef VIRGA_EFFECTS_SHOT_STATE_H
 #define VIRGA_EFFECTS_SHOT_STATE_H
 
@@ -15,25 +15,25 @@ extern "C" {
 #define SHOT_MAX_EFFECTS 32
 
 typedef struct shot_options {
-    const char *device; /* NULL: the best */
+    const char *device; /* NULL: choose the best */
     uint32_t width, height;
     uint32_t samples;                     /* sub-frames averaged, at least 1 */
     bool draw;                            /* false: simulation only */
-    bool stats;                           /* statistics are read, also those that cost time on the device */
+    bool stats;                           /* statistics are read, also those that cost device time */
     bool points;                          /* point caches are read back after each step */
     const char *plate;                    /* footage that replaces the opaque scene, see plate.h; NULL: none */
-    uint32_t frames[2];                   /* (plate) first and last to be drawn */
+    uint32_t frames[2];                   /* (plate) first and last frame to be drawn */
     bool live;                            /* for shot_live_record */
-    bool debug_maps;                      /* effects make maps that only a view of `virga view` reads */
-    const char *const *window_extensions; /* (live) of the instance, so that the device can present */
+    bool debug_maps;                      /* effects make maps that only debug views of `virga view` read */
+    const char *const *window_extensions; /* (live) instance extensions needed to present */
     uint32_t window_extension_count;
-    uint32_t water_velocity; /* percent of a pixel from which on water's velocity is its own; 0: it is the plate's */
+    uint32_t water_velocity; /* min coverage (percent) at which a pixel gets the water's velocity; 0: the plate's */
 } shot_options;
 
 struct tool_effect;
 struct tool_layer;
 
-/* A layer that an effect draws, in the order in which they cover each other. */
+/* A layer that an effect draws. Layers are in drawing order: later ones cover earlier ones. */
 typedef struct shot_layer {
     uint32_t effect; /* index in tool_effects */
     const struct tool_layer *layer;
@@ -64,32 +64,32 @@ typedef struct shot {
     void *states[SHOT_MAX_EFFECTS]; /* of each effect, see tool_effect.state_size */
     shot_layer layers[HOST_MAX_LAYERS];
     uint32_t layer_count;
-    virga_target *layer_target;  /* what effects draw into, each into layers of its own */
-    virga_target *moving_target; /* of the pass that draws the velocity of water; NULL where it is not wanted */
+    virga_target *layer_target;  /* effects draw into it, each into its own layers */
+    virga_target *moving_target; /* target of the pass that draws the velocity of water; NULL: not requested */
 
     struct plate *plate;         /* NULL: none */
-    host_buffer plate_buffer;    /* its pixels on their way to the device */
-    uint32_t frame_index;        /* scene frame that the simulation stands at; first - 1 before any */
-    uint32_t preroll;            /* frames of the scene's pre-roll that are still to come */
-    bool began;                  /* time has begun, with the first step */
-    double camera_time_s;        /* of the frame that the simulation stands at */
-    host_camera_key eye_keys[2]; /* (live) a camera of its own that replaces the path: a frame ago, and now */
-    bool eye_free;               /* it is in use */
+    host_buffer plate_buffer;    /* uploads its pixels */
+    uint32_t frame_index;        /* the simulation's current scene frame; first - 1 before the first step */
+    uint32_t preroll;            /* remaining frames of the scene's pre-roll */
+    bool began;                  /* the first step was done */
+    double camera_time_s;        /* time of the simulation's current frame */
+    host_camera_key eye_keys[2]; /* (live) the free camera, which replaces the path: a frame ago, and now */
+    bool eye_free;               /* (live) the free camera is in use */
     char warning[512];           /* newest line that the library logged as warning or error */
     bool input_wrong;            /* opening failed because of the input, not because of the machine */
 } shot;
 
-/* A result of the library as an error line; its log says what went wrong. */
+/* Returns whether a library call succeeded. If not, writes an error line with the library's log message. */
 bool shot_ok(const shot *s, virga_result result, const char *what, char *error, size_t error_size);
 
-/* Notes that what fails here is wrong input. A file that this machine has no memory for counts as such too: it will
- * not have it the next time either. Returns `right`. */
+/* If `right` is false, notes that the input is wrong. This includes a file that is too large for the machine's memory,
+ * because a retry would fail too. Returns `right`. */
 bool shot_blame_input(shot *s, bool right);
 
-/* How long it rains before the first frame: whole frames. */
+/* Length of the pre-roll (rain before the first frame). It is a whole number of frames. */
 double shot_preroll_s(const shot *s);
 
-/* The path of the eye: the scene's, or that of the free camera. */
+/* The camera path: the scene's, or that of the free camera. */
 host_camera_path shot_eye(const shot *s);
 
 /* Row-major 3 x 4 matrix from a mesh of the scene to the world. */
@@ -100,17 +100,17 @@ void shot_mesh_transform(const scene_mesh *mesh, float out[12]);
 typedef struct shot_read {
     host_buffer buffer; /* created on first use */
     uint32_t count;
-    double origin_m[3]; /* that positions count from */
+    double origin_m[3]; /* positions are relative to it */
 } shot_read;
 
-/* Records the copy of points that the step just recorded has made, to where the host reads them. */
+/* Records a copy of the newest step's points into a buffer that the CPU can read. */
 bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize offset, VkDeviceSize size,
                       shot_read *read, char *error, size_t error_size);
 
 /* Waits for the device; returns the points. NULL: none were read back. */
 const void *shot_finish_read(shot *s, shot_read *read, char *error, size_t error_size);
 
-/* A position of the points in the world. */
+/* Converts the position of a point to the world. */
 void shot_read_position(const shot_read *read, const float position[3], float out[3]);
 
 #ifdef __cplusplus

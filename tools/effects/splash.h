@@ -1,4 +1,4 @@
-/* splash.h - the splashes of a scene file. */
+/* splash.h - declares the settings of splashes in a scene file. */
 #ifndef VIRGA_EFFECTS_SPLASH_H
 #define VIRGA_EFFECTS_SPLASH_H
 
@@ -12,7 +12,7 @@ typedef enum scene_splash_mode { SCENE_SPLASH_MODE_PAPER, SCENE_SPLASH_MODE_PHYS
 typedef enum scene_splash_style { SCENE_SPLASH_STYLE_PAPER, SCENE_SPLASH_STYLE_FILM } scene_splash_style;
 
 typedef struct scene_splash {
-    bool on;        /* only where the ground is on too */
+    bool on;        /* needs the ground to be on too */
     uint32_t mode;  /* scene_splash_mode */
     uint32_t style; /* scene_splash_style */
     uint32_t max_splashes, max_droplets;
@@ -26,7 +26,7 @@ typedef struct scene_splash {
 /* The splashes of a scene. */
 scene_splash *scene_splash_of(const scene_file *scene);
 
-/* The keywords that a file has for them. */
+/* The keyword of each value in scene files. */
 const char *scene_splash_mode_name(uint32_t mode);
 const char *scene_splash_style_name(uint32_t style);
 
