@@ -389,7 +389,7 @@ static const tool_layer layers[] = {
      .order = 30,
      .view_title = "Layer: panes",
      .view_help = "drops on panes and what they show, over squares"},
-    /* Whole floats: half of them would step by half a pixel from 512 on. */
+    /* 32-bit floats: half floats have steps of half a pixel from 512 on. */
     {.name = "refraction",
      .channels = {"refraction.X", "refraction.Y"},
      .type = EXR_SAMPLE_FLOAT,

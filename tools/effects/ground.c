@@ -190,8 +190,8 @@ static bool is_used(const scene_file *scene)
     return scene_ground_of(scene)->on;
 }
 
-/* How far ahead the middle of the map of ripples lies: where the camera looks, up to a distance that the lower part of
- * a wide picture shows. */
+/* Distance from the camera to the center of the ripple map. It is the distance to the look-at point, but at most a
+ * distance that is visible in the lower part of a wide image. */
 static double ripples_ahead(const shot *s, double time_s)
 {
     const host_camera_key *key = s->camera_keys;
@@ -263,7 +263,7 @@ static bool open_state(shot *s, void *state, char *error, size_t error_size)
     return open_material_map(s, g, error, error_size);
 }
 
-/* The mirror's plane: the foot of the widest ground under the point that the camera looks at first. */
+/* Sets the mirror plane: the lowest height of the largest ground primitive below the camera's first look-at point. */
 static bool resize(shot *s, void *state, char *error, size_t error_size)
 {
     const ground_state *g = state;
@@ -353,7 +353,7 @@ static const tool_layer layers[] = {
 /* ---- statistics ----------------------------------------------------------------------------------------------- */
 
 /* start + rained_total = elsewhere + absorbed + film + puddle + run_off + evaporated + kept + forgotten + aloft, to the
- * last nanolitre. What is aloft flew up in splashes and has not fallen back. */
+ * last nanolitre. `aloft` is water that flew up in splashes and has not fallen back yet. */
 static void write_water(const virga_ground_stats *now, jsonl *stats)
 {
     jsonl_number(stats, "start", (double)now->start_nl * 1e-3);

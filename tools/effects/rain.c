@@ -178,7 +178,7 @@ static void draw_mirror_haze(void *user, VkCommandBuffer cmd, const virga_view *
         r->mirror_result = result;
 }
 
-/* What puddles mirror is as far away in the rain as what is seen. */
+/* Creates the target for haze in mirrored images. The light path in a mirror passes through the rain too. */
 static bool attach(shot *s, void *state, char *error, size_t error_size)
 {
     rain_state *r = state;
@@ -249,7 +249,7 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     for (int axis = 0; axis < 3; axis++)
         to->wind_m_s[axis] = (float)wind[axis];
     to->air_density = (float)from->air_density;
-    /* Keys say what the rate is at every time; easing towards them would lag behind. */
+    /* Keys give the rate at every time. A transition would lag behind them. */
     to->transition_s = from->key_count ? 0 : (float)from->transition_s;
     to->gust_m_s = (float)from->gust_m_s;
     to->gust_time_s = (float)from->gust_time_s;

@@ -1,4 +1,4 @@
-/* shot_state.c - what effects need of a scene on a device: errors, cameras, and points that are read back. */
+/* shot_state.c - functions on a shot for the effects: errors, cameras, and points that are read back. */
 #include "shot_state.h"
 
 #include <math.h>

@@ -23,8 +23,9 @@ static const char *const names[PASSES] = {"motion", "film",          "balls", "s
 static const char *const passes[PASSES] = {NULL,          "glass.film",  "glass.balls",
                                            "glass.splat", "glass.plate", "glass.draw"};
 
-/* Drops that show a shape at a texel of a millimetre, in the numbers of a shower of 10 mm/h (Marshall and Palmer): the
- * paper's metaballs, without the thousands of fine ones that film and mist would take up. */
+/* Drops that are large enough to have a shape with texels of 1 mm. Their relative numbers are those of a shower of
+ * 10 mm/h (Marshall and Palmer). These are the paper's metaballs, without thousands of fine drops that would become
+ * film and mist. */
 static const double shaped_m[] = {0.0012, 0.002, 0.003, 0.004}, shaped_number[] = {1, 0.132, 0.0105, 0.0008};
 static const virga_sizes shaped = {VIRGA_SIZES_TABLE, shaped_m, shaped_number, 4};
 
@@ -122,7 +123,7 @@ static bool frame(bench *b, pane *p)
            options_complain("bench", "a frame failed");
 }
 
-/* Of the newest frame. Motion is all that has another name than the picture's passes. */
+/* Reads the pass times of the newest frame. Motion is the sum of all glass passes that do not render. */
 static void read_times(const bench *b, double ms[PASSES])
 {
     virga_pass_time times[64];
@@ -137,8 +138,9 @@ static void read_times(const bench *b, double ms[PASSES])
         ms[MOTION] -= ms[j];
 }
 
-/* Rains as little as will do, so that there are not many more metaballs by the end of the timing than asked for, and
- * that drops of all ages lie on the pane: those that have just landed have four metaballs each. */
+/* Rains until the pane has the requested number of metaballs. The rain is as light as possible, for two reasons: the
+ * number must not grow much during the timing, and the pane must have drops of all ages. A drop that has just landed
+ * has four metaballs. */
 static bool get_wet(bench *b, pane *p, uint32_t balls, virga_glass_stats *stats)
 {
     bool good = true;

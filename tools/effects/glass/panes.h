@@ -41,13 +41,13 @@ void glass_point(const glass_pane *pane, double u, double v, double point[3], do
 
 /* ---- pose.c: where panes are */
 
-/* Where a pane is when it is seen by a camera that is at its path's `time_s`. */
+/* The pose of a pane, for a camera at `time_s` of its path. */
 void glass_pose(const shot *s, const scene_pane *pane, double time_s, virga_glass_pose *pose);
 
-/* The same, now and a frame ago. */
+/* The current pose, and that of the previous frame. */
 void glass_pose_moving(const shot *s, const scene_pane *pane, double camera_s, virga_glass_pose *pose);
 
-/* Where it is at a frame's time and how it moves. */
+/* The pose and the motion of a pane at a frame's time. */
 void glass_place(const shot *s, const scene_pane *pane, double time_s, virga_scene_pane *out);
 
 /* ---- wipers.c: what is seen of a pane beside its drops */
@@ -55,7 +55,7 @@ void glass_place(const shot *s, const scene_pane *pane, double time_s, virga_sce
 /* Creates pane->mesh and adds it to the renderer, where the pane has something to show. */
 bool glass_create_mesh(shot *s, glass_pane *pane, char *error, size_t error_size);
 
-/* Records where its frame and its wipers are at a time. Outside rendering. */
+/* Records the update of pane->mesh (frame and wipers) for a time. Outside a render pass. */
 bool glass_move_mesh(shot *s, const glass_pane *pane, VkCommandBuffer cmd, double time_s, char *error,
                      size_t error_size);
 

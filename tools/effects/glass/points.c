@@ -37,7 +37,7 @@ static void turn_to_world(const virga_glass_pose *pose, const double local[3], d
                  (double)pose->world_from_pane[6 + i] * local[2];
 }
 
-/* Along the pane, and with it. */
+/* Velocity in the world: along the pane, plus that of the pane. */
 static void move_drop(const glass_pane *pane, const virga_glass_drop_gpu *from, drop_row *to)
 {
     const double step = 1e-4;

@@ -34,7 +34,7 @@ static void to_world(const frame3 *f, const scene_pane *pane, const double given
         out[axis] = side * given[0] * f->axes[0][axis] + given[1] * f->axes[1][axis] + given[2] * f->axes[2][axis];
 }
 
-/* Turns the first two of three axes, `a` towards `b`. */
+/* Rotates two axes in their plane, `a` towards `b`. */
 static void turn_axes(double a[3], double b[3], double angle_deg)
 {
     const double c = cos(angle_deg * M_PI / 180), sn = sin(angle_deg * M_PI / 180);
@@ -45,7 +45,7 @@ static void turn_axes(double a[3], double b[3], double angle_deg)
     }
 }
 
-/* Yaw first, then pitch about the axis to the right that it has left, then roll. */
+/* Applies yaw, then pitch about the new right axis, then roll. */
 static frame3 pose_of(const shot *s, const scene_pane *pane, double time_s)
 {
     frame3 f = frame_of(s, pane, time_s);
@@ -94,20 +94,20 @@ static void velocity_at(const shot *s, const scene_pane *pane, double time_s, do
     for (int axis = 0; axis < 3; axis++) {
         const int y = (axis + 1) % 3, z = (axis + 2) % 3;
         velocity[axis] = (b.origin[axis] - a.origin[axis]) / time;
-        /* Each axis e turns by turn x e: half the sum of e x de/dt is the turn. */
+        /* The angular velocity w moves each axis e by de/dt = w x e. So w is half the sum of e x de/dt. */
         for (int e = 0; e < 3; e++)
             turn[axis] += 0.5 * (a.axes[e][y] * b.axes[e][z] - a.axes[e][z] * b.axes[e][y]) / time;
     }
 }
 
-/* By differences along the camera's path. Where that ends the pane stands without having braked: a film goes on
- * there with the last picture, and drops that fly off ahead would be no use to it. */
+/* Computes the motion by differences along the camera's path. At the end of the path the pane stops without a
+ * deceleration. A film holds its last image there, and a deceleration would only throw drops forward. */
 static void move_along_path(const shot *s, const scene_pane *pane, double time_s, virga_scene_pane *out)
 {
     double velocity[3], turn[3], before[3], after[3], ignored[3], span[2];
     if (pane->follow != SCENE_PANE_CAMERA)
         return;
-    /* Before the path begins, as through a pre-roll, it drives evenly as it will then. */
+    /* Before the path begins (pre-roll) the pane has the constant velocity of the path's start. */
     const bool ahead = time_s < s->path.keys[0].time_s;
     velocity_at(s, pane, ahead ? s->path.keys[0].time_s : time_s, velocity, turn);
     const bool moves = !ahead && moving_span(s, time_s, 1 / s->scene->frames.fps, span);

@@ -50,7 +50,7 @@ static bool read_bumps(const scene_file *scene, uint32_t pane, uint32_t *columns
     return *bumps_m || host_fail(error, error_size, "no memory for %s", from->file);
 }
 
-/* Where it has no glass is 0, rows from below: needs free(). NULL where it has no such picture. */
+/* The mask of the pane: 0 where it has no glass, rows from below. Needs free(). NULL if it has no mask. */
 static bool read_mask(const scene_file *scene, uint32_t pane, uint32_t *columns, uint32_t *rows, uint8_t **mask,
                       char *error, size_t error_size)
 {
@@ -223,7 +223,7 @@ static const float *node(const glass_pane *pane, uint32_t column, uint32_t row)
     return pane->positions + 3 * ((size_t)row * pane->columns + column);
 }
 
-/* The square of the grid that a point lies in, or the nearest one, and where the point is in it, or beside it. */
+/* The grid cell that contains a point, or the nearest one, and the point's coordinates relative to it. */
 static uint32_t find_square(double share, uint32_t points, double *inside)
 {
     const double at = share * (points - 1);

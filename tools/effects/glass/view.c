@@ -79,7 +79,7 @@ static void print_pane(const void *state, uint32_t item, char *text, size_t size
     snprintf(text, size, "pane %%d: %.40s", pane_of(state, item)->from->name);
 }
 
-/* Both ends of a blade, as the library places it. */
+/* Both ends of a blade, computed as in the library. */
 static void fill_blade(const scene_wiper *from, const virga_glass_wiper *wiper, double time_s, float ends[4])
 {
     const double arm_deg = from->drive == SCENE_WIPER_KEYS ? scene_wiper_angle_deg(from, time_s)

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What every step has, and what those have besides in which the window and the map beyond it move. */
+/* The passes of every step. The last two run only when the window and the map beyond it move. */
 static const char *const passes[] = {"ground.land",    "ground.flow",   "ground.ripples", "ground.map",
                                      "ground.measure", "ground.window", "ground.far"};
 

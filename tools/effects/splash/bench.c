@@ -1,9 +1,9 @@
 /* bench.c - `virga bench splash`: table 2 of Mizukami et al. (frames a second of splashes by their number and by
  * what they fall on), on from there to a million, and how far each pass is from what the machine can do.
  *
- * A splash is live from its impact until its last droplet is down. Live ones are rate x mean life (Little 1961): a
- * warm-up measures the life of a row's splashes, and the rate follows from it. How many were live is counted, not taken
- * for granted. */
+ * A splash is live from its impact until its last droplet has landed. The number of live splashes is rate x mean life
+ * (Little 1961). A warm-up measures the mean life for a row, which gives the rate. The number of live splashes is then
+ * counted, not assumed. */
 #include "effect.h"
 #include "options.h"
 #include "progress.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_TICKS   60 /* timed; after ENOUGH_S the usual number will do, and after PATIENCE_S the least */
+#define MAX_TICKS   60 /* max timed; after ENOUGH_S the usual number is enough, and after PATIENCE_S the min number */
 #define USUAL_TICKS 30
 #define MIN_TICKS   3
 #define ENOUGH_S    2.0
@@ -62,7 +62,8 @@ static bool show(run *r, bool draw, bool count, double *ms)
     return bench_submit(r->b, ms);
 }
 
-/* Timestamps lie on software Vulkan, so passes are whole submissions, less what they share with emptier ones. */
+/* Timestamps are wrong on software Vulkan. So the time of a pass is that of a whole submission, minus that of a
+ * submission without the pass. */
 static bool time_tick(run *r, tick_times *t, uint32_t i)
 {
     if (!splash_bench_time_frame(r->b, &r->picture, NOTHING, &t->empty[i]) ||
@@ -95,7 +96,7 @@ static bool time_ticks(run *r, cell *c)
     return true;
 }
 
-/* What was there at the end of the timing. */
+/* Reads the counts at the end of the timing. */
 static bool look_around(run *r, cell *c)
 {
     double ms;
@@ -117,11 +118,11 @@ static bool measure_cell(run *r, const splash_life *life, cell *c)
     double ms;
     const double rate = c->wanted / life->mean;
     r->far_m = c->wanted > 3000 ? 60 : 10;
-    /* A view has room for as many sprites as there is for droplets, each of which may have a pile too, and for as many
-     * pyramids of crowns; a fifth of that is to spare. */
+    /* A view holds as many sprites as max_droplets, and as many crown pyramids. A droplet may also have a pile, which
+     * is a second sprite. Add a reserve of one fifth. */
     const double droplets = 1.2 * fmax(2 * life->droplets, PYRAMIDS * life->crown) * rate;
     bool good = splash_bench_open_splash(r, 1.5 * c->wanted, droplets, rate);
-    /* Pipelines are compiled while little is there. */
+    /* The first tick and draw compile the pipelines, with few splashes. */
     good = good && splash_bench_step(r, splash_bench_next_spawns(r), &ms) && show(r, true, true, &ms);
     for (uint32_t i = 0; good && i < life->settled && !interrupt_requested(); i++)
         good = splash_bench_step(r, splash_bench_next_spawns(r), &ms);

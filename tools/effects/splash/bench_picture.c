@@ -1,4 +1,4 @@
-/* bench_picture.c - the picture that splashes are drawn into, and what the machine does with it at best. */
+/* bench_picture.c - creates the image that splashes are drawn into, and measures the machine's max speed with it. */
 #include "splash/bench_splash.h"
 
 /* machine_limits.c has the same arrays, and they are global. */

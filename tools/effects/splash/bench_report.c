@@ -1,11 +1,11 @@
-/* bench_report.c - what is said of splashes: a table beside the paper's, and how far from limits passes are. */
+/* bench_report.c - prints the results: a table that compares them with the paper, and each pass with its limit. */
 #include "bench/machine_limits.h"
 #include "splash/bench_splash.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#define COPY_DROPLETS 262144u /* copied at the least: fewer would be in a cache */
+#define COPY_DROPLETS 262144u /* min number to copy: fewer would fit in a cache */
 
 static const char *const pass_names[BENCH_PASSES] = {"step", "prepare", "draw"};
 
@@ -62,7 +62,7 @@ void splash_bench_print_cell(const bench_splash_choice *choice, const cell *c)
 
 /* ---- limits */
 
-/* Triangles of a draw; of the paper's style about, as nothing says which sprites are pyramids. */
+/* Number of triangles of a draw. An estimate for the paper style, as the sprites that are pyramids are unknown. */
 static double triangles_of(const bench_splash_choice *choice, const cell *c)
 {
     const air_counts *air = &c->air;
@@ -80,7 +80,7 @@ bool splash_bench_measure_limits(run *r, const cell *c, cell_limits *l)
     limits *machine = NULL;
     const uint32_t droplets = c->stats.droplets_alive ? c->stats.droplets_alive : 1;
     const uint32_t copied = droplets > COPY_DROPLETS ? droplets : COPY_DROPLETS;
-    /* Machines have faster and slower minutes, so this one's best is taken anew. */
+    /* The speed of a machine varies over time, so its limits are measured again. */
     if (!splash_bench_measure_picture(b, &r->picture) ||
         !limits_create(&b->device, &b->targets[PICTURE], 4 * copied, &machine, b->error, sizeof b->error))
         return splash_bench_fail(b, "limits");
@@ -90,7 +90,7 @@ bool splash_bench_measure_limits(run *r, const cell *c, cell_limits *l)
     limits_destroy(&b->device, &machine);
     l->triangles = triangles_of(r->choice, c);
     const double pixels = (double)bench_sizes[PICTURE][0] * bench_sizes[PICTURE][1];
-    const double hits = fmin((double)c->pixels, l->triangles); /* triangles that cover a pixel, at the most */
+    const double hits = fmin((double)c->pixels, l->triangles); /* max number of triangles that cover a pixel */
     const double corners_ms = hits * r->picture.triangle_ms + (l->triangles - hits) * r->picture.missing_ms;
     const double pixels_ms = (double)c->pixels / pixels * r->picture.fill_ms;
     l->by_triangles = corners_ms > pixels_ms;
@@ -115,7 +115,7 @@ static void print_limits(const cell *c, const cell_limits *l)
            c->ms[DRAW] * 1e6 / fmax(c->stats.sprites, 1));
 }
 
-/* The pass that has the most to gain over all rows. */
+/* The pass with the largest possible gain over all rows. */
 static void print_next(const cell cells[ROWS], const cell_limits limits[ROWS])
 {
     double gain[BENCH_PASSES] = {0}, all = 0;

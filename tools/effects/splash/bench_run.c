@@ -1,4 +1,4 @@
-/* bench_run.c - splashes that come at a rate on a kind of ground, and counts of those that are live. */
+/* bench_run.c - spawns splashes at a rate on a kind of ground, and counts the live ones. */
 #include "splash/bench_splash.h"
 
 #include <virga/shared/random.h>
@@ -190,14 +190,14 @@ static bool read_droplets(run *r)
     return true;
 }
 
-/* The upper of two halves in a word; never negative here. */
+/* Decodes the upper of two half floats in a 32-bit word. It is never negative here. */
 static float upper_half(uint32_t halves)
 {
     const uint32_t bits = halves >> 16, exponent = (bits >> 10) & 31;
     return exponent ? ldexpf((float)(1024 + (bits & 1023)), (int)exponent - 25) : ldexpf((float)(bits & 1023), -24);
 }
 
-/* A pile stands until its droplet has left it, and then sinks in as long as it took to rise. */
+/* A pile stands until its droplet separates. It then sinks for as long as it rose. */
 static bool has_pile(const virga_droplet_gpu *droplet)
 {
     const float free_s = upper_half(droplet->weight_free);
@@ -205,7 +205,7 @@ static bool has_pile(const virga_droplet_gpu *droplet)
            (!(droplet->kind & VIRGA_DROPLET_FREE) || droplet->age_s - free_s < fmaxf(free_s, 0.004f));
 }
 
-/* Counts splashes that have a droplet in the air, and what else is there. */
+/* Counts splashes with a droplet in the air, and the flying droplets, piles and crowns. */
 bool splash_bench_count_air(run *r, air_counts *air)
 {
     const virga_droplet_gpu *droplets = r->readback.mapped;
@@ -229,7 +229,7 @@ bool splash_bench_count_air(run *r, air_counts *air)
     return true;
 }
 
-/* Follows splashes of one tick until all are down. */
+/* Simulates the splashes of one tick until all their droplets have landed. */
 bool splash_bench_measure_life(run *r, splash_life *life)
 {
     bool good = splash_bench_open_splash(r, LIFE_SPLASHES, 64.0 * LIFE_SPLASHES, LIFE_SPLASHES);

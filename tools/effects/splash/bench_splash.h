@@ -26,8 +26,8 @@ typedef struct air_counts {
     uint32_t flying, piles, crowns; /* droplets; piles and crowns that stand, about */
 } air_counts;
 
-/* Of a splash of one row, in ticks: its mean life, those of its droplets added up, that of its crown, and how long it
- * takes until as many go as come, but for a fiftieth. */
+/* Lifetimes of a splash of one row, in ticks: its mean life, the sum over its droplets, and that of its crown.
+ * `settled` is the time until the number of live splashes is constant to within 1/50. */
 typedef struct splash_life {
     double mean, droplets, crown;
     uint32_t settled;
@@ -68,14 +68,14 @@ typedef struct run {
     host_buffer upload, spawns, readback;
     uint32_t row, max_droplets, max_spawns, tick, next_id;
     float far_m;
-    double rate, owed; /* splashes a tick; what is left of one */
+    double rate, owed; /* splashes per tick; the remaining fraction of a splash */
 } run;
 
-/* What the machine would need at the least for what each pass does. */
+/* The min time that this machine needs for the work of each pass. */
 typedef struct cell_limits {
     double ms[BENCH_PASSES];
     double copy_ms, bare_ms, dispatch_ms, triangles;
-    bool by_triangles; /* else the pixels are what drawing takes longest for */
+    bool by_triangles; /* draw time is limited by triangles; false: by pixels */
 } cell_limits;
 
 /* A row of the paper's table 2. */
@@ -111,13 +111,13 @@ void splash_bench_fill_view(virga_view *view);
 bool splash_bench_open_splash(run *r, double splashes, double droplets, double rate);
 void splash_bench_close_splash(run *r);
 
-/* How many come in the next tick; and that tick. */
+/* Number of splashes that spawn in the next tick; and running that tick. */
 uint32_t splash_bench_next_spawns(run *r);
 bool splash_bench_step(run *r, uint32_t spawns, double *ms);
 bool splash_bench_count_air(run *r, air_counts *air);
 bool splash_bench_measure_life(run *r, splash_life *life);
 
-/* ---- bench_report.c: what is said of it, beside the paper and the machine's limits */
+/* ---- bench_report.c: prints results, compared with the paper and the machine's limits */
 
 double splash_bench_frame_ms(const cell *c);
 void splash_bench_print_head(const bench_splash_choice *choice);
