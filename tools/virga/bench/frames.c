@@ -60,9 +60,9 @@ static bool set_rain(virga_scene *scene)
            virga_ground_set(virga_scene_ground(scene), &ground) == VIRGA_OK;
 }
 
-/* What a frame takes, in milliseconds. Of processors: that of the thread that records, and of all the process's
- * threads, among them those of software Vulkan. It leaves out the time in which the machine did something else, so it
- * tells whether frames differ in what they do. */
+/* Times of a frame, in milliseconds. CPU times are those of the recording thread and of all threads of the process,
+ * which include those of software Vulkan. CPU time excludes the work of other processes, so it shows whether the work
+ * of frames differs. */
 typedef struct frame_times {
     double record, whole, record_cpu, whole_cpu;
     double bare; /* a kernel that does the same each time, after the frame: how even the machine itself is */
@@ -234,7 +234,7 @@ static void print_spread(const quantity *q, const double *times)
            s.percent_99, s.percent_99_9, s.max, s.max / s.median);
 }
 
-/* Of one run, or the least of several for each frame. */
+/* The times of one run, or for each frame the min of several runs. */
 static void print_minima(const quantity *q, const frame_times *runs, uint32_t count)
 {
     static double minima[FRAMES];
@@ -263,8 +263,8 @@ static bool print_common(const quantity *q, const frame_times *runs, uint32_t co
     return good || options_complain("bench", "out of memory");
 }
 
-/* A machine that does other things as well only ever adds to a frame's time, and elsewhere in each run; what the frame
- * itself asks for is in all of them. */
+/* Other processes can only add to a frame's time, and to different frames in each run. The cost of the frame itself is
+ * the same in all runs. */
 static bool print_frames(const frame_times *runs, uint32_t count)
 {
     printf("%d frames of steady rain, %u x %u, after %d to warm up\n", FRAMES, bench_sizes[0][0], bench_sizes[0][1],

@@ -45,11 +45,11 @@ static double covariance(const double *a, const double *b, uint32_t count)
     return sum / count;
 }
 
-/* In run a, frame i deviates from those around it by own(i) + noise(a, i). What the machine does besides has nothing to
- * do with the frame's number, so that noises of two runs are independent, and the mean of their deviations' product is
+/* In run a, frame i deviates from the frames around it by own(i) + noise(a, i). The noise comes from other work of the
+ * machine and does not depend on i. So the noises of two runs are independent. The mean product of their deviations is
  *     E[(own + noise_a) (own + noise_b)] = E[own^2],
- * the variance that is the frames' own, whatever the noise. A mean of n products, each of variance seen^4, over p pairs
- * of runs is off by seen^2 / sqrt(n p); twice that is what can be told from nothing. */
+ * the variance of the frames themselves, for any noise. The mean of n products, each of variance seen^4, over p pairs
+ * of runs has a standard error of seen^2 / sqrt(n p). Values above twice this error are significant. */
 bool spread_in_common(const double *const *times, uint32_t runs, uint32_t count, spread_common *common)
 {
     double *deviations = malloc((size_t)runs * count * sizeof *deviations), seen = 0, own = 0;

@@ -1,4 +1,4 @@
-/* info.c - `virga info`: the devices there are, which one would be taken, and why the others would not. */
+/* info.c - `virga info`: lists the devices, which one Virga would choose, and why not the others. */
 #include "commands/commands.h"
 #include "options.h"
 

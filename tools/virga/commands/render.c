@@ -177,7 +177,7 @@ static bool make_parents(const char *path)
     return !mkdir(part, 0777) || errno == EEXIST;
 }
 
-/* A folder that can not be is a wrong command line, but a disk that has no room for it is not. */
+/* A folder that can not exist is a wrong command line. A full disk is not. */
 static int make_directory(render_job *job)
 {
     struct stat about = {0};

@@ -30,7 +30,7 @@ static bool differs(const char *path, const char *what, const char *has, const c
     return true;
 }
 
-/* The most telling difference first: another seed is another scene hash too. */
+/* The most specific difference first: a different seed also changes the scene hash. */
 static bool matches_request(const resume_request *request, const char *path, const exr_header *header,
                             const exr_text *texts, char *error, size_t error_size)
 {

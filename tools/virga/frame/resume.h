@@ -1,5 +1,5 @@
-/* resume.h - what an earlier run has left in a folder: which of its frames can stay, and that they are the same
- * picture that would be rendered now. */
+/* resume.h - finds the frames that an earlier run left in a folder, and checks that they match what would be rendered
+ * now. */
 #ifndef VIRGA_TOOL_RESUME_H
 #define VIRGA_TOOL_RESUME_H
 

@@ -31,8 +31,8 @@ bool shot_open_device(shot *s, char *error, size_t error_size)
     s->info = infos[index];
     if (!host_device_create(&s->device, &s->instance, &infos[index], error, error_size))
         return false;
-    /* The anisotropic filter of software Vulkan (Mesa 22.3) takes ten seconds over a pixel whose gradients are unlucky,
-     * and three times as long as the plain one over the others. Sub-frames (--samples) make up for it. */
+    /* The anisotropic filter of software Vulkan (Mesa 22.3) needs ten seconds for a pixel with some rare gradients, and
+     * three times the time of the linear filter for other pixels. Sub-frames (--samples) replace it. */
     if (s->info.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
         s->device.anisotropy = 0;
     virga_context_def def = virga_default_context_def();

@@ -44,8 +44,8 @@ static bool draw_colors(const shot *s, VkCommandBuffer cmd, uint32_t count, cons
     return drawn;
 }
 
-/* An effect that shows what is behind it gets the plate with the layers below it, which are drawn a second time for
- * that. */
+/* Draws the plate with the lower layers, as input for an effect that shows what is behind it. These layers are drawn a
+ * second time for it. */
 static bool prepare_layer(shot *s, VkCommandBuffer cmd, uint32_t index, const tool_moment *at, char *error,
                           size_t error_size)
 {

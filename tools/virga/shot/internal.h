@@ -1,4 +1,4 @@
-/* internal.h - what the files of a shot share. Calls go down this list, never up: shot.c and live.c, draw.c,
+/* internal.h - declares what the files of a shot share. Calls go down this list, never up: shot.c and live.c, draw.c,
  * simulation.c, load.c, device.c, and the effects below them. */
 #ifndef VIRGA_TOOL_SHOT_INTERNAL_H
 #define VIRGA_TOOL_SHOT_INTERNAL_H

@@ -1,4 +1,4 @@
-/* live.c - a shot whose time, camera and settings somebody plays with. */
+/* live.c - steps and draws a shot whose time, camera and settings a user controls. */
 #include "shot/internal.h"
 
 #include <math.h>

@@ -81,7 +81,7 @@ void shot_load_lights(shot *s)
         }
         to->range_m = (float)from->range_m;
         to->cos_inner = (float)cos(from->inner_deg * M_PI / 180);
-        /* A file has more than the inner angle; while somebody tunes the two, one may be ahead of the other. */
+        /* In a file the outer angle is larger than the inner. While a user changes the two, it can be smaller. */
         to->cos_outer = (float)cos(fmax(from->outer_deg, from->inner_deg + 0.1) * M_PI / 180);
     }
     if (s->renderer)

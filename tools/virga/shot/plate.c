@@ -117,7 +117,7 @@ void plate_close(plate *p)
 
 /* ---- resampling */
 
-/* One line of `to` values from one of `from`: each is the mean under a tent as wide as two of the larger pixels. */
+/* Resamples a line of `from` values to `to` values by a tent filter. The tent spans two of the larger pixels. */
 static void resample_line(const float *in, size_t in_step, uint32_t from, float *out, size_t out_step, uint32_t to)
 {
     const double scale = (double)from / to, reach = fmax(scale, 1);

@@ -144,8 +144,8 @@ static bool step_to(shot *s, double time_s, char *error, size_t error_size)
            host_submit(&s->device, error, error_size);
 }
 
-/* Frame by frame as those that are drawn, so that a shot whose rain has begun earlier shows what one shows that is
- * looked at later. */
+/* Steps frame by frame, as for drawn frames. So a shot with a longer pre-roll gives the same result as a shot that
+ * draws these frames. */
 bool shot_step_preroll(shot *s, char *error, size_t error_size)
 {
     if (!step_to(s, -(double)s->preroll / s->scene->frames.fps, error, error_size))

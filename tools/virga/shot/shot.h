@@ -22,16 +22,15 @@ double shot_time(const shot *s, uint32_t frame);
 /* One frame of the pre-roll, while s->preroll is not 0. */
 bool shot_step_preroll(shot *s, char *error, size_t error_size);
 
-/* Steps the simulation to a frame, which must not lie behind; draws nothing. Before the first one through what is left
- * of the pre-roll. */
+/* Steps the simulation to a frame without drawing. The frame must not be earlier than the current one. Before the first
+ * frame it also steps through the rest of the pre-roll. */
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size);
 
 /* Steps to a frame and draws it into s->frame. `camera` gets the camera at the shutter's end. */
 bool shot_draw(shot *s, uint32_t frame, host_camera *camera, char *error, size_t error_size);
 
-/* ---- live: time goes on as the caller wants, and settings of the scene may change between frames. s->camera_time_s is
- * where time is. What goes with the camera goes with its path, also where
- * the eye is free. */
+/* ---- live: the caller controls time, and settings of the scene may change between frames. s->camera_time_s is the
+ * current time. Objects that follow the camera follow its path, even when the free camera is in use. */
 
 /* Begins a frame of the device and of the library. */
 bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size);
@@ -40,7 +39,7 @@ bool shot_begin(shot *s, VkCommandBuffer *cmd, char *error, size_t error_size);
  * VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL then. Begun by shot_begin, submitted by the caller. */
 bool shot_live_record(shot *s, VkCommandBuffer cmd, double dt_s, host_camera *camera, char *error, size_t error_size);
 
-/* Draws the moment that time stands at into s->frame, as shot_draw does a frame. Waits for the device. */
+/* Draws the current time into s->frame, as shot_draw does for a frame. Waits for the device. */
 bool shot_live_draw(shot *s, uint32_t samples, host_camera *camera, char *error, size_t error_size);
 
 /* All that the scene names, anew, at time 0. Waits for the device. */

@@ -87,7 +87,7 @@ bool shot_apply_settings(shot *s, double time_s, char *error, size_t error_size)
     return true;
 }
 
-/* What the simulation gets for a step. */
+/* Fills the simulation's input for a step. */
 static bool fill_frame(shot *s, double time_s, virga_scene_frame *frame, char *error, size_t error_size)
 {
     host_camera camera;

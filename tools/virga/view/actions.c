@@ -1,4 +1,4 @@
-/* actions.c - what can be done to a scene in the window, whoever asks for it. */
+/* actions.c - the actions on a scene in the window, for keys, the panel and scripts. */
 #include "view/view.h"
 
 #include "effect.h"
@@ -143,7 +143,7 @@ void view_stop_animation(viewer *v)
             tool_effects[i]->stop_animation(v->scene, v->shot.camera_time_s);
 }
 
-/* Settings are the preset's, not those of the scene's keys. A preset starts the rain anew where it has to. */
+/* Applies a preset. It replaces the animation by the scene's keys, and restarts the rain if needed. */
 bool view_preset_apply(viewer *v, const char *name)
 {
     size_t count;

@@ -1,4 +1,4 @@
-/* camera.c - the mouse turns it while its right button is down, W A S D Q E move it. */
+/* camera.c - the free camera: the mouse rotates it while the right button is down, W A S D Q E move it. */
 #include "view/view.h"
 
 #include <math.h>

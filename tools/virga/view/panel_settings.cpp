@@ -34,7 +34,7 @@ static void describe(viewer *v, const scene_setting &s)
     }
 }
 
-/* Ranges of many powers of ten get a slider by powers; those without an end that one would reach, a field to drag. */
+/* A range over many powers of ten gets a logarithmic slider. A range with a very distant end gets a drag field. */
 static bool is_wide(const scene_setting &s)
 {
     return s.high - s.low > 2000;
@@ -152,8 +152,8 @@ static bool edit_value(scene_setting &s)
     }
 }
 
-/* Words and switches may not go together with others: then they stay as they were, and the foot says why. Numbers that
- * need one another (near and far, ...) are cared for where they are used, as both have to be changed. */
+/* A keyword or a switch may conflict with other settings. Then it keeps its value, and the status line says why.
+ * Numbers that depend on each other (near and far, ...) are handled where they are used, as a user changes both. */
 static void change(viewer *v, scene_setting &s)
 {
     char before[520], ignored[256];
@@ -231,7 +231,8 @@ static std::string branch_of(const char *path, size_t prefix)
     return rest.substr(0, list ? second : dot);
 }
 
-/* The lists that can grow, and what was asked for in this frame: done behind all controls, whose settings it moves. */
+/* The lists that can grow, and the changes requested in this frame. They are applied after all controls, because they
+ * move the settings of the controls. */
 struct growing {
     scene_list *lists;
     size_t count;

@@ -1,12 +1,12 @@
-/* start.c - starting the rain anew with what was changed, and as it was where it can not start so: pools may be
- * larger than a device has room for, and nobody's window should close for that. */
+/* start.c - restarts the rain with changed settings. If that fails, it restarts with the previous settings: pools may
+ * be too large for the device, and the window should stay open then. */
 #include "view/view.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A setting that counts from a start on, as it was at the last one that came off. */
+/* A setting that applies from a restart on, with its value at the last successful start. */
 struct view_started {
     char path[96];
     char value[200];

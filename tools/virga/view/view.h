@@ -44,7 +44,7 @@ typedef struct view_pass {
     double newest;
 } view_pass;
 
-/* What graphs and numbers show, taken from the library after each frame. */
+/* The data of graphs and numbers, read from the library after each frame. */
 typedef struct view_numbers {
     view_pass passes[VIEW_MAX_TIMES];
     uint32_t pass_count;
@@ -54,7 +54,7 @@ typedef struct view_numbers {
     virga_memory_stats memory;
 } view_numbers;
 
-/* The camera that flies. */
+/* The free camera. */
 typedef struct view_camera {
     bool free; /* else on the scene's path */
     double position_m[3];
@@ -100,12 +100,12 @@ typedef struct viewer {
     char message[512]; /* one line for the user */
     double message_s;  /* until when */
 
-    /* What is to be done between frames. */
+    /* Work to do between frames. */
     bool restart, quit;
-    bool needs_restart;     /* something was changed that counts from the next start on */
+    bool needs_restart;     /* a changed setting needs a restart */
     char window_shot[1024]; /* name for a picture of the window, or empty */
     char shot_file[1024];   /* for one of the scene */
-    uint32_t shots;         /* taken by key, for their names */
+    uint32_t shots;         /* saved by key so far; numbers their names */
     uint32_t samples;       /* of screenshots */
 
     view_script *script; /* NULL: none */
@@ -155,13 +155,13 @@ bool view_list_settings(viewer *v);
 /* Keeps what the rain has started with. False: v->error says why not. */
 bool view_remember_start(viewer *v);
 
-/* Between frames. Where the rain can not start with what was changed, it starts as it last did, and the user is told
- * why. False: not so either, see v->error. */
+/* Restarts the rain between frames. If it can not start with the changed settings, it starts with the previous ones and
+ * the reason is shown. False: both failed, see v->error. */
 bool view_start_again(viewer *v);
 
 /* ---- frame.c */
 
-/* One turn of the loop. False: v->error says why there is no going on. */
+/* One iteration of the loop. False: it can not continue, v->error says why. */
 bool view_frame(viewer *v);
 
 /* ---- camera.c */

@@ -232,7 +232,7 @@ bool view_window_acquire(view_window *w, bool *ready, char *error, size_t error_
             return false;
     if (!w->width)
         return true;
-    /* The frame that used this semaphore last has completed once its place in the ring is free again. */
+    /* The frame that last used this semaphore has completed once its slot in the ring is free again. */
     const VkSemaphore semaphore = w->acquired[(w->device->frame + 1) % HOST_FRAMES];
     if (w->device->frame >= HOST_FRAMES &&
         !host_wait_frame(w->device, w->device->frame + 1 - HOST_FRAMES, error, error_size))

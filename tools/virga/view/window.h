@@ -34,16 +34,16 @@ bool view_window_open(view_window *window, const char *title, uint32_t width, ui
 /* The instance extensions it needs; static data. */
 const char *const *view_window_extensions(uint32_t *count);
 
-/* Takes a device into use, which was made with them. */
+/* Sets the device, which was created with these extensions. */
 bool view_window_attach(view_window *window, const host_instance *instance, host_device *device, char *error,
                         size_t error_size);
 
-/* Waits for the device and lets go of what is of it; then closes the window. */
+/* Waits for the device, destroys its objects, then closes the window. */
 void view_window_detach(view_window *window);
 void view_window_close(view_window *window);
 
-/* Takes the next image to draw into: `*ready` is false where there is none now (minimised, just resized), and nothing
- * is to be drawn then. Waits where the screen has not shown the last ones. */
+/* Acquires the next image to draw into. `*ready` is false if there is none now (minimised, just resized); then nothing
+ * may be drawn. Waits until the screen has shown earlier images. */
 bool view_window_acquire(view_window *window, bool *ready, char *error, size_t error_size);
 
 /* Begins and ends drawing into it, at the end of a frame's command buffer. */
