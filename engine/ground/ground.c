@@ -1,4 +1,4 @@
-/* ground/ground.c - create, destroy, settings, and what others read. */
+/* ground/ground.c - creates and destroys the ground, checks its settings, and returns its maps and statistics. */
 #include "ground/ground_internal.h"
 
 #include "core/settings.h"
@@ -58,9 +58,9 @@ virga_ground_settings virga_default_ground_settings(void)
     return settings;
 }
 
-/* What is wider than the window has sizes of its own. Of the tiles that are kept beyond it there are all of the window
- * twice, so that a cut of the camera and back loses nothing. The far map has whole groups of cells, and is twice as
- * wide as the window. */
+/* Adjusts the sizes that depend on the size of the window. The cache holds at least twice the tiles of the window, so
+ * that no tile is lost when the camera cuts away and back. The distant map is at least twice the side of the window,
+ * and its side is a multiple of a tile. */
 static void fit_to_cells(virga_ground_def *def)
 {
     const uint32_t tiles = def->cells / VIRGA_GROUND_TILE, min_kept = 2 * tiles * tiles;
@@ -97,7 +97,7 @@ static virga_result check_def(const virga_log *log, void *given)
     return virga_mesh_map_check_strides(log, "ground_def.occluder_strides", def->occluder_strides);
 }
 
-/* ---- what it is made of */
+/* ---- pools, buffers and bindings */
 
 enum {
     COUNT_CELLS = 1,
@@ -125,7 +125,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_FAR_CELLS] = far_cells ? (VkDeviceSize)far_cells * far_cells : 1;
     counts[COUNT_FAR_WIDTH] = far_cells > VIRGA_GROUND_MATERIALS ? far_cells : VIRGA_GROUND_MATERIALS;
     counts[COUNT_FAR_HEIGHT] = far_cells + 1;
-    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one where the window moves */
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more where the window moves */
 }
 
 #define AT(member)   offsetof(virga_ground, member)
@@ -194,13 +194,13 @@ enum {
     BIND_FAR_MAP,
 };
 
-/* As in shaders/ground: what each file declares. */
+/* The bindings as the files in shaders/ground declare them. */
 static const virga_binding_kind bindings[] = {
     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring),
      sizeof(virga_ground_tick_gpu)}, /* 0 */
     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring),
-     sizeof(ground_lists)},                                      /* 1 lists of tiles */
-    [BIND_IMPACTS] = {STORAGE, COMPUTE},                         /* 2 of the rain, or returns of splashes */
+     sizeof(ground_lists)},                                      /* 1 tile lists */
+    [BIND_IMPACTS] = {STORAGE, COMPUTE},                         /* 2 impacts or returned droplets */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(floors)},         /* 3 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cells)},          /* 4 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(stirs)},          /* 5 */
@@ -216,7 +216,7 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(rings)}, /* 15 */
     [BIND_WAVES] = {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT},      /* 16 */
     [BIND_MATERIALS] = {SAMPLED, COMPUTE},                       /* 17 */
-    [BIND_RULES] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE}, /* 18 of splashes */
+    [BIND_RULES] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE}, /* 18 rules of the splashes */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawns)},         /* 19 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(swings)},         /* 20 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(floors)},          /* 21 */
@@ -248,7 +248,8 @@ static const virga_effect_pass passes[] = {
     {"ground.far_map", AT(far.draw), VIRGA_SPIRV_ROW(ground_far_map_comp)},
 };
 
-/* Its window, what it keeps beyond that, and the map of ripples. What it shares with rain and splashes stays. */
+/* What shrinks to fit the memory budget: the window, the tile cache and the ripple map. Sizes shared with rain and
+ * splashes stay. */
 static const virga_effect_pool pools[] = {
     {"cells", offsetof(virga_ground_def, cells), 128, 0},
     {"cached_tiles", offsetof(virga_ground_def, cached_tiles), 0, 1},
@@ -256,7 +257,7 @@ static const virga_effect_pool pools[] = {
     {"far_cells", offsetof(virga_ground_def, far_cells), 0, VIRGA_GROUND_TILE},
 };
 
-/* A smaller window may have lost what goes with it. */
+/* The window may have become smaller, so the sizes that depend on it are adjusted again. */
 static virga_result fit_device(const virga_context *context, void *def)
 {
     (void)context;
@@ -264,7 +265,7 @@ static virga_result fit_device(const virga_context *context, void *def)
     return VIRGA_OK;
 }
 
-/* Height maps of the window and, of two layers, of the far map; ripples. */
+/* Height maps of the window (one layer) and of the distant map (two layers), and the ripple map. */
 static VkDeviceSize extra_bytes(const void *given)
 {
     const virga_ground_def *def = given;
@@ -275,7 +276,7 @@ static VkDeviceSize extra_bytes(const void *given)
 static virga_result init(void *object)
 {
     virga_ground *ground = object;
-    ground->settings = virga_default_ground_settings(); /* dry: as memory of zeros is */
+    ground->settings = virga_default_ground_settings(); /* zeroed memory means dry ground */
     ground->window.tiles = ground->def.cells / VIRGA_GROUND_TILE;
     ground->window.cache_capacity = ground->def.cached_tiles;
     ground->window.cache =
@@ -328,7 +329,7 @@ const virga_effect_type ground_type = {
 
 /* ---- descriptors */
 
-/* A host's impacts or returns. */
+/* The host's list of impacts or returned droplets. */
 static virga_bound host_list(const virga_ground *ground, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
                              uint32_t entries)
 {
@@ -415,7 +416,7 @@ void virga_ground_refresh_heights(virga_ground *ground)
         ground->redraw_heights = true;
 }
 
-/* ---- what others read */
+/* ---- maps and statistics */
 
 void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
 {
@@ -433,7 +434,8 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
     maps->ripples = ground->ripples->map->layer_views[0];
     maps->ripple_texels = ground->def.ripple_texels;
     maps->ripple_texel_m = ground->def.ripple_texel_m;
-    maps->reach_m = fmaxf((float)((0.5 * ground->window.tiles - 1.5) * tile_m), 0); /* none of two tiles */
+    /* No reach in a window of two tiles. */
+    maps->reach_m = fmaxf((float)((0.5 * ground->window.tiles - 1.5) * tile_m), 0);
     if (ground->info.impacts_reach_m > 0 && ground->info.impacts_reach_m < maps->reach_m)
         maps->reach_m = ground->info.impacts_reach_m;
     ground_far_maps(ground, maps);

@@ -1,4 +1,4 @@
-/* ground/ground.h - what a scene uses of this effect beside its public functions. Internal. */
+/* ground/ground.h - the part of the ground that a scene uses besides its public functions. Internal. */
 #ifndef VIRGA_GROUND_GROUND_H
 #define VIRGA_GROUND_GROUND_H
 

@@ -1,5 +1,6 @@
-/* ground/ground_far.c - the map of ground beyond the window: a wider one, of cells eight times as wide that hold no
- * water of their own but show what has stood there in the rain, see standing.c. */
+/* ground/ground_far.c - the distant map: ground beyond the window. Its cells have eight times the side of the window's
+ * cells. They store no water of their own: they show how much a cell that stood in the rain would hold, see
+ * standing.c. */
 #include "ground/ground_internal.h"
 
 #include "gpu/record.h"
@@ -8,15 +9,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STEP      32 /* far cells by which the map moves, when the camera is farther than that from its middle */
-#define MAP_TICKS 15 /* from one drawing of the map to the next: what it shows changes within minutes */
+#define STEP      32 /* far cells: the map moves by one step when the camera is more than one step off its middle */
+#define MAP_TICKS 15 /* ticks between two updates of the map, whose contents change over minutes */
 
 static double cell_m(const virga_ground *ground)
 {
     return VIRGA_GROUND_FAR_CELL * (double)ground->def.cell_m;
 }
 
-/* Half of its side less what the camera may be off its middle (m). */
+/* Half the side of the map, minus the largest distance of the camera from its middle (m). */
 static double reach_m(const virga_ground *ground)
 {
     return ((double)ground->def.far_cells / 2 - 1.5 * STEP) * cell_m(ground);

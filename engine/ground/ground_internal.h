@@ -1,14 +1,13 @@
-/* ground/ground_internal.h - the object behind virga_ground, and what its files do for each other. Internal.
+/* ground/ground_internal.h - the object behind virga_ground, and the functions that its files share. Internal.
  *
- *   ground.c          create, destroy, settings, what others read
- *   materials.c       what materials do with water
- *   ground_window.c   which tiles are in the window, kept or forgotten
- *   standing.c        water where no drop is counted
- *   ground_far.c      the map of ground beyond the window
+ *   ground.c          create, destroy, settings, maps and statistics
+ *   materials.c       how materials absorb, hold and drain water
+ *   ground_window.c   which tiles are in the window, in the cache, or evicted
+ *   standing.c        water where drops are not simulated
+ *   ground_far.c      the map of distant ground
  *   ring_table.c      waves on shallow water
  *   ground_rings.c    the map of rings on puddles
- *   ground_step.c     ticks: passes in their order
- */
+ *   ground_step.c     ticks: the passes in their order */
 #ifndef VIRGA_GROUND_INTERNAL_H
 #define VIRGA_GROUND_INTERNAL_H
 
@@ -28,19 +27,21 @@ void ground_fill_soils(const virga_ground_settings *settings, double cell_m,
 
 /* ---- standing.c */
 
-/* A cell that drops are not counted for. */
+/* A cell without simulated drops. */
 typedef struct ground_standing {
     double held_nl, film_nl, level_um, spots; /* see virga_standing_gpu */
 } ground_standing;
 
-/* What a tick brings and takes. */
+/* The rain on a cell in one tick, and the evaporation. */
 typedef struct ground_weather {
-    double rain_nl, spots; /* on a cell in the open, and the dark spots that come with it */
+    /* On a cell in the open: the rain, and the dark spots that its drops leave. */
+    double rain_nl, spots;
     double evaporation_nl, tick_s;
     double nl_per_um;
 } ground_weather;
 
-enum { GROUND_STANDING = 2 * VIRGA_GROUND_MATERIALS }; /* in the open by material, then under cover */
+/* One cell in the open for each material, then one under cover for each. */
+enum { GROUND_STANDING = 2 * VIRGA_GROUND_MATERIALS };
 
 void ground_standing_start(ground_standing cells[GROUND_STANDING], const virga_ground_settings *settings,
                            const virga_soil_gpu soils[VIRGA_GROUND_MATERIALS]);
@@ -49,19 +50,20 @@ void ground_standing_tick(ground_standing cells[GROUND_STANDING], const virga_so
 void ground_standing_fill(const ground_standing cells[GROUND_STANDING],
                           const virga_soil_gpu soils[VIRGA_GROUND_MATERIALS], virga_standing_gpu out[GROUND_STANDING]);
 
-/* ---- ground_window.c: the bookkeeping, on the host */
+/* ---- ground_window.c: which tiles are where, on the host */
 
 typedef struct ground_cached_tile {
     int32_t tile[2];
-    uint64_t since; /* move in which it left the window; 0: free */
-    bool wanted;    /* by the move at hand */
+    uint64_t since; /* number of the move in which the tile left the window; 0: free */
+    bool wanted;    /* needed by the current move */
 } ground_cached_tile;
 
-/* What a move of the window does, by slots of tiles: in the window's buffers, and among the kept. */
+/* The result of one move of the window, as tile slots in the window's buffers and in the cache. */
 typedef struct ground_move {
     uint32_t leaving[VIRGA_GROUND_MAX_TILES], leaving_to[VIRGA_GROUND_MAX_TILES];
     uint32_t entering[VIRGA_GROUND_MAX_TILES];
-    uint32_t entering_from[VIRGA_GROUND_MAX_TILES]; /* among the kept; GROUND_NEW: never seen, or forgotten */
+    /* Slots in the cache; GROUND_NEW: the tile was never in the window, or was evicted. */
+    uint32_t entering_from[VIRGA_GROUND_MAX_TILES];
     uint32_t forgotten[VIRGA_GROUND_MAX_TILES];
     uint32_t leaving_count, entering_count, forgotten_count;
 } ground_move;
@@ -69,7 +71,7 @@ typedef struct ground_move {
 #define GROUND_NEW UINT32_MAX
 
 typedef struct ground_window {
-    uint32_t tiles; /* along a side */
+    uint32_t tiles; /* tiles along one side */
     int32_t low[2];
     bool is_placed;
     uint64_t moves;
@@ -77,21 +79,21 @@ typedef struct ground_window {
     uint32_t cache_capacity, cached_count;
 } ground_window;
 
-/* Low corner that a window around a place should have. It stays where it is while the place is within a tile and a
- * half of its middle. */
+/* Low corner of the window for a camera position. It does not change while the camera is within one and a half tiles of
+ * the middle of the window. */
 void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2]);
 
-/* One more than the highest place among the kept that is in use. */
+/* One more than the highest slot of the cache that is in use. */
 uint32_t ground_window_cache_end(const ground_window *window);
 
-/* Moves the window and tells what that takes. */
+/* Moves the window and fills `move` with the tiles that enter, leave and are evicted. */
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move);
 
 /* ---- ground_rings.c */
 typedef struct ground_ripples {
     virga_resource resource; /* first */
     virga_image_2d *map, *waves;
-    virga_buffer *upload; /* of the waves; NULL once recorded */
+    virga_buffer *upload; /* waves to upload; NULL once the upload is recorded */
     VkRenderPass pass;
     VkFramebuffer framebuffer;
     virga_pipeline *pipeline;
@@ -103,39 +105,40 @@ VkDeviceSize ground_ripples_bytes(uint32_t texels);
 void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
 
-/* Draws all living rings; ground's set must be bound for graphics. Leaves the map in GENERAL. */
+/* Draws all active rings. The ground's set must be bound for graphics. Leaves the map in GENERAL. */
 void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples);
 
 /* ---- ground_far.c */
 
-#define GROUND_HEIGHT_MAP_TOP_M  256.0 /* above the base */
+#define GROUND_HEIGHT_MAP_TOP_M   256.0 /* above base_m */
 #define GROUND_HEIGHT_MAP_DEPTH_M 512.0
 
 typedef struct ground_far {
     virga_buffer *floors;
-    virga_image_2d *map;    /* and in a row of its own below, level open ground by material */
-    virga_mesh_map *height_map; /* ground; all meshes */
+    /* The map, and below it one more row: level open ground of each material. */
+    virga_image_2d *map;
+    virga_mesh_map *height_map; /* layer 0: only ground meshes; layer 1: all meshes */
     virga_pipeline *floor_pass, *draw;
     int32_t low[2]; /* in far cells */
     bool is_placed, drawn;
     uint64_t drawn_at; /* in ticks */
 } ground_far;
 
-/* Whether it is to be surveyed at another place. */
+/* Moves the distant map with the camera. Returns true if its height map must be drawn again. */
 bool ground_far_follow(virga_ground *ground, const double camera_m[3]);
 void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const virga_ground_step_info *info);
 
-/* Where that is due. */
+/* Updates the distant map if an update is due. */
 void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd);
 void ground_far_fill(const virga_ground *ground, virga_ground_tick_gpu *out);
 void ground_far_maps(const virga_ground *ground, virga_ground_maps *maps);
 
 /* ---- the object */
 
-/* Where a tick's water comes from: rain's impacts, or what splashes gave back. */
+/* The sources of a tick's water: impacts of the rain, or droplets that splashes return. */
 enum { GROUND_DROPS, GROUND_RETURNS, GROUND_SOURCES };
 
-/* What the statistics ring reads back for one frame. */
+/* The statistics that are read back for one frame. */
 typedef struct ground_readback {
     virga_ground_count_gpu counts[VIRGA_GROUND_COUNTS];
 } ground_readback;
@@ -152,7 +155,7 @@ struct virga_ground {
     ground_move move;
     double base_m;
     bool redraw_heights;
-    uint64_t ticks; /* run since creation */
+    uint64_t ticks; /* ticks run since creation */
 
     virga_buffer *floors, *cells, *arrivals, *spots, *cached_cells, *cached_spots, *counts, *landings, *rings, *stirs,
         *swings, *spawns, *no_rules;
@@ -163,22 +166,22 @@ struct virga_ground {
     ground_ripples *ripples;
     ground_far far;
     ground_standing standing[GROUND_STANDING];
-    double ripple_low_m[2]; /* in the world */
+    double ripple_low_m[2]; /* in world coordinates */
     uint32_t last_tick;
     virga_bindings *bindings;
     virga_pipeline *tile_load, *tile_discard, *spawn_mark, *spawn_scan, *land, *share, *soak, *flow, *measure,
         *measure_cached, *map, *ring;
-    VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* room to describe a move in */
+    VkBufferCopy copies[VIRGA_GROUND_MAX_TILES]; /* copy regions of one move */
 
-    VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, by where water comes from */
-    virga_ground_step_info info;          /* of this frame's step; its meshes are the host's */
+    VkDescriptorSet sets[GROUND_SOURCES]; /* of this frame, one for each source of water */
+    virga_ground_step_info info;          /* of this frame's step; the host owns its meshes */
     uint32_t tick_in_step;
     virga_ground_stats stats;
 };
 
 /* ---- ground.c */
 
-/* Nanolitres that make a micrometre of depth on a cell. */
+/* Nanolitres on a cell for one micrometre of depth. */
 uint32_t ground_nl_per_um(const virga_ground *ground);
 void ground_write_sets(virga_ground *ground);
 

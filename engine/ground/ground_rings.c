@@ -1,4 +1,4 @@
-/* ground/ground_rings.c - the ripple map: a table of waves, and a pass that adds up the rings that live. */
+/* ground/ground_rings.c - the ripple map: a table of waves, and a pass that adds up all active rings. */
 #include "ground/ground_internal.h"
 
 #include "gpu/errors.h"
@@ -36,7 +36,7 @@ void ground_ripples_retire(virga_context *context, ground_ripples **ripples)
 VkDeviceSize ground_ripples_bytes(uint32_t texels)
 {
     const VkDeviceSize map = (VkDeviceSize)texels * texels * 4, waves = WAVE_VALUES * 4 * sizeof(uint16_t);
-    return map + 2 * waves; /* and their upload */
+    return map + 2 * waves; /* and their upload buffer */
 }
 
 static virga_result create_pass(virga_context *context, ground_ripples *ripples)
@@ -82,9 +82,10 @@ error:
     return result;
 }
 
-/* An entry of the table as its image holds it: slope over radius in centimetres (in metres the crater's may be beyond
- * half floats), so that a pixel takes it times where it is, and softly ended where the table ends. In the middle, where
- * both are 0, that of the next radius, which is as near as makes no difference. */
+/* An entry of the wave table as its image stores it: slope divided by radius, faded to zero near the end of the table.
+ * A pixel multiplies it by its offset from the centre. Radii are in centimetres, because in metres the slopes of the
+ * crater may exceed half floats. In the centre both slope and radius are 0, so the entry of the next radius is used;
+ * the difference is negligible. */
 static uint16_t wave_entry(const float *slopes, size_t i)
 {
     const size_t radius = i % VIRGA_RING_RADII, time = i / VIRGA_RING_RADII % VIRGA_RING_TIMES;
@@ -95,8 +96,8 @@ static uint16_t wave_entry(const float *slopes, size_t i)
     return ring_half((float)((double)slopes[i + middle] * ends / (100 * share * reach)));
 }
 
-/* A texel holds what lies around it: an entry, that of the next radius, and both a time later (0 behind the last), so
- * that one fetch does where a filter has four. */
+/* A texel stores four entries: this one, the next radius, and both at the next time (0 past the end). One fetch then
+ * replaces the four that a bilinear filter needs. */
 static void fill_texels(const uint16_t *entries, uint16_t *texels)
 {
     for (size_t i = 0; i < WAVE_VALUES; i++) {

@@ -1,4 +1,4 @@
-/* ground/ground_step.c - a step: the window follows, drops land, water flows, maps are written. */
+/* ground/ground_step.c - one step: the window follows the camera, drops land, water flows, maps are written. */
 #include "ground/ground_internal.h"
 
 #include "core/settings.h"
@@ -14,7 +14,7 @@
 
 #define COPY        (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
 #define NEVER_SEEN  0x80000000u /* as in shaders/ground/tile_load.comp */
-#define FLOW_PASSES 4           /* a round: through all four sides of each cell, see flow.comp */
+#define FLOW_PASSES 4           /* in a round: one for each of the four sides of a cell, see flow.comp */
 #define TILE_GROUPS (VIRGA_GROUND_TILE_CELLS / VIRGA_GROUND_GROUP)
 
 /* ---- statistics */
@@ -50,9 +50,9 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
         stats->cells[i] = read.counts[VIRGA_GROUND_CELLS + i].low;
 }
 
-/* ---- a tick's numbers */
+/* ---- constants of a tick */
 
-/* Without a map, a place that no cell is in. */
+/* Without a material map, the offset is outside of all cells. */
 static void fill_material_map(const virga_ground *ground, virga_ground_tick_gpu *out)
 {
     const virga_ground_material_map *map = &ground->info.materials;
@@ -66,7 +66,7 @@ static void fill_material_map(const virga_ground *ground, virga_ground_tick_gpu 
     }
 }
 
-/* Drops of the one diameter that stands for all of the rain. */
+/* All rain is represented by drops of one diameter. */
 static void fill_rain(const virga_ground *ground, virga_ground_tick_gpu *out)
 {
     const double diameter = (double)ground->info.open_drop_m;
@@ -136,18 +136,19 @@ static void bind(virga_ground *ground, VkCommandBuffer cmd)
     bind_source(ground, cmd, GROUND_DROPS);
 }
 
-/* Over cells, in rows: see group_index() in shaders/ground/cells.glsl. Groups come in whole tiles. */
+/* A 2D dispatch over whole tiles, see group_index() in shaders/ground/cells.glsl. */
 static void dispatch_cells(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)
 {
     virga_dispatch_2d(ground->base.context, cmd, pipeline, groups / TILE_GROUPS, TILE_GROUPS);
 }
 
-/* ---- the window follows */
+/* ---- the window follows the camera */
 
 static void copy_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_buffer *from, const virga_buffer *to,
                        const uint32_t *from_slots, const uint32_t *to_slots, uint32_t count)
 {
-    const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu); /* spots are as large */
+    /* The spots of a tile have the same size. */
+    const VkDeviceSize bytes = VIRGA_GROUND_TILE_CELLS * sizeof(virga_cell_gpu);
     uint32_t copies = 0;
     for (uint32_t i = 0; i < count; i++)
         if (from_slots[i] != GROUND_NEW)
@@ -165,7 +166,7 @@ static void clear_tiles(virga_ground *ground, VkCommandBuffer cmd, const virga_b
             ground->base.context->vk.CmdFillBuffer(cmd, buffer->buffer, move->entering[i] * bytes, bytes, 0);
 }
 
-/* Places among the kept that were taken back hold nothing, so that their water is not counted twice. */
+/* Clears the cache slots of restored tiles, so that their water is not counted twice. */
 static void clear_restored(virga_ground *ground, VkCommandBuffer cmd)
 {
     const ground_move *move = &ground->move;
@@ -227,13 +228,13 @@ static void write_lists(virga_ground *ground)
     ground->list_offset = virga_ring_write(ground->base.context, &ground->list_ring, 0, &lists, sizeof lists);
 }
 
-/* All tiles of the window are surveyed anew. */
+/* Marks all tiles of the window as entering, so that their heights are drawn again. */
 static void enter_all(ground_move *move, uint32_t tiles)
 {
     move->entering_count = tiles * tiles;
     for (uint32_t i = 0; i < move->entering_count; i++) {
         move->entering[i] = i;
-        move->entering_from[i] = 0; /* the water is there */
+        move->entering_from[i] = 0; /* their water is already in the window */
     }
 }
 
@@ -261,13 +262,14 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     }
     if (moved || ground->redraw_heights)
         draw_height_map(ground, cmd, info);
-    ground->redraw_heights = ground->redraw_heights && moved; /* all of them in the next step */
+    /* After a move only new tiles were drawn: the next step draws all. */
+    ground->redraw_heights = ground->redraw_heights && moved;
     virga_pass_end(ground->base.context, cmd, scope);
 }
 
 /* ---- ticks */
 
-/* A pass over the drops of the tick and, in the first of a step, over what splashes gave back. */
+/* A pass over the impacts of the tick and, in the first tick of a step, over the droplets that splashes return. */
 static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pipeline *pipeline)
 {
     virga_context *context = ground->base.context;
@@ -283,7 +285,7 @@ static void over_water(virga_ground *ground, VkCommandBuffer cmd, const virga_pi
     virga_compute_barrier(context, cmd);
 }
 
-/* Places for splashes, in the order of drops. */
+/* Assigns slots to new splashes, in the order of drops. */
 static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
 {
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.spawn");
@@ -299,13 +301,13 @@ static void find_spawns(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(ground->base.context, cmd, scope);
 }
 
-/* Passes of a round that are done when so many ticks are. */
+/* Number of flow passes that are complete after `ticks` ticks. */
 static uint64_t flow_passes(const virga_ground *ground, uint64_t ticks)
 {
     return ticks * FLOW_PASSES / ground->def.flow_ticks;
 }
 
-/* The passes of a round that this tick is for: as evenly spread as can be, so that no tick has all of it. */
+/* Records this tick's flow passes. A round is spread evenly over its ticks, so that no tick runs all of it. */
 static void flow(virga_ground *ground, VkCommandBuffer cmd)
 {
     const uint64_t end = flow_passes(ground, ground->ticks + 1);
@@ -322,11 +324,11 @@ static void flow(virga_ground *ground, VkCommandBuffer cmd)
     }
 }
 
-/* Spots times their drops' diameter over the rain: a drop of diameter d leaves pi (SPREAD d)^2 / 4, and has
- * pi d^3 / 6. */
+/* Area of the spots x diameter of their drops / volume of the rain. A drop of diameter d leaves a spot of
+ * pi (SPREAD d)^2 / 4 and has the volume pi d^3 / 6. */
 #define SPOTS_OF_RAIN (1.5 * VIRGA_GROUND_SPREAD * VIRGA_GROUND_SPREAD)
 
-/* Where no drop is counted it rains as well. */
+/* Rain on the cells without simulated drops. */
 static void stand_in_rain(virga_ground *ground)
 {
     const double cell = (double)ground->def.cell_m, mm_nl = cell * cell * 1e9, hours = ground->def.tick_s / 3600;
@@ -375,7 +377,7 @@ static void measure(virga_ground *ground, VkCommandBuffer cmd)
     virga_pass_end(context, cmd, scope);
 }
 
-/* The ripple map lies on multiples of its texels, so that waves do not crawl while the camera moves. */
+/* The corner of the ripple map is a multiple of its texels, so that waves do not crawl when the camera moves. */
 static void place_ripples(virga_ground *ground, const double ripple_center_m[3])
 {
     const double texel = (double)ground->def.ripple_texel_m;
@@ -415,7 +417,8 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     virga_context *context = ground->base.context;
     if (!virga_effect_first_contents(&ground->base, cmd))
         return;
-    ground->base_m = (double)(float)floor(ground->info.camera_m[1]); /* a float, as shaders and hosts get it */
+    /* Rounded to float, as shaders and hosts receive it. */
+    ground->base_m = (double)(float)floor(ground->info.camera_m[1]);
     virga_mesh_map_first_layouts(context, cmd, ground->height_map);
     virga_mesh_map_first_layouts(context, cmd, ground->far.height_map);
     ground_ripples_upload(context, cmd, ground->ripples);
@@ -482,7 +485,7 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     ground->info.open_drop_m = fminf(fmaxf(info->open_drop_m, 0), 0.01f);
     ground->tick_in_step = 0;
     ground_write_sets(ground);
-    /* What read maps, landings and cells in the frame before is done with them. */
+    /* Waits for the previous frame's reads of maps, landings and cells. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -1,16 +1,17 @@
-/* ground/ground_window.c - which tiles are in the window, which are kept, which are forgotten. */
+/* ground/ground_window.c - which tiles are in the window, which are cached, which are evicted. */
 #include "ground/ground_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define HYSTERESIS_TILES 1 /* tiles that the middle may be off before the window follows */
+/* The window does not move while its middle is at most this many tiles from the camera. */
+#define HYSTERESIS_TILES 1
 
 void ground_window_wanted(const ground_window *window, const double camera_m[3], double tile_m, int32_t low[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         const double at = floor(camera_m[axis * 2] / tile_m);
-        /* Numbers of cells must fit an int. */
+        /* Cell numbers must fit into an int. */
         const double max = INT32_MAX / VIRGA_GROUND_TILE - 2.0 * window->tiles;
         const int32_t wanted = (int32_t)fmin(fmax(at, -max), max) - (int32_t)window->tiles / 2;
         low[axis] =
@@ -18,7 +19,7 @@ void ground_window_wanted(const ground_window *window, const double camera_m[3],
     }
 }
 
-/* Where a tile lies in the window's buffers. */
+/* Slot of a tile in the window's buffers. */
 static uint32_t slot_of(const ground_window *window, int32_t x, int32_t z)
 {
     const uint32_t mask = window->tiles - 1;
@@ -38,8 +39,8 @@ static uint32_t find_cached(const ground_window *window, int32_t x, int32_t z)
     return GROUND_NEW;
 }
 
-/* A free place among the kept, or that of the tile which left longest ago. There is always one that the move does not
- * want: there are at least twice as many as the window holds. */
+/* A free cache slot, or the slot of the tile that left the window longest ago. The cache holds at least twice the tiles
+ * of the window, so there is always a slot that the current move does not need. */
 static uint32_t evict_tile(ground_window *window, ground_move *move)
 {
     uint32_t oldest = GROUND_NEW;

@@ -1,9 +1,13 @@
-/* ground/materials.c - what materials do with water, in one readable place.
+/* ground/materials.c - how each material absorbs, holds and drains water.
  *
- * Capacity is what a surface takes up in the first minutes, not what a soil column holds: 0.1 to 0.5 mm wets a paved
- * surface (depression and wetting losses of impervious areas, 0.2 to 1.5 mm together, are capacity + retention here).
+ * Capacity is what a surface absorbs in the first minutes, not what a column of soil holds. 0.1 to 0.5 mm wets a paved
+ * surface: depression and wetting losses of impervious areas are 0.2 to 1.5 mm together, which is capacity + retention
+ * here.
+ *
  * Infiltration of soils is the saturated conductivity of Carsel and Parrish 1988: sand 712.8 cm/day, sandy loam 106.1
- * (lawn), silt loam 10.8 (trodden soil). Manning's n: paved surfaces .011 to .016, overland flow in grass .15. */
+ * (lawn), silt loam 10.8 (trodden soil).
+ *
+ * Manning's n: paved surfaces .011 to .016, overland flow in grass .15. */
 #include "ground/ground_internal.h"
 
 #include "core/settings.h"
@@ -72,7 +76,7 @@ virga_result ground_check_settings(const virga_log *log, virga_ground_settings *
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-/* Millimetres on a cell in nanolitres: 1 mm on 1 m^2 is a litre. */
+/* Converts millimetres on a cell to nanolitres: 1 mm on 1 m^2 is one litre. */
 static double on_cell_nl(double mm, double cell_m)
 {
     return mm * cell_m * cell_m * 1e9;

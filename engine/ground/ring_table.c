@@ -7,10 +7,10 @@
 #define GRAVITY   9.80665
 #define TENSION   (0.0728 / 998.2) /* sigma / rho */
 #define VISCOSITY 1.004e-6
-#define NUMBERS   160    /* of waves: k from 0 to K_MAX */
+#define NUMBERS   160    /* number of waves: k from 0 to K_MAX */
 #define K_MAX     1600.0 /* exp(-a^2 k^2 / 4) is 4e-5 there */
-#define J1_STEPS  64     /* of J1's table per unit: read linearly it is right to 2e-5 */
-#define J1_SIZE   25100  /* beyond K_MAX times the farthest radius */
+#define J1_STEPS  64     /* entries of J1's table per unit: linear interpolation is right to 2e-5 */
+#define J1_SIZE   25100  /* beyond K_MAX times the largest radius */
 
 double ring_omega(double k, double h)
 {
@@ -50,7 +50,7 @@ double ring_reach(double t)
     return VIRGA_RING_START_M + VIRGA_RING_FRONT_M_S * t;
 }
 
-/* Of each wave and depth: what it begins with, its frequency and its damping. */
+/* Of each wave, at each depth: initial amplitude, frequency and damping. */
 typedef struct waves {
     double start[NUMBERS], omega[NUMBERS][VIRGA_RING_DEPTHS], gamma[NUMBERS][VIRGA_RING_DEPTHS];
 } waves;
@@ -68,7 +68,7 @@ static void describe_waves(double blur_m, waves *w)
     }
 }
 
-/* What each wave adds at time t, by depth: all depths share the waves, and so J1. */
+/* The weight of each wave at time t, for each depth. All depths use the same waves, so J1 is computed once. */
 static void weigh(const waves *w, double t, float weights[NUMBERS][VIRGA_RING_DEPTHS])
 {
     for (int i = 0; i < NUMBERS; i++)
@@ -118,7 +118,7 @@ uint16_t ring_half(float number)
     if (size >= 0x1p-14f)
         frexpf(size, &exponent); /* size is in [2^(exponent - 1); 2^exponent), which has 1024 half floats */
     const int whole = (int)nearbyintf(ldexpf(size, 11 - exponent));
-    /* What rounds up to the next power of two carries into the exponent, as it should. */
+    /* Rounding up to the next power of two carries into the exponent, as it should. */
     return (uint16_t)(sign | (whole + (exponent + 13) * 1024));
 }
 

@@ -1,18 +1,20 @@
-/* ground/standing.c - water on ground where no drop is counted, material by material.
+/* ground/standing.c - water on ground where drops are not simulated, for each material.
  *
- * A cell that comes into the window for the first time has stood in the rain as long as those that were in it. What it
- * would hold by now is kept here for two cells of each material, one in the open and one under cover, with the laws of
- * the window's: pores take the rain first, then a film forms that the roughness holds back (its retention), and what is
- * above runs into hollows. It sinks and dries as theirs does. Nothing runs off to elsewhere: hollows are full when half
- * of the ground is under water, where those of an even unevenness run over into one another. */
+ * A cell that enters the window for the first time has been in the rain as long as the cells inside. So the water that
+ * it would hold by now is simulated for two cells of each material: one in the open and one under cover. They follow
+ * the same laws as the cells of the window. First the pores absorb the rain. Then a film forms that the roughness holds
+ * (its retention). The rest runs into hollows. The water infiltrates and evaporates in the same way. Nothing runs off
+ * to other cells. Hollows are full when half of the ground is under water: from there on, the hollows of level but
+ * uneven ground overflow into each other. */
 #include "ground/ground_internal.h"
 
 #include <math.h>
 
-#define SPREAD 1.18 /* standard deviation of the bumps in shaders/ground/terrain.glsl, over that of the material */
+#define SPREAD 1.18 /* standard deviation of the bumps in shaders/ground/terrain.glsl / that of the material */
 
-/* Share of the ground that is under water where hollows are full to `level_um`: bumps are taken as a normal
- * distribution, and humps begin half a deviation below its middle (as in shaders/ground/standing.glsl). */
+/* Share of the ground that is under water where hollows are filled to `level_um`. The heights of the bumps are assumed
+ * to be normally distributed. Humps begin half a standard deviation below the mean (as in
+ * shaders/ground/standing.glsl). */
 static double share_under(double level_um, double bumps_um)
 {
     return 0.5 * erfc((0.5 - level_um / bumps_um) / (SPREAD * sqrt(2)));
@@ -25,7 +27,7 @@ static void fill_hollows(ground_standing *s, const virga_soil_gpu *soil, double 
         s->level_um = fmin(s->level_um + um / share_under(s->level_um, bumps_um), full_um);
 }
 
-/* Of what is asked for. */
+/* Returns how much was removed: at most what was there. */
 static double remove_water(double *from, double requested)
 {
     const double removed = fmin(requested, *from);
@@ -49,7 +51,7 @@ static void tick_cell(ground_standing *s, const virga_soil_gpu *soil, const grou
     const double dried = remove_water(&s->film_nl, drying);
     remove_water(&s->held_nl, drying - dried);
     const double above = s->film_nl - (double)soil->retention_nl;
-    const double lost = sinking + weather->evaporation_nl * (double)soil->drying - comes; /* by hollows */
+    const double lost = sinking + weather->evaporation_nl * (double)soil->drying - comes; /* lost by hollows */
     if (above > 0) {
         s->film_nl -= above;
         fill_hollows(s, soil, above / weather->nl_per_um);
