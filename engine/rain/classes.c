@@ -1,8 +1,9 @@
-/* rain/classes.c - the sizes of drops as classes: which slots have which, how many drops a slot stands for, and how
- * each class moves. All on the host and in double; the device only reads the result.
+/* rain/classes.c - size classes of drops: the class of each slot, how many drops a slot represents, and how each class
+ * moves. Everything is computed on the host in double precision; the device only reads the result.
  *
- * A slot's size never changes, so settings may: a new rate changes weights, not places. Slots are dealt for a
- * cloudburst, and a lighter rain leaves some of them out (the ones of high rank), softly at the edge. */
+ * The size of a slot never changes. New settings change weights only, and slots stay where they are. Slots are assigned
+ * to classes for a cloudburst. In lighter rain the slots of high rank are not used, with a soft transition between used
+ * and unused ranks. */
 #include "rain/rain_internal.h"
 
 #include <virga/shared/random.h>
@@ -11,13 +12,13 @@
 #include <string.h>
 
 #define RANK_SOFTNESS   0.05  /* as in shaders/rain/field.glsl */
-#define DEALT_RATE_MM_H 150.0 /* the rain that slots are dealt for: heavier needs weights above 1 */
-#define LIGHT_RATE_MM_H 5.0   /* and, in the outer boxes, half of them for this one */
-#define EVEN_SHARE      0.15  /* of slots that go evenly over all sizes, so that no distribution finds none */
+#define DEALT_RATE_MM_H 150.0 /* slots are assigned for this rain: heavier rain needs weights above 1 */
+#define LIGHT_RATE_MM_H 5.0   /* in the outer boxes, half of the slots are assigned for this rain */
+#define EVEN_SHARE      0.15  /* of slots, spread evenly over all sizes, so that every size distribution finds some */
 
 static const virga_sizes marshall_palmer = {VIRGA_SIZES_MARSHALL_PALMER, NULL, NULL, 0};
 
-/* ---- how slots are dealt */
+/* ---- assigning slots to classes */
 
 static void class_sizes(rain_classes *classes)
 {
@@ -30,7 +31,7 @@ static void class_sizes(rain_classes *classes)
     }
 }
 
-/* Adds `share` x density x diameter^power, scaled to add up to `share` over all classes. */
+/* Adds `share` x density x diameter^power to the demand, normalised to a sum of `share` over all classes. */
 static void add_demand(const rain_classes *classes, double rate, double power, double share, double *demand)
 {
     double diameters[VIRGA_RAIN_CLASSES], densities[VIRGA_RAIN_CLASSES], sum = 0;
@@ -45,8 +46,9 @@ static void add_demand(const rain_classes *classes, double rate, double power, d
         demand[k] += share * densities[k] / sum;
 }
 
-/* The innermost box gets slots as there are drops, so that each can be one. The others get them as drops cover the
- * picture (diameter squared), so that each streak shows about as much. */
+/* In the innermost box, classes get slots in proportion to their drops, so that each slot can be one drop. In the other
+ * boxes they get them in proportion to the screen area that their drops cover (diameter squared), so that each streak
+ * contributes about equally. */
 static void deal_level(rain_classes *classes, uint32_t level)
 {
     double demand[VIRGA_RAIN_CLASSES];
@@ -87,7 +89,7 @@ void rain_classes_fill_slots(const rain_classes *classes, uint32_t seed, virga_s
     for (uint32_t level = 0; level < classes->levels; level++)
         for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++)
             for (uint32_t i = 0, count = classes->slot_count[level][k]; i < count; i++, index++) {
-                /* Ranks are even over the class, with a jitter inside their share. */
+                /* Ranks are stratified over the class: evenly spaced, with jitter. */
                 const double jitter = (double)virga_unit(virga_hash3(seed, 3, index));
                 const uint32_t rank = (uint32_t)((i + jitter) / count * 65536.0);
                 slots[index].class_rank = k | (rank > 65535 ? 65535 : rank) << 16;
@@ -96,7 +98,7 @@ void rain_classes_fill_slots(const rain_classes *classes, uint32_t seed, virga_s
             }
 }
 
-/* ---- how many drops a slot stands for */
+/* ---- how many drops a slot represents */
 
 /* Threshold t for which the mean over ranks u in [0; 1] of clamp((t - u) / e, 0, 1) is `share`. The mean is
  * t^2 / 2e for t < e, t - e/2 up to 1, and 1 - (1 - t + e)^2 / 2e from there to 1 + e. */
@@ -112,8 +114,8 @@ static double threshold_for(double share)
     return share < 1 ? 1 + e - sqrt(2 * e * (1 - share)) : 2;
 }
 
-/* Drops of each class that the slots of a box must stand for. A class without slots gives its water to the nearest
- * one that has some: as much water lands, in drops of nearly that size. */
+/* The number of drops of each class that the slots of a box represent. A class without slots passes its water to the
+ * nearest class that has some: the same amount of water lands, in drops of nearly the same size. */
 static void level_drops(const rain_classes *classes, uint32_t level, double volume_m3, double *drops)
 {
     const uint32_t *count = classes->slot_count[level];
@@ -160,7 +162,7 @@ void rain_classes_set_rain(rain_classes *classes, const virga_sizes *sizes, doub
         landing += classes->per_m3_to[k] * virga_drop_terminal_speed(c->diameter_m, air_density) *
                    virga_drop_volume(c->diameter_m) * 3.6e6;
     }
-    /* Classes are bins: scale away the last of the integration error, so that what lands is the rate itself. */
+    /* Classes are bins: scale away the remaining integration error, so that exactly the rate lands. */
     for (uint32_t k = 0; k < VIRGA_RAIN_CLASSES; k++)
         classes->per_m3_to[k] *= landing > 0 ? rate_mm_h / landing : 0;
     memcpy(classes->per_m3_from, classes->per_m3, sizeof classes->per_m3);
@@ -217,8 +219,8 @@ void rain_classes_settle(rain_classes *classes, const double wind[3])
             classes->classes[k].velocity[axis] = wind[axis] - (axis == 1 ? classes->classes[k].terminal_m_s : 0);
 }
 
-/* dv/dt = -g - (g / vt^2) |v - w| (v - w): drag with the square of the speed that balances gravity at the terminal
- * speed vt. Implicit in the last factor, so that it is stable at any tick and at rest exactly where it should be. */
+/* dv/dt = -g - (g / vt^2) |v - w| (v - w): quadratic drag, which balances gravity at the terminal speed vt. The last
+ * factor is implicit: this is stable with any tick, and exact at rest. */
 static void move(rain_class *c, const double wind[3], double tick_s, double side_m)
 {
     const double unit = 4294967296.0 / side_m;

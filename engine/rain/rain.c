@@ -1,4 +1,4 @@
-/* rain/rain.c - creating and destroying a field of rain, and its settings. */
+/* rain/rain.c - creates and destroys a field of rain, and applies its settings. */
 #include "rain/rain_internal.h"
 
 #include "core/light.h"
@@ -34,8 +34,9 @@
 
 #define DEF_COOKIE        VIRGA_COOKIE(3)
 #define SETTINGS_COOKIE   VIRGA_COOKIE(5)
-#define REAL_DROPS_PER_M3 3200.0 /* of a cloudburst, from 0.2 mm up: decides how wide the innermost box may be */
-#define RANGE_SHARE       0.75   /* of the widest box's half side is at full density, see FADE_FROM in field.glsl */
+#define REAL_DROPS_PER_M3 3200.0 /* in a cloudburst, from 0.2 mm up: limits the size of the innermost box */
+/* Share of the largest box's half side with full density, see FADE_FROM in field.glsl. */
+#define RANGE_SHARE 0.75
 
 /* ---- defaults */
 
@@ -107,7 +108,8 @@ static virga_result check_def(const virga_log *log, void *given)
     return virga_mesh_map_check_strides(log, "rain_def.occluder_strides", def->occluder_strides);
 }
 
-/* Boxes double from one in which a cloudburst's drops are all slots up to one that holds the range. */
+/* Each box has twice the side of the next inner one. The outermost holds the range. In the innermost there are enough
+ * slots for each drop of a cloudburst. */
 static void plan_levels(const virga_rain_def *def, uint32_t *levels, uint32_t *groups_per_level, double *side_m)
 {
     const double widest = 2 * (double)def->range_m / RANGE_SHARE;
@@ -121,13 +123,13 @@ static void plan_levels(const virga_rain_def *def, uint32_t *levels, uint32_t *g
         ++*levels;
     }
     *groups_per_level = (def->max_drops + *levels * VIRGA_RAIN_GROUP - 1) / (*levels * VIRGA_RAIN_GROUP);
-    /* Slots must fit into an id's bits. */
+    /* The index of a slot must fit into the bits of an id. */
     const uint32_t max = (1u << VIRGA_RAIN_ID_SLOT_BITS) / (VIRGA_RAIN_GROUP * *levels);
     *groups_per_level = *groups_per_level < max ? *groups_per_level : max;
     *side_m = widest;
 }
 
-/* ---- what it is made of */
+/* ---- buffers, passes and pools */
 
 enum {
     COUNT_SLOTS = 1,
@@ -155,13 +157,13 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES(slots);
     counts[COUNT_IMPACTS] = def->max_impacts;
     counts[COUNT_STREAKS] = def->max_streaks;
-    /* Six indices a streak, and counts by bucket and workgroup, see shaders/rain/order.glsl. */
+    /* Six indices per streak, and one count per bucket and workgroup, see shaders/rain/order.glsl. */
     counts[COUNT_ORDER] = 6 * (VkDeviceSize)def->max_streaks + VIRGA_RAIN_BUCKETS * (1 + streak_groups);
     counts[COUNT_PANES] = def->max_panes;
     counts[COUNT_HIT_SLOTS] = def->max_panes ? slots : 0;
     counts[COUNT_SWAYS] = def->wind_texture ? slots : 0;
     counts[COUNT_POINTS] = def->points ? slots : 0;
-    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one for a view without a step */
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more for a view without a step */
     counts[COUNT_VIEWS] = VIRGA_RAIN_MAX_VIEWS;
 }
 
@@ -194,7 +196,7 @@ static const virga_effect_ring rings[] = {
     {"rain.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(rain_view_block), COUNT_VIEWS},
 };
 
-/* For the scene's depth that a view has not, and for the wind that a host has not given. */
+/* Bound if a view has no scene depth, or the host gave no wind. */
 static const virga_effect_image images[] = {
     {"rain.blank", AT(blank), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
      VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
@@ -234,7 +236,7 @@ static const virga_effect_pass passes[] = {
     STEP(points),
 };
 
-/* The field of drops, what is seen of it, what it hits, and its maps. */
+/* What shrinks to fit the memory budget: drops, streaks, impacts and occlusion maps. */
 static const virga_effect_pool pools[] = {
     {"max_drops", offsetof(virga_rain_def, max_drops), 1024, 1},
     {"max_streaks", offsetof(virga_rain_def, max_streaks), 256, 1},
@@ -366,7 +368,7 @@ static virga_result check_settings(const virga_log *log, virga_rain_settings *se
     return virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), settings, changed);
 }
 
-/* Copies of the host's table, so that its pointers need not live on. NULL tables where it is of another kind. */
+/* Copies the host's table, so that its pointers need not stay valid. The results are NULL for other kinds of sizes. */
 static virga_result copy_table(virga_rain *rain, const virga_sizes *sizes, double **diameters, double **numbers)
 {
     *diameters = *numbers = NULL;
@@ -398,7 +400,7 @@ static bool same_sizes(const virga_sizes *a, const virga_sizes *b)
            !memcmp(a->table_number, b->table_number, a->table_count * sizeof(double));
 }
 
-/* Puts what was checked into force. */
+/* Applies settings that were checked. */
 static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters, double *numbers)
 {
     const virga_rain_settings *old = &rain->settings;
@@ -450,7 +452,7 @@ virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *setting
     return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-/* ---- what others read */
+/* ---- buffers and statistics */
 
 void virga_rain_impacts(const virga_rain *rain, virga_rain_buffer *impacts)
 {

@@ -1,4 +1,4 @@
-/* rain/rain.h - what a scene uses of this effect beside its public functions. Internal. */
+/* rain/rain.h - the part of the rain that a scene uses besides its public functions. Internal. */
 #ifndef VIRGA_RAIN_RAIN_H
 #define VIRGA_RAIN_RAIN_H
 

@@ -1,5 +1,5 @@
-/* rain/rain_descriptors.c - the one binding model: every pass of rain sees the same set, laid out as in
- * shaders/rain/field.glsl. Sets are written when a frame uses them, so that a host's images may change. */
+/* rain/rain_descriptors.c - the bindings of all passes of rain: one set, laid out as in shaders/rain/field.glsl. Sets
+ * are written in the frame that uses them, so that the host's images may change. */
 #include "rain/rain_internal.h"
 
 #include "gpu/device_check.h"
@@ -44,9 +44,8 @@ const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->weights}, /* 15 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                    /* 16 */
     {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                    /* 17 */
-    [BIND_HITS] = {DYNAMIC, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer), RAIN_HITS_BYTES},      /* 18 of a pane */
-    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_offset_buffer)}, /* 19 where each slot's hits go
-                                                                                         * */
+    [BIND_HITS] = {DYNAMIC, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer), RAIN_HITS_BYTES},      /* 18 hits of a pane */
+    [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_offset_buffer)}, /* 19 offsets of hits */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                            /* 20 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                          /* 21 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                           /* 22 */
@@ -57,7 +56,7 @@ static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayou
     return (virga_bound){.sampler = sampler, .view = view, .image_layout = layout};
 }
 
-/* A buffer that stands in where an option is off. */
+/* Binds a valid buffer in place of one that an option disables. */
 static void bind_unused(const virga_rain *rain, virga_bound *bound)
 {
     if (!bound->buffer)

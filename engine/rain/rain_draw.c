@@ -1,4 +1,4 @@
-/* rain/rain_draw.c - what a view sees: selection and shading (prepare), and drawing. */
+/* rain/rain_draw.c - the rain in a view: prepare selects and shades streaks, then they are drawn. */
 #include "rain/rain_internal.h"
 
 #include "core/phase.h"
@@ -30,13 +30,12 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- a view in the device's terms */
+/* ---- constants of a view */
 
-#define MAX_COVERAGE 0.25 /* as in shaders/rain/prepare_write.comp */
-#define MIN_COVERAGE \
-    (1.0 / 400) /* as in shaders/rain/view.glsl: what covers less is below what the eye and 8 bits see */
+#define MAX_COVERAGE 0.25        /* as in shaders/rain/prepare_write.comp */
+#define MIN_COVERAGE (1.0 / 400) /* as in shaders/rain/view.glsl: less coverage is invisible, also in 8 bits */
 
-/* Coverage (0 to 1) that a streak of a class would have at a distance, were it not limited. */
+/* Coverage (0 to 1) of a streak of a class at a distance, without the limit. */
 static double streak_coverage(const rain_view_block *block, const rain_class *c, double drops, double distance_m)
 {
     const virga_view_gpu *view = &block->view;
@@ -48,9 +47,9 @@ static double streak_coverage(const rain_view_block *block, const rain_class *c,
     return (one < 1 ? one : 1) * width_px / drawn_px * drops;
 }
 
-/* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show: of drops that are too
- * small to be drawn or too faint to be seen one by one, and of slots that stand for so many drops that their streak
- * would be a bar. It becomes haze, so that rain is as thick at any budget. */
+/* Share of the extinction (coverage: number x diameter^2) in a box that streaks do not show. Some drops are too small
+ * to be drawn, or too faint to be seen one by one. Some slots represent so many drops that their streak would look like
+ * a bar. This share becomes haze, so that the density of rain looks the same with any budget. */
 static double hazy_share(const virga_rain *rain, const rain_view_block *block, uint32_t level)
 {
     const rain_classes *classes = rain->classes;
@@ -79,7 +78,7 @@ static void fill_haze(const virga_rain *rain, rain_view_block *out)
     out->look.haze_inner_m = (float)(0.5 * ldexp(rain->classes->side_m, 1 - (int)rain->levels));
 }
 
-/* Where the glow of lamps takes its light from, see shaders/rain/glow.glsl. */
+/* Cumulative integral of the phase function, for the glow of lamps, see shaders/rain/glow.glsl. */
 static void fill_bent(rain_view_block *out)
 {
     _Static_assert(VIRGA_RAIN_BENT == VIRGA_PHASE_BINS + 1, "borders of the phase function's bins");
@@ -90,7 +89,7 @@ static void fill_bent(rain_view_block *out)
     }
 }
 
-#define AT_THE_CAMERA 1e20f /* 1 / the depth that haze begins at, see virga_rain_look_gpu */
+#define AT_THE_CAMERA 1e20f /* 1 / the depth at which haze begins, see virga_rain_look_gpu */
 
 static void fill_look(const virga_rain *rain, rain_view_block *out)
 {
@@ -117,11 +116,11 @@ static void fill_view(const virga_rain *rain, const virga_view *view, double tim
     memset(out, 0, sizeof *out);
     const double at_tick = (double)rain->ticks * rain->def.tick_s;
     virga_view_fill(view, &rain->settings.lighting, rain->origin, at_tick, time_s, &out->view);
-    out->look.parts = (float)view->sub_frames; /* fill_haze asks for it */
+    out->look.parts = (float)view->sub_frames; /* fill_haze reads it */
     fill_look(rain, out);
 }
 
-/* For a view without streaks: haze is all of the rain, in every box, and begins where rays cross a plane. */
+/* For a view without streaks: haze represents all of the rain, in every box. It begins where rays cross a plane. */
 static void fill_haze_alone(const virga_rain *rain, const virga_view *view, const double begin[4], rain_view_block *out)
 {
     for (uint32_t level = 0; level < rain->levels; level++)
@@ -131,14 +130,14 @@ static void fill_haze_alone(const virga_rain *rain, const virga_view *view, cons
     double beyond = begin[3];
     for (int axis = 0; axis < 3; axis++)
         beyond -= begin[axis] * view->position_m[axis];
-    if (fabs(beyond) < 1e-6) /* the camera is in it */
+    if (fabs(beyond) < 1e-6) /* the camera is on the plane */
         return;
     for (int axis = 0; axis < 3; axis++)
         out->look.begin[axis] = (float)(begin[axis] / beyond);
     out->look.begin[3] = 0;
 }
 
-/* The next block of the frame's ring, and which one it is. */
+/* Adds a block to this frame's part of the ring, and returns its index. */
 static virga_result push_view(virga_rain *rain, const rain_view_block *block, uint32_t *index)
 {
     virga_context *context = rain->base.context;
@@ -156,7 +155,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
 {
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.prepare");
-    /* The draw before, of this or an earlier frame, may still read the streaks. */
+    /* An earlier draw, of this or an earlier frame, may still read the streaks. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
@@ -220,7 +219,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     record_prepare(rain, cmd, set);
     virga_effect_set_view(&rain->base, set, view->viewport);
     rain->prepared_depth = has_depth;
-    rain->prepared_line_px = rain->settings.min_width_px + 1; /* as their corners would be, see streak.glsl */
+    rain->prepared_line_px = rain->settings.min_width_px + 1; /* the width of quads in streak.glsl */
     rain->prepared_haze = has_depth && hazes(rain);
     rain->prepared_glows = rain->prepared_haze ? glowing_lamps(rain) : 0;
     return virga_check_uploads(rain->base.context);
@@ -231,7 +230,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
 static const uint32_t plain[2] = {0, VIRGA_RAIN_STREAKS_DEPTH};
 static const uint32_t lines[2] = {VIRGA_RAIN_STREAKS_LINES, VIRGA_RAIN_STREAKS_LINES | VIRGA_RAIN_STREAKS_DEPTH};
 
-/* In the order of RAIN_DRAW_... Haze moves with what it lies over, so it writes no motion. */
+/* In the order of RAIN_DRAW_... Haze moves with the surface behind it, so it writes no motion. */
 const virga_effect_draw rain_draws[RAIN_DRAW_ROWS] = {
     {"rain.line_streaks", VIRGA_VERTEX_FORMS(rain_draw_streak_thin_vert),
      VIRGA_FRAGMENT_FORMS(rain_draw_streak_thin_frag), lines, 2, .lines = true},
@@ -326,7 +325,7 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     virga_result result = check_haze_alone(rain, cmd, view, begin, target, &found);
     if (result)
         return result;
-    /* Inside rendering a frame can not be begun. */
+    /* A frame can not begin inside rendering. */
     if (!found || !rain->stepped || rain->base.step_frame != rain->base.context->frame_index)
         return VIRGA_NOT_READY;
     const virga_pipeline *used[] = {found->draws[RAIN_DRAW_HAZE], found->draws[RAIN_DRAW_GLOW]};
@@ -346,6 +345,6 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     draw_plain(rain, cmd, used[0], 3, 1, "rain.haze_alone");
     if (glowing_lamps(rain))
         draw_plain(rain, cmd, used[1], 6, glowing_lamps(rain), "rain.glow_alone");
-    rain->view_offset = prepared_offset; /* virga_rain_draw may still come */
+    rain->view_offset = prepared_offset; /* for a later virga_rain_draw */
     return virga_check_uploads(rain->base.context);
 }

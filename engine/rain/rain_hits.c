@@ -1,4 +1,4 @@
-/* rain/rain_hits.c - drops that meet a pane: a windshield, a visor, the front of a camera. */
+/* rain/rain_hits.c - finds the drops that hit a pane: a windshield, a visor, the lens of a camera. */
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
@@ -36,8 +36,8 @@ static virga_result check_pane(const virga_rain *rain, VkCommandBuffer cmd, cons
     return virga_effect_ready(&rain->base);
 }
 
-/* Boxes that reach as far as the pane: the innermost come first. A box hands over to the next from three quarters of
- * its half side on, and drops of the pane's step come from a little farther. */
+/* The workgroups of all boxes that the pane can touch; the innermost box comes first. The next box is used from three
+ * quarters of a box's half side on. Drops that hit the pane in this step start a little farther out. */
 static uint32_t groups_near(const virga_rain *rain, const virga_rain_pane_gpu *pane)
 {
     double far = 0;
@@ -77,7 +77,7 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
 {
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
-    /* Lists are shared with the impacts; a pane may still read the hits of a step before. */
+    /* The impacts use the same lists, and a pane may still read the hits of an earlier step. */
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,

@@ -1,13 +1,13 @@
-/* rain/rain_internal.h - the object behind virga_rain, and what its files do for each other. Internal.
+/* rain/rain_internal.h - the object behind virga_rain, and the functions that its files share. Internal.
  *
- *   rain.c            create, destroy, settings
- *   classes.c         size classes: which slots, what weights, how they move
- *   wind.c            the uniform wind with its gusts
- *   rain_descriptors.c  the one binding model of all passes
- *   rain_step.c       ticks and impacts
- *   rain_occlusion.c  maps of where no rain falls
- *   rain_draw.c       prepare, attach, draw, haze alone
- */
+ *   rain.c              create, destroy, settings
+ *   classes.c           size classes: their slots, weights and motion
+ *   wind.c              the uniform wind with its gusts
+ *   rain_descriptors.c  the bindings of all passes
+ *   rain_step.c         ticks and impacts
+ *   rain_occlusion.c    maps of where no rain falls
+ *   rain_hits.c         drops that hit a pane
+ *   rain_draw.c         prepare, attach, draw, haze alone */
 #ifndef VIRGA_RAIN_INTERNAL_H
 #define VIRGA_RAIN_INTERNAL_H
 
@@ -24,10 +24,11 @@
 #include <virga/shared/rain_gpu.h>
 #include <virga/shared/view_gpu.h>
 
-/* ---- classes.c: on the host, in double */
+/* ---- classes.c: on the host, in double precision */
 
 typedef struct rain_class {
-    double diameter_m, terminal_m_s, density_share; /* the last: logarithmic width x diameter, for bins */
+    /* density_share: logarithmic width of the bin x diameter. */
+    double diameter_m, terminal_m_s, density_share;
     double velocity[3];
     double drag;       /* of the newest tick, see virga_class_gpu */
     int64_t travel[3]; /* fixed point, see virga_class_gpu */
@@ -36,42 +37,44 @@ typedef struct rain_class {
 typedef struct rain_classes {
     rain_class classes[VIRGA_RAIN_CLASSES];
     uint32_t slot_count[VIRGA_RAIN_MAX_LEVELS][VIRGA_RAIN_CLASSES];
-    double per_m3[VIRGA_RAIN_CLASSES];      /* drops of the class per m^3, in force */
-    double per_m3_from[VIRGA_RAIN_CLASSES]; /* eased from */
+    double per_m3[VIRGA_RAIN_CLASSES];      /* drops of the class per m^3, at this time */
+    double per_m3_from[VIRGA_RAIN_CLASSES]; /* at the start of the transition */
     double per_m3_to[VIRGA_RAIN_CLASSES];
-    double rate_mm_h, rate_from, rate_to; /* the same of the rate, which haze goes by */
-    double eased_s, ease_s;               /* how far, and how long it takes in all; 0: done */
+    double rate_mm_h, rate_from, rate_to; /* the rain rate in the same transition; haze uses it */
+    /* Time since the start of the transition, and its duration; 0: no transition. */
+    double eased_s, ease_s;
     virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
     uint32_t levels, slots_per_level;
-    double side_m; /* of the widest box */
+    double side_m; /* side of the largest box */
 } rain_classes;
 
-/* Sizes, boxes and the number of slots of each class in each box. */
+/* Sets sizes, boxes, and the number of slots of each class in each box. */
 void rain_classes_init(rain_classes *classes, uint32_t levels, uint32_t slots_per_level, double side_m);
 
-/* The slots themselves, levels x slots_per_level of them. */
+/* Fills the slots, levels x slots_per_level of them. */
 void rain_classes_fill_slots(const rain_classes *classes, uint32_t seed, virga_slot_gpu *slots);
 
-/* New densities, eased into over `ease_s`; 0 at once. */
+/* Sets new densities, in a transition of `ease_s`; 0: at once. */
 void rain_classes_set_rain(rain_classes *classes, const virga_sizes *sizes, double rate_mm_h, double air_density,
                            double ease_s);
 
-/* New air density: terminal speeds; velocities follow by drag. */
+/* Sets the air density: terminal speeds change at once, and velocities follow by drag. */
 void rain_classes_set_air(rain_classes *classes, double air_density);
 
-/* Velocities of drops long since at rest with the wind. */
+/* Sets velocities to their steady state in the wind. */
 void rain_classes_settle(rain_classes *classes, const double wind[3]);
 
-/* One tick: eases weights, moves velocities by drag and lattices by velocities. */
+/* One tick: updates weights in a transition, velocities by drag, and travel by velocities. */
 void rain_classes_tick(rain_classes *classes, const double wind[3], double tick_s);
 
-/* Half of the side of a box within which every slot is one drop; 0 where even the innermost stands for several. */
+/* Half the side of the box within which every slot is one drop; 0 if even slots of the innermost box represent
+ * several. */
 double rain_classes_real_drop_radius(const rain_classes *classes);
 
 /* ---- wind.c */
 
 typedef struct rain_wind {
-    double phase; /* knots of gust noise passed */
+    double phase; /* time, in knots of the gust noise */
 } rain_wind;
 
 void rain_wind_tick(rain_wind *wind, double tick_s, double gust_time_s);
@@ -80,14 +83,15 @@ void rain_wind_at(const rain_wind *wind, const virga_rain_settings *settings, ui
 /* ---- the object */
 
 typedef struct rain_map {
-    double center[2]; /* world, sheared about y = 0 */
+    double center[2]; /* in world coordinates, sheared about y = 0 */
     double slant[2];
     double half_m, top_m, height_m;
 } rain_map;
 
-/* A target's pipelines: those of streaks without and, behind it, with the scene's depth to read. */
+/* The pipelines of a target. Those of streaks come in pairs: without and with the scene's depth. */
 enum {
-    RAIN_DRAW_LINES = 0, /* thin streaks as lines, where the context has them */
+    /* Streaks that are drawn as lines, if the context has lines. */
+    RAIN_DRAW_LINES = 0,
     RAIN_DRAW_THIN = 2,
     RAIN_DRAW_WIDE = 4,
     RAIN_DRAW_HAZE = 6,
@@ -95,14 +99,14 @@ enum {
     RAIN_DRAW_ROWS = 5
 };
 
-/* A streak, and behind all of them its motion: four texels and one. */
+/* Bytes of a streak: four texels. The motion of all streaks is stored behind all streaks, one texel each. */
 #define RAIN_STREAK_BYTES ((uint32_t)sizeof(virga_streak_gpu) + 16)
 
 enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
 enum { RAIN_BINDINGS = 23 };
 
-/* What is read back of one frame. */
+/* The statistics that are read back for one frame. */
 typedef struct rain_readback {
     virga_impacts_gpu impacts;   /* of its step */
     virga_prepared_gpu prepared; /* of its prepare */
@@ -110,7 +114,7 @@ typedef struct rain_readback {
 
 enum { RAIN_PART_STEP, RAIN_PART_PREPARE }; /* of the statistics */
 
-/* What the host knows of a frame's step. */
+/* The host's statistics of a frame's step. */
 typedef struct rain_frame_stats {
     double time_s;
     uint32_t ticks;
@@ -122,15 +126,15 @@ struct virga_rain {
     virga_rain_def def;
     virga_rain_settings settings;
     virga_image wind_image;                  /* copy of what settings.wind_texture points to */
-    double *table_diameter_m, *table_number; /* copies of a host's sizes */
+    double *table_diameter_m, *table_number; /* copies of the host's sizes */
 
     rain_classes *classes;
     rain_wind wind;
     double wind_now[3];
     uint32_t levels, groups_per_level, groups, slots;
-    uint64_t ticks;         /* run since creation */
-    uint32_t ticks_of_step; /* run by the newest step */
-    double left_over_s;     /* host time not yet run */
+    uint64_t ticks;         /* ticks run since creation */
+    uint32_t ticks_of_step; /* ticks run in the newest step */
+    double left_over_s;     /* time of the host that no tick covers yet */
     double origin[3];       /* of the newest tick */
     bool stepped, sway_on;
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
@@ -138,44 +142,45 @@ struct virga_rain {
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
         *prepared_buffer, *hit_buffer, *hit_offset_buffer, *sway_buffer, *order_buffer, *point_buffer;
     virga_ring tick_ring, view_ring;
-    uint32_t tick_offset, view_offset; /* of the newest blocks */
-    uint64_t tick_frame;               /* in whose part of the ring the newest tick is */
+    uint32_t tick_offset, view_offset; /* offsets of the newest blocks */
+    uint64_t tick_frame;               /* the frame whose part of the ring has the newest tick */
     virga_mesh_map *map;
-    virga_image_2d *blank;      /* depth, for the scene depth that a view has not */
-    virga_image_2d *blank_wind; /* a 3D image of one texel, for the wind that a host has not given */
+    virga_image_2d *blank;      /* depth, if a view has no scene depth */
+    virga_image_2d *blank_wind; /* a 3D image of one texel, if the host gave no wind */
 
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
-    uint32_t map_count; /* drawn and in use */
-    bool maps_drawn;    /* the rain's own images hold what `maps` says */
-    uint32_t next_map;  /* counts calls: whose turn it is to be drawn */
+    uint32_t map_count; /* maps that are drawn and in use */
+    bool maps_drawn;    /* the rain's own images match `maps` */
+    uint32_t next_map;  /* counts calls, for settings.occlusion_interval */
     bool host_maps;
     virga_image host_map_image;
 
     virga_bindings *bindings;
-    VkDescriptorSet step_set; /* of the frame step_set_frame */
+    VkDescriptorSet step_set; /* written in the frame step_set_frame */
     uint64_t step_set_frame;
     virga_pipeline *move, *sway, *impact_near_mark, *impact_near_scan, *impact_mark, *impact_scan, *impact_write,
         *streak_mark, *streak_scan, *streak_write, *order_count, *order_scan, *order_indices, *compact, *points,
         *hit_mark, *hit_scan, *hit_count, *hit_offsets, *hit_write;
 
-    uint64_t hits_frame; /* that hits_panes belongs to */
+    uint64_t hits_frame; /* the frame that hits_panes belongs to */
     uint32_t hits_panes, hits_offset;
-    float prepared_line_px; /* width of lines */
+    float prepared_line_px; /* width of line streaks */
     bool prepared_haze, prepared_depth;
-    uint32_t prepared_glows; /* lamps that glow */
+    uint32_t prepared_glows; /* number of lamps that glow */
     rain_frame_stats frame_stats[VIRGA_MAX_FRAMES_IN_FLIGHT];
     virga_rain_stats stats;
 };
 
-/* What a tick's passes read besides travels and weights: small enough for the least uniform
- * buffer that Vulkan allows. */
+/* What the passes of a tick read besides travels and weights: fits into the smallest uniform buffer range that Vulkan
+ * guarantees. */
 typedef struct rain_tick_tables {
     virga_tick_gpu tick;
     virga_map_gpu maps[VIRGA_RAIN_MAX_MAPS];
     virga_class_gpu classes[VIRGA_RAIN_CLASSES];
 } rain_tick_tables;
 
-/* A tick's block in its ring. Each part is a binding of its own and starts where Vulkan lets it: at 256 bytes. */
+/* A tick's block in its ring. Each part has a binding of its own, and its offset is a multiple of 256 bytes, the
+ * largest alignment that Vulkan may require. */
 typedef struct rain_tick_block {
     virga_travel_gpu travels[VIRGA_RAIN_CLASSES];
     virga_weight_gpu weights[VIRGA_RAIN_MAX_LEVELS * VIRGA_RAIN_CLASSES];
@@ -201,17 +206,17 @@ typedef struct rain_view_block {
 /* ---- rain_descriptors.c */
 extern const virga_binding_kind rain_bindings[RAIN_BINDINGS];
 
-/* Writes a set of this frame; `scene_depth` NULL for a blank. */
+/* Writes a set of this frame. `scene_depth` NULL: a blank image is bound. */
 VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_image *scene_depth);
 void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
 /* ---- rain_step.c */
 
-/* The newest tick again, in this frame's part of the ring: what an earlier frame's part holds the host may be writing
- * anew by the time that the device reads it. */
+/* Writes the newest tick into this frame's part of the ring. The host may overwrite an earlier frame's part before the
+ * device reads it. */
 void rain_keep_tick(virga_rain *rain);
 
-/* Before a call records: first contents, and the statistics of completed frames. */
+/* Before a call records: fills buffers in the first call, and reads the statistics of completed frames. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
 void rain_read_statistics(void *rain, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 

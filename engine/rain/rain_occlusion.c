@@ -1,10 +1,13 @@
-/* rain/rain_occlusion.c - maps of what the falling drops meet first.
+/* rain/rain_occlusion.c - maps of the first surface that falling drops meet.
  *
- * Rain falls along parallel lines, so a depth image taken along them tells for each line where it first meets
- * something: above that there is rain, below there is none, however many roofs lie under one another. Lines lean with
- * the wind, small drops' more; a few slants cover the sizes. A map is sheared, not turned: its coordinates are
- * (x + s.x y, z + s.y y), so a texel is a line of fall and depth is height. Cascades of maps lie around the camera,
- * each four times as wide as the one inside it. */
+ * Rain falls along parallel lines. A depth image rendered along these lines stores where each line first meets a
+ * surface: above it there is rain, below it there is none, however many roofs lie below one another.
+ *
+ * The lines lean with the wind, and lean more for small drops. So maps are drawn for a few slants, each for a range of
+ * drop sizes. A map is sheared, not rotated: its coordinates are (x + s.x y, z + s.y y), so a texel is a line of fall
+ * and depth is height.
+ *
+ * The maps form cascades around the camera, each with four times the side of the next inner one. */
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
@@ -15,15 +18,15 @@
 #include <string.h>
 
 #define CASCADE_FACTOR 4.0
-#define MAP_MARGIN     1.3   /* of the range that drops have, so that leaning lines stay inside */
-#define MAP_TOP_M      256.0 /* above the camera: what is higher shelters nothing */
+#define MAP_MARGIN     1.3   /* times the range of the drops, so that leaning lines stay inside */
+#define MAP_TOP_M      256.0 /* above the camera: higher occluders are ignored */
 #define MAP_HEIGHT_M   512.0
-#define MAP_LEFT       0.2 /* of half a map: less than its margin, 0.3 / 1.3 */
+#define MAP_LEFT       0.2 /* share of half a map: less than its margin, 0.3 / 1.3 */
 #define MAP_CLIMB_M    32.0
-#define SLANT_TIME_S   0.5 /* a drop has come along its line for about this long when it passes cover */
-#define MAX_SLANT      8.0 /* horizontal metres a metre of fall: nearly flat, in a storm */
+#define SLANT_TIME_S   0.5 /* time that a drop has typically fallen along its line when it passes an occluder */
+#define MAX_SLANT      8.0 /* horizontal metres per metre of fall: nearly flat, in a storm */
 
-/* Diameters that part the slants, and one that stands for each. */
+/* The diameters that separate the slants, and the diameter that represents each. */
 static const double slant_bounds[VIRGA_RAIN_MAX_SLANTS][VIRGA_RAIN_MAX_SLANTS - 1] = {
     {1, 1, 1}, {1.5e-3, 1, 1}, {1.0e-3, 2.0e-3, 1}, {0.8e-3, 1.4e-3, 2.4e-3}};
 static const double slant_middles[VIRGA_RAIN_MAX_SLANTS][VIRGA_RAIN_MAX_SLANTS] = {
@@ -38,7 +41,7 @@ uint32_t rain_class_slant(const virga_rain *rain, double diameter_m)
     return slant;
 }
 
-/* The slant of the drops that stand for a group, at this instant. */
+/* The current slant of the drops that represent a size range. */
 static void slant_now(const virga_rain *rain, uint32_t slant, double out[2])
 {
     const double diameter = slant_middles[rain->def.occlusion_slants - 1][slant];
@@ -64,7 +67,7 @@ void rain_occlusion_tick(virga_rain *rain)
     }
 }
 
-/* Places a map around a camera, on multiples of its texels so that it stays still while the camera moves a little. */
+/* Centres a map on a camera, snapped to its texels, so that it does not shift while the camera moves a little. */
 static void plan_map(virga_rain *rain, uint32_t index, const double camera_m[3], double top_m)
 {
     rain_map *map = &rain->maps[index];
@@ -90,9 +93,9 @@ static uint32_t planned_count(const virga_rain *rain)
     return rain->def.occlusion_cascades * rain->def.occlusion_slants;
 }
 
-/* ---- by turns: a map that is not drawn keeps the place and the slant that it was drawn with */
+/* ---- occlusion_interval: a map that is not redrawn keeps the centre and the slant of its last drawing */
 
-/* Whether a camera has come so far from a map's middle that the map may not reach what is seen on its other side. */
+/* Whether the camera is so far from the centre of the map that the map may not cover the visible range. */
 static bool is_left(const rain_map *map, const double camera_m[3])
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -103,7 +106,7 @@ static bool is_left(const rain_map *map, const double camera_m[3])
     return fabs(camera_m[1] + MAP_TOP_M - map->top_m) > MAP_CLIMB_M;
 }
 
-/* All maps have one top, so where one has to be drawn for it, all have. */
+/* All maps have the same top, so if it changes for one map, all are redrawn. */
 static bool all_are_due(const virga_rain *rain, const double camera_m[3])
 {
     bool due = rain->settings.occlusion_interval <= 1 || !rain->maps_drawn;
@@ -112,7 +115,8 @@ static bool all_are_due(const virga_rain *rain, const double camera_m[3])
     return due;
 }
 
-/* A map's numbers seen from an origin near the camera, in double until they are small. */
+/* The centre of a map relative to an origin near the camera; in double precision, because only the difference is
+ * small. */
 static void center_from(const rain_map *map, const double origin[3], double center[2])
 {
     for (int axis = 0; axis < 2; axis++)
@@ -139,7 +143,7 @@ void rain_fill_maps(const virga_rain *rain, virga_tick_gpu *tick, virga_map_gpu 
     }
 }
 
-/* ---- drawing them */
+/* ---- maps that the rain draws */
 
 virga_result rain_occlusion_create(virga_rain *rain)
 {
@@ -172,7 +176,7 @@ static virga_result check_call(const virga_rain *rain, const double camera_m[3])
     return camera_m ? virga_settings_check_positions(&rain->base.context->log, "camera_m", camera_m, 3) : VIRGA_OK;
 }
 
-/* The same for calls that record: what they use belongs to a frame. */
+/* The same for calls that record: these need a frame. */
 static virga_result check_recording(const virga_rain *rain, const double camera_m[3])
 {
     const virga_result result = check_call(rain, camera_m);
@@ -229,7 +233,7 @@ uint32_t virga_rain_plan_occlusion(virga_rain *rain, const double camera_m[3], v
         double center[2];
         center_from(map, camera_m, center);
         const float scale = (float)(1 / map->half_m), down = (float)(1 / map->height_m);
-        /* Columns are the images of x, y, z and 1: x and z scaled, y sheared into both and turned into depth. */
+        /* Columns are the images of x, y, z and 1: x and z are scaled, y is sheared into both and becomes depth. */
         const float matrix[16] = {scale,
                                   0,
                                   0,

@@ -1,4 +1,4 @@
-/* rain/rain_step.c - ticks: where the drops are, and which of them met something. */
+/* rain/rain_step.c - ticks: moves the drops, and finds those that hit something. */
 #include "rain/rain_internal.h"
 
 #include "core/settings.h"
@@ -11,7 +11,7 @@
 
 #define MAX_STEP_S 10.0
 
-/* ---- a frame's start */
+/* ---- the start of a frame */
 
 static void read_step(virga_rain *rain, const rain_frame_stats *frame, const virga_impacts_gpu *impacts)
 {
@@ -145,7 +145,7 @@ static void push_tick(virga_rain *rain, uint32_t tick_in_step)
     rain->tick_offset = virga_ring_push(rain->base.context, &rain->tick_ring, &block, sizeof block);
 }
 
-/* Behind those of steps, so that a step after it in the frame has all of its own. */
+/* It has its own block after those of the ticks, so that a later step in this frame still has all of them. */
 void rain_keep_tick(virga_rain *rain)
 {
     rain_tick_block block;
@@ -183,7 +183,7 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_pass_end(context, cmd, scope);
 }
 
-/* The state of the field at the newest tick, seen from a new place: no time passes, nothing lands. */
+/* Recomputes the newest tick relative to a new origin. No time passes, and no drop lands. */
 static void record_refresh(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet set)
 {
     virga_context *context = rain->base.context;
@@ -209,12 +209,13 @@ static uint32_t ticks_of_frame(const virga_rain *rain)
     return virga_ring_used(rain->base.context, &rain->tick_ring);
 }
 
-/* Whole ticks that host time completes; the rest is kept, or dropped where a step can not run that many. */
+/* The number of whole ticks in the host's time. The rest is left for the next step, or dropped if a step may not run
+ * that many ticks. */
 static uint32_t whole_ticks(virga_rain *rain, double dt_s, bool *dropped)
 {
     const uint32_t left = rain->def.max_ticks_per_step - ticks_of_frame(rain);
     rain->left_over_s += dt_s;
-    /* A tick that is short by rounding alone counts, or 1/24 s at a tick of 1/48 s would run 1, 2, 3, 2, ... */
+    /* Ticks that are short only by rounding count. Otherwise 1/24 s with ticks of 1/48 s would run 1, 2, 3, 2, ... */
     double whole = floor(rain->left_over_s / rain->def.tick_s + 1e-9);
     if (whole > left) {
         whole = left;
@@ -246,7 +247,7 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
     return virga_effect_ready(&rain->base);
 }
 
-/* The head of the impacts comes back; what others do with the impacts waits for them here. */
+/* Copies the head of the impacts for the host. Later readers of the impacts wait for the passes here. */
 static void record_readback(virga_rain *rain, VkCommandBuffer cmd)
 {
     virga_barrier(rain->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -273,7 +274,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     }
     const VkDescriptorSet set = rain->step_set;
 
-    /* Passes and copies of the frame before may still read what this one writes. */
+    /* Passes and copies of the previous frame may still read what this frame writes. */
     virga_barrier(context, cmd,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -1,15 +1,16 @@
-/* rain/wind.c - the uniform wind: a mean and gusts that are smooth noise in time. */
+/* rain/wind.c - the uniform wind: a mean plus gusts, which are smooth noise in time. */
 #include "rain/rain_internal.h"
 
 #include <virga/shared/random.h>
 
 #include <math.h>
 
-#define WIND_STREAM    0x77696e64u /* of random numbers */
-#define VERTICAL_SHARE 0.4         /* of a gust, against its horizontal components: near the ground it has less room */
+#define WIND_STREAM 0x77696e64u /* stream of random numbers */
+/* Of a gust, relative to the horizontal components: smaller, as the ground limits vertical motion. */
+#define VERTICAL_SHARE 0.4
 
-/* A normal number for a knot of the noise: the sum of twelve uniform ones less six (Irwin and Hall) is one near
- * enough, and the same bits everywhere. */
+/* An approximately normal random number for a knot of the noise: the sum of twelve uniform numbers minus six (Irwin and
+ * Hall). It has the same bits on every machine. */
 static double knot(uint32_t seed, uint32_t axis, int64_t index)
 {
     double sum = -6;
@@ -19,8 +20,8 @@ static double knot(uint32_t seed, uint32_t axis, int64_t index)
     return sum;
 }
 
-/* Noise of variance 1 at any time: a cubic B-spline through random knots, divided by the root of the sum of its
- * squared weights, which is the deviation that the blend of independent knots has. */
+/* Noise of variance 1 at any time: a cubic B-spline through random knots, divided by the root of the sum of its squared
+ * weights. This root is the standard deviation of the blend of independent knots. */
 static double noise(uint32_t seed, uint32_t axis, double phase)
 {
     const double base = floor(phase), t = phase - base;
