@@ -248,8 +248,8 @@ static const virga_effect_pass passes[] = {
     {"ground.far_map", AT(far.draw), VIRGA_SPIRV_ROW(ground_far_map_comp)},
 };
 
-/* What shrinks to fit the memory budget: the window, the tile cache and the ripple map. Sizes shared with rain and
- * splashes stay. */
+/* What shrinks to fit the memory budget: the window, the tile cache, the ripple map and the distant map. Sizes shared
+ * with rain and splashes stay. */
 static const virga_effect_pool pools[] = {
     {"cells", offsetof(virga_ground_def, cells), 128, 0},
     {"cached_tiles", offsetof(virga_ground_def, cached_tiles), 0, 1},
