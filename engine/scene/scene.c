@@ -1,4 +1,5 @@
-/* scene/scene.c - the life of a scene. Every function walks the effects that scene_effects.c lists. */
+/* scene/scene.c - creates, runs and destroys a scene. Every function loops over the effects that scene_effects.c
+ * lists. */
 #include "scene/scene_internal.h"
 
 #include "core/memory.h"
@@ -44,7 +45,7 @@ static virga_result check_def(const virga_log *log, const virga_scene_def *def)
     return VIRGA_OK;
 }
 
-/* ---- which effects a definition asks for */
+/* ---- the effects of a definition */
 
 static uint32_t count_of_kind(const virga_scene_def *def, const scene_kind *kind)
 {
@@ -92,9 +93,9 @@ static virga_result create_effect(virga_scene *scene, const virga_scene_def *def
     return result;
 }
 
-/* Effects that are still to come keep their share of what the budget has left, by their estimates: a scene over the
- * budget is then smaller in all of its effects, instead of having first ones that leave nothing. A share is a wish: an
- * effect whose minimum does not fit into it may have all that is left. */
+/* Creates an effect. If the scene does not fit into the memory budget, the effect gets a share of the memory that is
+ * left, in proportion to the estimates of all effects still to be created. So all effects become smaller, and the first
+ * ones do not use up the budget. An effect whose minimum size does not fit into its share may use all that is left. */
 static virga_result create_in_share(virga_scene *scene, const virga_scene_def *def, const scene_kind *kind,
                                     uint32_t index, VkDeviceSize to_come)
 {
@@ -127,7 +128,7 @@ static virga_result create_effects(virga_scene *scene, const virga_scene_def *de
     return result;
 }
 
-/* A stable sort: panes stay in the order of their definitions. */
+/* A stable sort: panes keep the order of their definitions. */
 static void sort_draws(virga_scene *scene)
 {
     for (uint32_t i = 0; i < scene->effect_count; i++) {
@@ -173,7 +174,7 @@ void virga_scene_destroy(virga_scene **scene)
     *scene = NULL;
 }
 
-/* ---- the effects, for their own functions */
+/* ---- access to the effects, for their own functions */
 
 void *scene_find(const virga_scene *scene, const virga_effect_type *type, uint32_t index)
 {
@@ -227,7 +228,7 @@ static virga_result check_positions(const virga_log *log, const virga_scene_fram
     return VIRGA_OK;
 }
 
-/* VIRGA_NOT_READY: all but the view, which has no pixels. */
+/* VIRGA_NOT_READY: all is valid, but the view has no pixels. */
 static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     const virga_log *log = &scene->context->log;
@@ -250,7 +251,8 @@ static virga_result check_frame(const virga_scene *scene, VkCommandBuffer cmd, c
     return frame->view ? virga_view_check(scene->context, frame->view, virga_rain_time(rain)) : VIRGA_OK;
 }
 
-/* A camera_m that was forgotten, or is in other units than the view's, looks like rain that does not work. */
+/* Logs a camera that is beyond the rain. The usual causes are a camera_m that was not set, or one in other units than
+ * the view's. The rain then looks as if it does not work. */
 static void log_if_far(virga_scene *scene, const virga_scene_frame *frame)
 {
     virga_rainfall fall;
@@ -276,7 +278,7 @@ virga_result virga_scene_ready(const virga_scene *scene)
     return result;
 }
 
-/* A step of an effect that meets no other. */
+/* Steps an effect that exchanges no events with others. */
 static virga_result step_alone(virga_scene *scene, virga_effect *effect, VkCommandBuffer cmd,
                                const virga_scene_frame *frame)
 {
@@ -302,7 +304,7 @@ static virga_result step_all(virga_scene *scene, VkCommandBuffer cmd, const virg
     return result;
 }
 
-/* At the time of the rain. Panes are prepared apart, see virga_scene_prepare_panes. */
+/* Prepares the effects at the time of the rain. Panes are prepared separately, see virga_scene_prepare_panes. */
 static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view)
 {
     const double time_s = virga_rain_time(scene_find(scene, &rain_type, 0));
@@ -319,7 +321,8 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
 {
     if (!scene)
         return VIRGA_ERROR_INVALID;
-    /* Rain that falls while its ground is not there yet would make a run depend on how fast pipelines were built. */
+    /* Nothing steps until all pipelines are built. Otherwise rain would fall before its ground exists, and the result
+     * would depend on build times. */
     const virga_result ready = virga_scene_ready(scene);
     const virga_result checked = check_frame(scene, cmd, frame);
     if (checked < 0)

@@ -1,8 +1,7 @@
-/* scene/scene_effects.c - the effects of a scene and the events between them. The only file that knows them all.
+/* scene/scene_effects.c - the effects of a scene and the events between them. The only file that knows all effects.
  *
- *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, a step later
- *       \-> hits -> panes
- */
+ *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, in the next step
+ *       \-> hits -> panes */
 #include "scene/scene_internal.h"
 
 #include "core/settings.h"
@@ -15,7 +14,7 @@
 
 #include <string.h>
 
-/* ---- definitions: what must be the same as the rain's is copied from it */
+/* ---- definitions: values that effects must share are copied from the rain's */
 
 static void define_rain(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
@@ -34,7 +33,7 @@ static void define_ground(const virga_scene_def *def, uint32_t index, void *effe
     (void)index;
     ground.seed = def->rain.seed;
     if (def->with_splash && ground.max_returned_droplets < ground.max_spawns)
-        ground.max_returned_droplets = ground.max_spawns; /* as splash needs */
+        ground.max_returned_droplets = ground.max_spawns; /* the number that splash needs */
     ground.tick_s = def->rain.tick_s;
     ground.max_impacts = def->rain.max_impacts;
     ground.max_ticks_per_step = def->rain.max_ticks_per_step;
@@ -92,7 +91,7 @@ static virga_result step_rain(virga_scene *scene, uint32_t index, VkCommandBuffe
     return result < 0 ? result : scene_merge_results(result, virga_rain_step(rain, cmd, &step));
 }
 
-/* ---- ground: impacts come from the rain, rules and returned water from the splashes */
+/* ---- ground: impacts come from the rain, rules and returned droplets from the splashes */
 
 static void fill_rainfall(const virga_rain *rain, virga_ground_step_info *info)
 {
@@ -134,7 +133,7 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
     return virga_ground_step(scene_find(scene, &ground_type, index), cmd, &info);
 }
 
-/* ---- splashes: the ground says where they are */
+/* ---- splashes: the ground emits them */
 
 static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
@@ -146,9 +145,9 @@ static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuf
     return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
 }
 
-/* ---- panes: the rain says which of its drops hit them, or how much falls */
+/* ---- panes: the rain finds the drops that hit them, or gives its rate */
 
-/* From the pane's own frame to the world; a pose without axes has the world's. */
+/* Transforms a vector from the pane's frame to the world. A pose without axes has the axes of the world. */
 static void turn_to_world(const virga_glass_pose *pose, const float local[3], float world[3])
 {
     bool none = true;
@@ -184,7 +183,7 @@ static virga_result check_pane(const virga_scene *scene, uint32_t index, const v
     return VIRGA_OK;
 }
 
-/* The rain's own drops, as long as there is room for them to be caught and nothing keeps a share of them off. */
+/* Uses the rain's own drops if this pane can catch them: it is one of the catching panes and has no shelter. */
 static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_t index, const virga_scene_pane *pane,
                                 virga_glass_step_info *info)
 {
@@ -210,7 +209,7 @@ static virga_result catch_drops(virga_scene *scene, VkCommandBuffer cmd, uint32_
     return result;
 }
 
-/* Rain lands on a pane as it does on the ground under the same sky. */
+/* The pane gets the rain that falls on the ground, reduced by the pane's shelter. */
 static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     bool changed = false;
@@ -238,7 +237,7 @@ static virga_result step_pane(virga_scene *scene, uint32_t index, VkCommandBuffe
     return result ? result : changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
-/* At the panes' own time: what rain has left over of a tick they do not know of. */
+/* Prepares panes at their own time: unlike the rain's, it does not include the part of a tick that has not run yet. */
 virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, const virga_view *view,
                                        const virga_scene_pane *panes)
 {
@@ -266,7 +265,7 @@ const scene_kind scene_kinds[] = {
     {&ground_type, DRAW_GROUND, count_ground, define_ground, .step = step_ground},
     {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash},
     {&glass_type, DRAW_PANES, count_panes, define_pane, .check_frame = check_pane, .step = step_pane},
-#ifdef SCENE_EXTRA_KINDS /* an effect that exists in the tests only */
+#ifdef SCENE_EXTRA_KINDS /* an effect of the tests */
     SCENE_EXTRA_KINDS,
 #endif
 };

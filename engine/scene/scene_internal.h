@@ -1,8 +1,7 @@
-/* scene/scene_internal.h - a scene as a list of effects, and the table that says how they meet. Internal.
+/* scene/scene_internal.h - a scene as a list of effects, and the table of how they interact. Internal.
  *
- *   scene.c          the life of a scene: every function walks the table
- *   scene_effects.c  the table: which effects there are, and the events between them
- */
+ *   scene.c          creates, runs and destroys a scene: every function loops over the table
+ *   scene_effects.c  the table: which effects exist, and the events between them */
 #ifndef VIRGA_SCENE_INTERNAL_H
 #define VIRGA_SCENE_INTERNAL_H
 
@@ -13,31 +12,31 @@
 #define SCENE_MAX_KINDS   16
 #define SCENE_MAX_EFFECTS (SCENE_MAX_KINDS + VIRGA_SCENE_MAX_PANES)
 
-/* A kind of effect, as scenes know it. Rows stand in the order in which a frame steps them. What a row leaves out is
- * as the effect's own type has it. */
+/* A kind of effect in a scene. The table has one row for each, in the order in which a frame steps them. For a NULL
+ * member the default of the effect's type is used. */
 typedef struct scene_kind {
     const virga_effect_type *type;
-    uint32_t draw_order; /* lower ones are attached, prepared and drawn first */
+    uint32_t draw_order; /* effects with lower numbers are attached, prepared and drawn first */
 
-    /* How many of these a definition asks for. NULL: one. */
+    /* The number of effects of this kind in a definition. NULL: one. */
     uint32_t (*count)(const virga_scene_def *def);
-    /* Fills the definition of one of them: its own, with what it shares with others copied from theirs. NULL: the
-     * default. */
+    /* Fills the definition of one effect: its own values, and those it shares with other effects, copied from theirs.
+     * NULL: the default definition. */
     void (*define)(const virga_scene_def *def, uint32_t index, void *effect_def);
-    /* Checks what a frame says for it, before anything is recorded. NULL: nothing. */
+    /* Checks the effect's part of a frame, before anything is recorded. NULL: nothing to check. */
     virga_result (*check_frame)(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame);
-    /* Records its step, with the events of those before it. NULL: it needs none. */
+    /* Records the effect's step, with events from earlier effects. NULL: the step of its type, without events. */
     virga_result (*step)(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame);
 } scene_kind;
 
-/* In scene_effects.c. */
+/* Defined in scene_effects.c. */
 extern const scene_kind scene_kinds[];
 extern const uint32_t scene_kind_count;
 
 /* An effect of a scene. */
 typedef struct scene_effect {
     const scene_kind *kind;
-    uint32_t index; /* among those of its kind */
+    uint32_t index; /* index among the effects of its kind */
     virga_effect *effect;
 } scene_effect;
 
@@ -46,14 +45,16 @@ struct virga_scene {
     scene_effect effects[SCENE_MAX_EFFECTS]; /* by kind, in the order of the table */
     uint32_t effect_count;
     uint32_t draw_order[SCENE_MAX_EFFECTS]; /* indices of effects in the order in which they are drawn */
-    uint32_t catching_panes; /* so many panes, from the first on, catch the rain's drops; the others get its rate */
-    bool far_logged;         /* that the view's camera is beyond the rain, since it was within */
+    /* The first panes, this many of them, catch the rain's drops. The others use its rate. */
+    uint32_t catching_panes;
+    /* It was logged that the view's camera is beyond the rain. Reset when it is inside. */
+    bool far_logged;
 };
 
-/* An effect of a type; NULL where the scene has none of that number. */
+/* Effect number `index` of a type; NULL if the scene has no such effect. */
 void *scene_find(const virga_scene *scene, const virga_effect_type *type, uint32_t index);
 
-/* The first error, else the last remark. */
+/* The first error; without one, the last result that is not VIRGA_OK. */
 virga_result scene_merge_results(virga_result a, virga_result b);
 
 #endif
