@@ -1,4 +1,4 @@
-/* core/drops.c - physics of one falling drop: speed, shape, oscillation. */
+/* core/drops.c - the physics of one falling drop: speed, shape, oscillation. */
 #include <virga/drops.h>
 
 #include <math.h>
@@ -20,10 +20,10 @@ static const speed_knot gunn_kinzer[] = {
 
 enum { knot_count = sizeof gunn_kinzer / sizeof gunn_kinzer[0], last_knot = knot_count - 1 };
 
-/* Speed (m/s) that drops above the table approach. They flatten as they grow and gain hardly any. */
+/* The limit (m/s) that speeds above the table approach. Larger drops are flatter, so they hardly fall faster. */
 static const double top_speed = 9.2;
 
-/* Beyond this (kg/m^3) an air density is a mistake; keeps speeds finite. */
+/* Air densities (kg/m^3) below this are errors. The limit keeps speeds finite. */
 static const double air_density_min = 0.01;
 static const double air_density_max = 100.0;
 
@@ -50,8 +50,8 @@ static double stokes_speed(double mm)
     return (VIRGA_WATER_DENSITY - VIRGA_AIR_DENSITY) * VIRGA_GRAVITY / (18.0 * 1.813e-5) * mm * mm * 1e-6;
 }
 
-/* Share of Stokes's speed that the inertia of the air takes away, grown in proportion to the diameter so that it is
- * nothing for the smallest drops and meets the table (0.27 m/s against Stokes's 0.30) at the first knot. */
+/* Share of Stokes's speed that is lost to the inertia of the air. It is proportional to the diameter: zero for the
+ * smallest drops, and at the first knot it gives the table's speed (0.27 m/s instead of Stokes's 0.30). */
 static double small_drop_loss(void)
 {
     return 1.0 - gunn_kinzer[0].speed / stokes_speed(gunn_kinzer[0].diameter_mm);
@@ -62,8 +62,8 @@ static double small_drop_speed(double mm)
     return stokes_speed(mm) * (1.0 - small_drop_loss() * mm / gunn_kinzer[0].diameter_mm);
 }
 
-/* Slope at a knot. Inside: the weighted harmonic mean of the secants beside it (Fritsch and Butland 1984), which
- * keeps the curve monotone. First: the slope of small_drop_speed. Last: the last secant. */
+/* Slope at a knot. Inner knots: the weighted harmonic mean of the two neighbouring secants (Fritsch and Butland 1984),
+ * which keeps the curve monotone. First knot: the slope of small_drop_speed. Last knot: the last secant. */
 static double knot_slope(int knot)
 {
     if (knot == 0) {
@@ -101,7 +101,7 @@ static double table_speed(double mm)
            width * bend * ((1.0 - t) * knot_slope(lo) - t * knot_slope(hi));
 }
 
-/* Above the table: from the last knot, with its slope, exponentially to the top speed. */
+/* Above the table: exponential from the last knot, with the slope there, to the top speed. */
 static double large_drop_speed(double mm)
 {
     double missing = top_speed - gunn_kinzer[last_knot].speed;

@@ -7,8 +7,8 @@
 virga_lighting virga_default_lighting(void)
 {
     virga_lighting lighting = {.light_count = 0};
-    /* Grey 0.5 above and 0.1 below: mean 0.3 and a gradient in y with the first band of a step of 0.4 in height,
-     * whose coefficient is 0.4 pi / 2 x 0.488603 x 2. */
+    /* Grey sky 0.5 and ground 0.1: mean 0.3, and a gradient in y, which is the first spherical-harmonics band of a step
+     * of height 0.4. Its coefficient is 0.4 pi / 2 x 0.488603 x 2. */
     for (int c = 0; c < 3; c++) {
         lighting.environment_sh[0][c] = 0.3f / 0.282095f;
         lighting.environment_sh[1][c] = 0.614f;
@@ -27,7 +27,7 @@ static field_name name_field(const char *owner, const char *field)
     return name;
 }
 
-/* Settings may be given every frame, so a name is put together only where it is about to be said. */
+/* Settings may be set every frame, so the name is formatted only if it is logged. */
 static virga_result check_floats(const virga_log *log, const char *owner, const char *field, const float *values,
                                  uint32_t count)
 {

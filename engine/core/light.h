@@ -1,4 +1,4 @@
-/* core/light.h - the check that every effect's lighting goes through. Internal. */
+/* core/light.h - checks the lighting of every effect. Internal. */
 #ifndef VIRGA_CORE_LIGHT_H
 #define VIRGA_CORE_LIGHT_H
 
@@ -6,9 +6,9 @@
 
 #include <virga/light.h>
 
-/* Clamps the count of lights, which sets *changed (never cleared) and says so. VIRGA_ERROR_INVALID, and nothing is
- * changed, where a number in use is not finite. `owner` is what the host calls the struct that holds it, e.g. "rain":
- * lines in the log begin with "rain.lighting.". */
+/* Clamps the number of lights; if it changed, sets *changed (never clears it) and logs it. If a number in use is not
+ * finite, returns VIRGA_ERROR_INVALID and changes nothing. `owner` is the host's name of the surrounding struct, e.g.
+ * "rain": log lines then begin with "rain.lighting.". */
 virga_result virga_lighting_check(const virga_log *log, const char *owner, virga_lighting *lighting, bool *changed);
 
 #endif

@@ -1,10 +1,10 @@
-/* core/log.h - says one line to the host's log callback. Internal. */
+/* core/log.h - writes one line to the host's log callback. Internal. */
 #ifndef VIRGA_CORE_LOG_H
 #define VIRGA_CORE_LOG_H
 
 #include <virga/base.h>
 
-/* Longest line with its end; a longer one is cut and ends in "...". */
+/* The longest line in bytes, with its zero. A longer line is cut and ends in "...". */
 #define VIRGA_LOG_LINE 512
 
 typedef struct virga_log {
@@ -18,7 +18,7 @@ typedef struct virga_log {
 #define VIRGA_PRINTF(text, arguments)
 #endif
 
-/* Formats into a buffer on the stack, so it may be called after memory has run out. `log` may be NULL. */
+/* Formats into a buffer on the stack, so it also works when memory has run out. `log` may be NULL. */
 void virga_log_write(const virga_log *log, virga_log_level level, virga_log_id id, const char *format, ...)
     VIRGA_PRINTF(4, 5);
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Stands before each block. As large as the alignment, so that the block behind it is aligned as well. */
+/* In front of each block. It is as large as the alignment, so the block behind it is aligned too. */
 typedef union block_header {
     size_t size;
     unsigned char alignment[16];
@@ -15,7 +15,7 @@ _Static_assert(sizeof(block_header) == 16, "the block behind the header must be 
 static void *default_alloc(void *user, size_t size)
 {
     (void)user;
-    size_t rounded = (size + 15) & ~(size_t)15; /* aligned_alloc wants a multiple of the alignment */
+    size_t rounded = (size + 15) & ~(size_t)15; /* aligned_alloc needs a multiple of the alignment */
     return rounded < size ? NULL : aligned_alloc(16, rounded);
 }
 

@@ -1,7 +1,7 @@
-/* core/memory.h - host memory through the host's callbacks, counted. Internal.
+/* core/memory.h - counted host memory from the host's callbacks. Internal.
  *
- * Every block carries its size in front of it, so that the heap knows what is live and a host's allocator needs no
- * size on free. A heap is used by one thread at a time, as is the object that owns it. */
+ * Every block stores its size in front of it. So the heap knows what is allocated, and a host's allocator needs no size
+ * when a block is freed. A heap is used by one thread at a time, like the object that owns it. */
 #ifndef VIRGA_CORE_MEMORY_H
 #define VIRGA_CORE_MEMORY_H
 
@@ -9,18 +9,18 @@
 
 typedef struct virga_host_heap {
     virga_host_memory callbacks;
-    size_t live_count; /* blocks */
-    size_t live_bytes; /* as asked for, without headers */
+    size_t live_count; /* allocated blocks */
+    size_t live_bytes; /* their requested sizes, without headers */
 } virga_host_heap;
 
-/* Starts an empty heap. `callbacks` NULL or all zero: malloc and free. One of alloc and free without the other is
- * VIRGA_ERROR_INVALID; the heap then works with malloc and free. */
+/* Initialises an empty heap. `callbacks` NULL or all zero: malloc and free. If only one of alloc and free is set,
+ * returns VIRGA_ERROR_INVALID; the heap then works with malloc and free. */
 virga_result virga_host_heap_init(virga_host_heap *heap, const virga_host_memory *callbacks);
 
-/* Zeroed memory, aligned to 16 bytes, or NULL. Size 0 gives a block too. */
+/* Zeroed memory, aligned to 16 bytes, or NULL. Size 0 gives a valid block too. */
 void *virga_alloc(virga_host_heap *heap, size_t size);
 
-/* Zeroed room for `count` elements, or NULL, also where the product does not fit into size_t. */
+/* Zeroed memory for `count` elements. NULL if memory ran out, or if the product does not fit into size_t. */
 void *virga_alloc_array(virga_host_heap *heap, size_t count, size_t element_size);
 
 /* Accepts NULL. The block must come from the same heap. */

@@ -1,10 +1,11 @@
-/* core/phase.c - how a drop spreads light, as a table.
+/* core/phase.c - how a drop scatters light (its phase function), as a table.
  *
- * The table is geometric optics of a sphere of water (index 1.333): rays over the whole cross-section, Fresnel at
- * each surface, unpolarised; reflected outside (6.6 % of the light), straight through (88 %), after one inner
- * reflection (4 %: the primary bow), and the 0.9 % of higher orders evenly all around. tests/core/test_phase.c has
- * the derivation, prints these numbers, and recomputes them to 1e-6. A flattened large drop moves the bow a little;
- * the sphere stands for all. */
+ * The table is geometric optics of a sphere of water (index 1.333). It traces rays over the whole cross-section, with
+ * unpolarised Fresnel terms at each surface: reflected outside (6.6 % of the light), transmitted (88 %), after one
+ * internal reflection (4 %: the primary rainbow). The 0.9 % of higher orders is spread evenly over all directions.
+ *
+ * tests/core/test_phase.c has the derivation, prints these numbers, and recomputes them to 1e-6. In a flattened large
+ * drop the bow moves a little; the sphere represents all drops. */
 #include "core/phase.h"
 
 #include <virga/drops.h>
@@ -22,14 +23,14 @@ const double virga_phase_table[VIRGA_PHASE_BINS] = {
     0.011365365, 0.009566217, 0.008826201, 0.008701033, 0.008645353, 0.008607273, 0.008583499, 0.008572072,
 };
 
-/* Means of the Legendre polynomials of degree 0 to 2, of the table read linearly. */
+/* Means of the Legendre polynomials of degree 0 to 2 over the table, with linear interpolation. */
 static const double legendre_moments[3] = {1.0, 0.769777927, 0.622713700};
 
 static const double pi = 3.14159265358979323846;
 
 double virga_drop_phase(double cos_angle)
 {
-    double c = cos_angle < 1.0 ? (cos_angle > -1.0 ? cos_angle : -1.0) : 1.0; /* NaN: straight ahead */
+    double c = cos_angle < 1.0 ? (cos_angle > -1.0 ? cos_angle : -1.0) : 1.0; /* NaN: forward */
     double place = acos(c) * (VIRGA_PHASE_BINS / pi) - 0.5;
     if (place <= 0.0) {
         return virga_phase_table[0];

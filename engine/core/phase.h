@@ -4,8 +4,8 @@
 
 #define VIRGA_PHASE_BINS 64
 
-/* Radiance by irradiance (1/sr) at the angle (k + 0.5) pi / 64 from straight ahead. Read linearly in the angle between
- * these middles, and constant before the first and after the last, it integrates to 1 over the sphere. */
+/* Radiance per irradiance (1/sr) at the scattering angle (k + 0.5) pi / 64. With linear interpolation between these
+ * angles, and constant values before the first and after the last, it integrates to 1 over the sphere. */
 extern const double virga_phase_table[VIRGA_PHASE_BINS];
 
 #endif

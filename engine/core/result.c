@@ -1,7 +1,7 @@
 /* core/result.c - names of results and log ids, and the version. */
 #include <virga/base.h>
 
-/* The switches have no default label, so that the compiler names every entry that is missing here. */
+/* The switches have no default label, so the compiler warns about every missing entry. */
 #define RESULTS(X)               \
     X(VIRGA_OK)                  \
     X(VIRGA_NOT_READY)           \

@@ -148,7 +148,7 @@ static virga_result check_row(const virga_log *log, const virga_setting_row *row
     }
 }
 
-/* As a float, or a value at that end may lie outside by rounding. */
+/* The maximum is rounded to float. Otherwise a value at the maximum could be out of range by rounding. */
 static float max_of(const virga_setting_row *row, const char *settings)
 {
     const float max = (float)row->max;

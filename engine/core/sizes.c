@@ -1,21 +1,23 @@
-/* core/sizes.c - which drop sizes the air holds, scaled so that the rain rate lands.
+/* core/sizes.c - the size distribution of the drops in the air, scaled to the rain rate.
  *
- * A distribution is a relative number density ("shape"). Three integrals of it are needed: the water that falls
- * through a level square metre, integral of N v pi/6 D^3 dD, which sets the scale; and the drops that do,
- * integral of N v dD, up to a diameter and in all. The published fits do not rain the rate in their formula (Marshall
- * and Palmer's rains 28.3 mm/h for 25), so the scale is always computed.
- */
+ * A distribution is a relative number density ("shape"). Three integrals of it are needed. The water that falls through
+ * a level square metre, the integral of N v pi/6 D^3 dD, gives the scale. The other two are the number of drops that
+ * fall through it, the integral of N v dD: up to a diameter, and in total.
+ *
+ * The published fits do not give the rate in their formula (Marshall and Palmer's gives 28.3 mm/h for 25), so the scale
+ * is always computed. */
 #include <virga/drops.h>
 
 #include <math.h>
 
-/* Intervals of an integration over the whole range, spread over the pieces of a table. Simpson's rule over the
- * logarithm of the diameter: at 256 the rate is right to 2e-7, and an integration costs about 0.03 ms. */
+/* Intervals of an integration over the whole range, divided among the pieces of a table. It uses Simpson's rule over
+ * the logarithm of the diameter. With 256 intervals the error of the rate is 2e-7, and an integration takes about
+ * 0.03 ms. */
 enum { integration_intervals = 256, table_intervals_min = 8 };
 
 static const double rate_max_mm_h = 200.0;
 
-/* Shapes are not asked for below this rate: their drops would all be smaller than VIRGA_DROP_MIN_M. */
+/* Shapes are not evaluated below this rate: all of their drops would be smaller than VIRGA_DROP_MIN_M. */
 static const double shape_rate_min_mm_h = 0.01;
 
 /* Metres of water per second for 1 mm/h. */
@@ -54,21 +56,22 @@ static bool arguments_are_valid(const virga_sizes *sizes, double rate_mm_h)
     return false;
 }
 
-/* N0 is left out, as the scale replaces it. Relative to the smallest drop, so that it can not underflow. */
+/* N0 is omitted, because the scale replaces it. The exponent is relative to the smallest drop, so that it can not
+ * underflow. */
 static double marshall_palmer_shape(double rate_mm_h, double diameter_m)
 {
     return exp(-4.1 * pow(rate_mm_h, -0.21) * (diameter_m - VIRGA_DROP_MIN_M) * 1000.0);
 }
 
-/* The share of water is F(x) = 1 - exp(-x^2.25) with x = D / (1.3 R^0.232), so the number of drops goes with
- * F'(x) / x^3, which is x^-1.75 exp(-x^2.25) up to a factor. */
+/* The cumulative share of water is F(x) = 1 - exp(-x^2.25) with x = D / (1.3 R^0.232). So the number of drops is
+ * proportional to F'(x) / x^3, which is x^-1.75 exp(-x^2.25) up to a factor. */
 static double best_shape(double rate_mm_h, double diameter_m)
 {
     double x = diameter_m * 1000.0 / (1.3 * pow(rate_mm_h, 0.232));
     return pow(x, -1.75) * exp(-pow(x, 2.25));
 }
 
-/* Linear between the entries. Diameters outside the table never get here. */
+/* Linear interpolation between the entries. Diameters are always inside the table. */
 static double table_shape(const virga_sizes *sizes, double diameter_m)
 {
     uint32_t lo = 0;
@@ -111,7 +114,7 @@ typedef struct flux {
     double water; /* m^3 */
 } flux;
 
-/* Simpson's rule over one piece [lo; hi] in which the shape is smooth: dD = D d(ln D). */
+/* Simpson's rule over one interval [lo; hi] in which the shape is smooth: dD = D d(ln D). */
 static void add_piece(flux *sum, const virga_sizes *sizes, double rate_mm_h, double air_density, double lo, double hi,
                       int intervals)
 {
@@ -126,7 +129,7 @@ static void add_piece(flux *sum, const virga_sizes *sizes, double rate_mm_h, dou
     }
 }
 
-/* The flux of drops below `end_m`. Tables are integrated entry by entry, since their shape has a corner at each. */
+/* The flux of drops below `end_m`. Tables are integrated entry by entry, since their shape has a kink at each entry. */
 static flux integrate(const virga_sizes *sizes, double rate_mm_h, double air_density, double end_m)
 {
     flux sum = {0.0, 0.0};
@@ -159,7 +162,7 @@ virga_result virga_sizes_densities(const virga_sizes *sizes, double rate_mm_h, d
     double water = integrate(sizes, rate_mm_h, air_density, VIRGA_DROP_MAX_M).water;
     double scale = rate_mm_h * metres_per_second / water;
     if (!isfinite(water) || !isfinite(scale)) {
-        return VIRGA_ERROR_INVALID; /* a table without a drop that can fall, or with numbers beyond all bounds */
+        return VIRGA_ERROR_INVALID; /* no drop in the table can fall, or its numbers overflow */
     }
     for (uint32_t i = 0; i < count; i++) {
         double diameter = diameters_m[i];
