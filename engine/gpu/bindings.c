@@ -1,4 +1,4 @@
-/* gpu/bindings.c - the binding model: an effect lists its bindings once, and all of its passes see the same set. */
+/* gpu/bindings.c - the binding model: an effect lists its bindings once, and all of its passes use the same set. */
 #include "gpu/bindings.h"
 
 #include "gpu/context.h"
@@ -73,7 +73,7 @@ error:
     return result;
 }
 
-/* The device at hand may allow more than others do: so that too many are found here too. */
+/* This device may allow more than others, so the guaranteed number is checked on every device. */
 static virga_result check_storage(const virga_context *context, const virga_binding_kind *kinds, uint32_t count)
 {
     const VkShaderStageFlags stages[] = {VK_SHADER_STAGE_COMPUTE_BIT, VK_SHADER_STAGE_VERTEX_BIT,
@@ -122,7 +122,7 @@ VkDescriptorSet virga_bindings_write(virga_context *context, virga_bindings *bin
     uint32_t count = 0;
     for (uint32_t i = 0; i < bindings->count; i++) {
         if (!bound[i].buffer && !bound[i].view && !bound[i].texels)
-            continue; /* no pass that is recorded with this set reads it */
+            continue; /* no pass recorded with this set reads it */
         writes[count] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                                .dstSet = set,
                                                .dstBinding = i,

@@ -9,7 +9,7 @@
 #define VIRGA_MAX_BINDINGS 32
 #define VIRGA_ALL_STAGES   (VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
 
-/* What a binding is bound to, where that is a member of the effect's object. */
+/* What a binding is bound to, if it is a member of the effect's object. */
 typedef enum virga_binding_source {
     VIRGA_SOURCE_NONE,   /* the effect binds it itself */
     VIRGA_SOURCE_BUFFER, /* a virga_buffer *; NULL: nothing */
@@ -40,7 +40,7 @@ typedef struct virga_bindings {
     VkDescriptorSet *sets; /* frames_in_flight x sets_per_frame */
 } virga_bindings;
 
-/* What a binding is bound to: a buffer (range 0: to its end) or an image view. Neither: it is left as it is. */
+/* What to bind: a buffer (range 0: to its end) or an image view. With neither, the binding is not written. */
 typedef struct virga_bound {
     VkBuffer buffer;
     VkDeviceSize offset, range;

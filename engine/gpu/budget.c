@@ -1,7 +1,8 @@
-/* gpu/budget.c - an effect that does not fit into what the memory budget has left is made with smaller pools.
+/* gpu/budget.c - creates effects with smaller pools if they do not fit into the rest of the memory budget.
  *
- * An estimate is an upper bound, and what is left is cut by pages; so an effect is simply tried, smaller each time,
- * until it fits. Pipelines come last in every create, so that a try costs the making of some buffers and no more. */
+ * An estimate is only an upper bound, and the rest of the budget is divided into pages. So an effect is simply tried,
+ * smaller each time, until it fits. Pipelines are created last, so a failed try only costs the creation of some
+ * buffers. */
 #include "gpu/budget.h"
 
 #include "gpu/context.h"
@@ -9,10 +10,10 @@
 
 #include <stdio.h>
 
-#define SHRINK    0.75 /* of the size before, with each try: nine of them come down to a tenth */
+#define SHRINK    0.75 /* factor of the size with each try: nine tries reduce it to less than a tenth */
 #define MIN_SHARE 1e-6 /* all pools have reached their minimum */
 
-/* The pools of a definition while it is tried. */
+/* The pools of a definition during the tries. */
 typedef struct budget_try {
     const virga_effect_type *type;
     char *def;
@@ -24,7 +25,7 @@ static uint32_t *pool_size(const budget_try *attempt, uint32_t i)
     return (uint32_t *)(attempt->def + attempt->type->pools[i].member);
 }
 
-/* The size of a pool at a share of what it was asked to be: a whole number of units, or a power of two. */
+/* The size of a pool at a share of its requested size: a multiple of its unit, or a power of two. */
 static uint32_t size_at(const virga_effect_pool *pool, uint32_t requested, double share)
 {
     uint32_t size = (uint32_t)(requested * share), power = 1;
@@ -35,7 +36,7 @@ static uint32_t size_at(const virga_effect_pool *pool, uint32_t requested, doubl
     return size < requested ? size : requested;
 }
 
-/* Whether any pool would be smaller at that share than it is now. */
+/* Whether any pool would be smaller with this share than it is now. */
 static bool can_shrink(const budget_try *attempt, double share)
 {
     for (uint32_t i = 0; i < attempt->type->pool_count; i++)
@@ -44,7 +45,7 @@ static bool can_shrink(const budget_try *attempt, double share)
     return false;
 }
 
-/* False where no pool is smaller than it was asked to be. */
+/* Logs the pools that are smaller than requested. False if none is. */
 static bool log_shrunk(const virga_context *context, const budget_try *attempt)
 {
     char list[VIRGA_LOG_LINE];
@@ -71,7 +72,7 @@ virga_result virga_make_in_budget(virga_context *context, const virga_effect_typ
         for (uint32_t i = 0; i < type->pool_count; i++)
             *pool_size(&attempt, i) =
                 share < 1 ? size_at(&type->pools[i], attempt.requested[i], share) : attempt.requested[i];
-        /* From here on some may have reached their minimum while others have steps to go. */
+        /* Some pools may have reached their minimum, while others can still shrink. */
         share *= SHRINK;
         while (share > MIN_SHARE && !can_shrink(&attempt, share))
             share *= SHRINK;

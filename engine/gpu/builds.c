@@ -1,13 +1,12 @@
 /* gpu/builds.c - when pipelines are built: at once, in steps of the host's choice, or by the host's jobs.
  *
  * A waiting build holds a copy of its definition. Any thread may run it: it calls the device and writes only into the
- * build. The thread of the API collects the result. So the context needs no lock: threads share only the state of a
- * build, which goes
+ * build. The API's thread collects the result. So the context needs no lock: threads share only the state of a build:
  *
  *     WAITING -> RUNNING -> DONE -> collected          WAITING -> DROPPED -> DONE -> collected
  *
- * The second way is for a pipeline that was retired before its build began. The host's job keeps a pointer to its
- * build, so a dropped build is freed only after its job was run (and did nothing), or with the context. */
+ * The second sequence is for a pipeline that was retired before its build began. The host's job keeps a pointer to its
+ * build. So a dropped build is freed only after its job ran (and did nothing), or with the context. */
 #include "gpu/builds.h"
 
 #include "gpu/context.h"
@@ -27,7 +26,7 @@ typedef struct virga_build {
     virga_compute_def compute_def;
     virga_graphics_def graphics_def;
     atomic_int state;
-    VkPipeline made; /* from here on: written by whoever runs it, before DONE */
+    VkPipeline made; /* from here on: written by the thread that runs the build, before DONE */
     VkResult result;
     const char *call;
 } virga_build;
@@ -39,7 +38,7 @@ static VkResult make(const virga_context *context, const virga_compute_def *comp
                    : virga_graphics_build(context, graphics, made, call);
 }
 
-/* What the host runs as a job, and virga_pipelines_build in steps. */
+/* Run by the host as a job, or by virga_pipelines_build in steps. */
 static void run(void *data)
 {
     virga_build *build = data;
@@ -112,7 +111,7 @@ virga_result virga_group_ready(const virga_pipeline_group *group)
     return group->failed ? group->failed : group->waiting ? VIRGA_NOT_READY : VIRGA_OK;
 }
 
-/* The owner gets what was built for it. */
+/* Moves the built pipeline to its owner. */
 static virga_result hand_over(virga_context *context, virga_build *build)
 {
     virga_pipeline *pipeline = build->owner;
@@ -151,7 +150,7 @@ virga_result virga_builds_collect(virga_context *context)
     return first;
 }
 
-/* Without jobs nobody else has a pointer to the build, so it counts as run. */
+/* Without jobs there is no other pointer to the build, so it counts as run. */
 static void drop(const virga_context *context, virga_build *build)
 {
     int expected = WAITING;

@@ -1,4 +1,4 @@
-/* gpu/checks.c - checks of arguments that several effects have in common. */
+/* gpu/checks.c - checks of arguments that several effects share. */
 #include "gpu/checks.h"
 
 #include "gpu/context.h"
@@ -8,7 +8,7 @@ virga_result virga_host_list_check(const virga_context *context, const char *nam
                                    VkDeviceSize size, VkDeviceSize min_size)
 {
     const VkDeviceSize required = context->properties.limits.minStorageBufferOffsetAlignment;
-    const VkDeviceSize alignment = required > 4 ? required : 4; /* indirect arguments lie in it */
+    const VkDeviceSize alignment = required > 4 ? required : 4; /* it contains indirect arguments */
     if (offset % alignment)
         return virga_wrong_argument(&context->log, "%s_offset: expected a multiple of %llu on this device, got %llu",
                                     name, (unsigned long long)alignment, (unsigned long long)offset);
@@ -25,7 +25,7 @@ VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize si
     return !size ? VK_WHOLE_SIZE : size < max_range ? size : max_range;
 }
 
-/* Tick numbers wrap around, after years. */
+/* Tick numbers wrap around after years. */
 virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
 {
     if (!ticks || !last || (int32_t)(first - *last) > 0)

@@ -1,4 +1,4 @@
-/* gpu/checks.h - checks of arguments that several effects have in common. Internal. */
+/* gpu/checks.h - checks of arguments that several effects share. Internal. */
 #ifndef VIRGA_GPU_CHECKS_H
 #define VIRGA_GPU_CHECKS_H
 
@@ -15,8 +15,8 @@ virga_result virga_host_list_check(const virga_context *context, const char *nam
  * is given. */
 VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize max_range);
 
-/* The ticks of a step must follow those before it, else VIRGA_ERROR_INVALID with a line in the log. `last` is NULL
- * before the first. */
+/* The ticks of a step must follow the last tick. Otherwise VIRGA_ERROR_INVALID, with a line in the log. `last` is NULL
+ * before the first step. */
 virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);
 
 #endif

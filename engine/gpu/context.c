@@ -1,4 +1,4 @@
-/* gpu/context.c - creates the context on a host's device, and follows the host's frames. */
+/* gpu/context.c - creates the context on a host's device, and tracks the host's frames. */
 #include "gpu/context.h"
 
 #include "core/settings.h"
@@ -13,7 +13,7 @@
 
 #define CONTEXT_COOKIE VIRGA_COOKIE(1)
 
-#define LARGEST_POOL_TEXELS 33554432 /* at least: the largest pools hold 4194304 streaks or sprites of 5 texels */
+#define LARGEST_POOL_TEXELS 33554432 /* lower bound: the largest pools hold 4194304 streaks or sprites of 5 texels */
 
 virga_context_def virga_default_context_def(void)
 {
@@ -47,7 +47,8 @@ static virga_result check_def(const virga_log *log, const virga_context_def *def
     return VIRGA_OK;
 }
 
-/* A wrong family would otherwise show only at the first submit. Fills how many bits of its timestamps are valid. */
+/* Checks the queue family: otherwise a wrong one would first fail at the first submit. Fills the number of valid bits
+ * of its timestamps. */
 static virga_result check_family(const virga_context *context, uint32_t family, uint32_t *timestamp_bits)
 {
     const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
@@ -97,7 +98,7 @@ static void destroy_objects(virga_context *context)
     VIRGA_DESTROY(context, PipelineCache, context->pipeline_cache);
 }
 
-/* The context lives in its own heap, whose struct is inside it: take a copy of the heap to free it with. */
+/* The heap is a member of the context, which is allocated in it. So the heap is copied before it frees the context. */
 static void free_context(virga_context *context)
 {
     virga_host_heap heap = context->heap;
@@ -215,7 +216,7 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     context->frame_index = frame_index;
     context->completed_index = completed_index;
     context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
-    virga_builds_collect(context); /* its effect reports a failure */
+    virga_builds_collect(context); /* a failure is also reported by its effect */
     virga_destroy_retired(context, false);
     return virga_timers_begin_frame(context);
 }

@@ -1,4 +1,4 @@
-/* gpu/context.h - the context: a host's device, and what its effects share. Internal. */
+/* gpu/context.h - the context: the host's device, and what all effects share. Internal. */
 #ifndef VIRGA_GPU_CONTEXT_H
 #define VIRGA_GPU_CONTEXT_H
 
@@ -20,7 +20,7 @@ struct virga_context {
     VkPhysicalDeviceProperties properties;
     bool lost;
     bool software;    /* the device is a CPU: passes have variants that are faster there */
-    bool lines;       /* draw as lines what is as wide as a pixel: see virga_context_def.wide_lines */
+    bool lines;       /* draw streaks of about one pixel as lines, see virga_context_def.wide_lines */
     bool small_views; /* buffer views are too small for pools: read storage buffers, see shaders/gpu/texels.glsl */
     bool debug_names;
 
@@ -36,19 +36,19 @@ struct virga_context {
     VkDeviceSize device_bytes, device_used;
     uint32_t device_allocations;
     VkDeviceSize memory_budget;
-    VkDeviceSize budget_share; /* the part of it that may be used for now, 0: all of it */
+    VkDeviceSize budget_share; /* the part of the budget that may be used now; 0: all of it */
     bool share_is_wish;        /* exceeding the share is not logged */
-    bool making;               /* an effect is being created, which no frame has used yet */
-    bool may_shrink;           /* it is tried again with smaller pools if it exceeds the budget */
-    bool over_budget;          /* it did */
+    bool making;               /* an effect is being created, and no frame has used it yet */
+    bool may_shrink;           /* if it exceeds the budget, it is tried again with smaller pools */
+    bool over_budget;          /* the budget was exceeded */
 
     /* Resources. */
     struct virga_resource *retired; /* see gpu/retire.h */
-    virga_result upload_failed;     /* of the newest flush that failed, see virga_check_uploads */
+    virga_result upload_failed;     /* result of the newest flush that failed, see virga_check_uploads */
     VkSampler nearest, linear;      /* clamped to the edge */
-    uint32_t objects;               /* Vulkan objects alive */
-    uint32_t effects;               /* alive */
-    uint64_t target_serial;         /* of the newest target */
+    uint32_t objects;               /* number of Vulkan objects that exist */
+    uint32_t effects;               /* number of effects that exist */
+    uint64_t target_serial;         /* serial of the newest target */
 
     /* Pipelines, see gpu/builds.c. */
     VkPipelineCache pipeline_cache;

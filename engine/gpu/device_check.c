@@ -1,4 +1,4 @@
-/* gpu/device_check.c - what a device must have, as data, and the check of a device against it. */
+/* gpu/device_check.c - the requirements for a device, as tables, and the check of a device against them. */
 #include "gpu/device_check.h"
 
 #include "gpu/functions.h"
@@ -19,7 +19,7 @@ static const virga_feature required[] = {
     FEATURE_12(scalarBlockLayout, "structs shared by C and GLSL are laid out alike"),
 };
 
-/* Formats and the features that their use needs, with optimal tiling. */
+/* Formats, and the features that they need with optimal tiling. */
 static const struct {
     VkFormat format;
     VkFormatFeatureFlags features;
@@ -38,7 +38,7 @@ const virga_feature *virga_required_features(uint32_t *count)
     return required;
 }
 
-/* The VkBool32 of a feature in a chain, or NULL where the chain lacks its struct. */
+/* The VkBool32 of a feature in a chain, or NULL if the chain has no such struct. */
 static VkBool32 *find_flag(VkPhysicalDeviceFeatures2 *chain, const virga_feature *feature)
 {
     for (VkBaseOutStructure *at = (VkBaseOutStructure *)chain; at; at = at->pNext)
@@ -65,7 +65,7 @@ static virga_result refuse(char *reason, size_t size, const char *format, const 
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
-/* A log that keeps the text of its newest line. */
+/* A log that stores the text of its newest line. */
 typedef struct kept_line {
     char *text;
     size_t size;

@@ -1,4 +1,4 @@
-/* gpu/device_check.h - limits that hold on every device: by Vulkan, or by virga_check_device. Internal. */
+/* gpu/device_check.h - limits that every device has, because of Vulkan or virga_check_device. Internal. */
 #ifndef VIRGA_GPU_DEVICE_CHECK_H
 #define VIRGA_GPU_DEVICE_CHECK_H
 

@@ -1,4 +1,4 @@
-/* gpu/effect.c - the life of an effect: estimated, created in the memory budget, filled, destroyed. */
+/* gpu/effect.c - the lifetime of an effect: estimates, creates within the memory budget, initialises, destroys. */
 #include "gpu/effect.h"
 
 #include "core/memory.h"
@@ -37,7 +37,7 @@ static VkDeviceSize ring_bytes(const virga_effect_ring *row, const effect_counts
 
 /* ---- estimate */
 
-/* Those that effects make images of. */
+/* Bytes of a texel, for the formats that effects use. */
 static VkDeviceSize texel_bytes(VkFormat format)
 {
     switch (format) {
@@ -54,7 +54,7 @@ static VkDeviceSize image_bytes(const virga_effect_image *row, const effect_coun
     return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * texel_bytes(row->format);
 }
 
-/* A definition that was checked, in a copy. */
+/* Copies a definition and checks the copy. */
 static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *checked)
 {
     const uint32_t *head = given; /* size, cookie */

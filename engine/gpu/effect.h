@@ -1,9 +1,10 @@
-/* gpu/effect.h - an effect is data: one table says what it is made of, one life cycle runs any such table. Internal.
+/* gpu/effect.h - an effect is data: a table lists its parts, and the same code creates, records and destroys any such
+ * table. Internal.
  *
  * An effect's object begins with a virga_effect. Its virga_effect_type lists buffers, rings, images, bindings, passes
- * and draws, each with the member of the object that holds it. From these rows effect.c estimates, creates, shrinks to
- * the memory budget, gives first contents, attaches to targets, reads statistics back and destroys. What the rows can
- * not say an effect does in the callbacks of its type. */
+ * and draws, each with the member of the object that holds it. From these rows effect.c estimates memory, creates,
+ * shrinks to the memory budget, initialises contents, attaches to targets, reads statistics back, and destroys. An
+ * effect does the rest in the callbacks of its type. */
 #ifndef VIRGA_GPU_EFFECT_H
 #define VIRGA_GPU_EFFECT_H
 
@@ -20,12 +21,12 @@
 #define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes, of an effect with a lighting */
 #define VIRGA_EFFECT_MAX_TARGETS  8
 #define VIRGA_EFFECT_MAX_DRAWS    32 /* pipelines of a target */
-#define VIRGA_EFFECT_PARTS        2  /* of the statistics of a frame: those of its step, and those of its prepare */
+#define VIRGA_EFFECT_PARTS        2  /* parts of a frame's statistics: its step and its prepare */
 
 #define VIRGA_ROWS(table) (uint32_t)(sizeof(table) / sizeof(table)[0])
 
-/* Sizes follow from the definition. An effect fills an array of counts, and its rows name one of them: e.g. a buffer
- * of `entry` bytes for each of counts[SPLASH_COUNT_DROPLETS]. Count 0 is always 1. */
+/* Sizes depend on the definition. An effect fills an array of counts, and each row names one of them: e.g. a buffer of
+ * `entry` bytes for each of counts[SPLASH_COUNT_DROPLETS]. Count 0 is always 1. */
 #define VIRGA_COUNT_ONE 0
 
 /* Usages of buffers that occur in every effect. A storage buffer can be copied from and to. */
@@ -36,15 +37,15 @@
 #define VIRGA_USE_INDEX    (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_INDEX_BUFFER_BIT)
 #define VIRGA_USE_UNIFORM  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
 
-/* What a buffer or image holds before the first pass. */
+/* The contents of a buffer or image before the first pass. */
 typedef enum virga_first {
-    VIRGA_FIRST_ANYTHING, /* (buffers) passes write before they read */
+    VIRGA_FIRST_ANYTHING, /* (buffers) undefined: passes write before they read */
     VIRGA_FIRST_FILL,     /* (buffers) `fill` in every word; (images) zero, in the layout GENERAL */
-    VIRGA_FIRST_STORAGE,  /* (images) anything, in the layout GENERAL */
-    VIRGA_FIRST_SAMPLED,  /* (images) anything, in the layout SHADER_READ_ONLY_OPTIMAL */
+    VIRGA_FIRST_STORAGE,  /* (images) undefined, in the layout GENERAL */
+    VIRGA_FIRST_SAMPLED,  /* (images) undefined, in the layout SHADER_READ_ONLY_OPTIMAL */
 } virga_first;
 
-/* A buffer of head + entry x counts[count] bytes; none is made where that is 0. */
+/* A buffer of head + entry x counts[count] bytes. It is not created if its size is 0. */
 typedef struct virga_effect_buffer {
     const char *name;
     size_t member; /* offset of the virga_buffer * */
@@ -56,13 +57,13 @@ typedef struct virga_effect_buffer {
     uint32_t fill;
 } virga_effect_buffer;
 
-/* Blocks that the host writes while it records and passes read at a dynamic offset: counts[count] for each frame in
- * flight. */
+/* Blocks that the host writes while it records, and that passes read at a dynamic offset: counts[count] blocks for each
+ * frame in flight. */
 typedef struct virga_effect_ring {
     const char *name;
     size_t member; /* offset of the virga_ring */
     VkBufferUsageFlags usage;
-    VkDeviceSize block; /* bytes; VIRGA_RING_BYTES */
+    VkDeviceSize block; /* in bytes, from VIRGA_RING_BYTES */
     uint32_t count;
 } virga_effect_ring;
 
@@ -73,12 +74,12 @@ typedef struct virga_effect_image {
     VkFormat format;
     VkImageAspectFlags aspect;
     VkImageUsageFlags usage;
-    uint32_t width, height; /* counts */
+    uint32_t width, height; /* indices of counts */
     uint32_t layers;        /* 0: a 3D image of depth 1 */
     virga_first first;
 } virga_effect_image;
 
-/* One set layout and the pipeline layout of it. Rows with a source are bound by virga_effect_bound; the effect binds
+/* A descriptor set layout and its pipeline layout. Rows with a source are bound by virga_effect_bound; the effect binds
  * the others itself. */
 typedef struct virga_effect_layout {
     size_t member; /* offset of the virga_bindings * */
@@ -86,8 +87,8 @@ typedef struct virga_effect_layout {
     uint32_t row_count, sets_per_frame, push_bytes;
 } virga_effect_layout;
 
-/* A compute pass. With `forms` above 1 the member is an array of as many pipelines, which differ in the
- * specialisation constant 0: `constant` + the index. */
+/* A compute pass. If `forms` is above 1, the member is an array of that many pipelines. They differ in specialisation
+ * constant 0: `constant` + the index. */
 typedef struct virga_effect_pass {
     const char *name;
     size_t member; /* offset of the virga_pipeline *, or of an array of them */
@@ -97,7 +98,8 @@ typedef struct virga_effect_pass {
     uint32_t layout; /* index of the virga_effect_layout */
 } virga_effect_pass;
 
-/* The shaders of a draw by virga_target_outputs. A row that leaves out a form writes color alone on any target. */
+/* The shaders of a draw, indexed by virga_target_outputs. If a row omits a combination, the draw writes only color on
+ * such targets. */
 #define VIRGA_FRAGMENT_FORMS(name)                                                               \
     {                                                                                            \
         VIRGA_SPIRV_ROW(name), VIRGA_SPIRV_ROW(name##_motion), VIRGA_SPIRV_ROW(name##_reactive), \
@@ -112,24 +114,24 @@ typedef struct virga_effect_pass {
         VIRGA_SPIRV_ROW(name) \
     }
 
-/* Pipelines of a target that differ in the specialisation constant 0: one for each of `constants`. */
+/* Pipelines of a target that differ in specialisation constant 0: one for each entry of `constants`. */
 typedef struct virga_effect_draw {
     const char *name;
     virga_spirv vertex[2], fragment[VIRGA_OUTPUTS_FORMS];
     const uint32_t *constants;
     uint32_t constant_count;
-    bool lines;     /* made only where the context draws lines */
+    bool lines;     /* created only if the context draws lines */
     bool cull_back; /* counter-clockwise is the front */
-    bool no_depth;  /* is not tested against depth */
-    bool replace;   /* writes over what is there; else it is blended by premultiplied alpha */
+    bool no_depth;  /* no depth test */
+    bool replace;   /* overwrites the target; otherwise blends with premultiplied alpha */
 } virga_effect_draw;
 
-/* A size in the definition that is made smaller where the memory budget asks for it. */
+/* A size in the definition that may be reduced to fit the memory budget. */
 typedef struct virga_effect_pool {
     const char *name;
     size_t member; /* offset of a uint32_t in the definition */
     uint32_t min;
-    uint32_t unit; /* it stays a multiple of that; 0: a power of two */
+    uint32_t unit; /* the size stays a multiple of this; 0: a power of two */
 } virga_effect_pool;
 
 /* A public struct that begins with size and cookie. */
@@ -139,7 +141,7 @@ typedef struct virga_struct_id {
     size_t member; /* offset in the object */
 } virga_struct_id;
 
-/* A step of an effect that needs nothing but time and place. */
+/* A step of an effect that needs only time and position. */
 typedef struct virga_effect_step {
     uint32_t first_tick, ticks; /* as virga_rain_ticks */
     double camera_m[3];
@@ -167,33 +169,32 @@ typedef struct virga_effect_type {
     uint32_t draw_layout; /* index of the virga_effect_layout of draws */
     const virga_effect_pool *pools;
     uint32_t pool_count;
-    const char *readback_name; /* of the buffer that statistics come back in */
-    uint32_t readback_bytes;   /* of a frame; 0: there are none */
+    const char *readback_name; /* name of the buffer for statistics readback */
+    uint32_t readback_bytes;   /* per frame; 0: no statistics */
 
-    /* Checks a definition and moves it into its ranges. The size and the cookie were checked. */
+    /* Checks a definition and clamps it to its ranges. The size and the cookie are already checked. */
     virga_result (*check_def)(const virga_log *log, void *def);
-    /* (optional) Makes a definition fit the device: VIRGA_DEGRADED where it had to be smaller. */
+    /* (optional) Makes a definition fit the device: VIRGA_DEGRADED if it had to be reduced. */
     virga_result (*fit_device)(const virga_context *context, void *def);
     /* Fills the counts of a definition. */
     void (*count)(const void *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS]);
-    /* (optional) Bytes of device memory of what create makes beside the rows. */
+    /* (optional) Bytes of device memory that `create` allocates besides the rows. */
     VkDeviceSize (*extra_bytes)(const void *def);
-    /* Fills the object, whose definition is there, before anything is made. */
+    /* Initialises the object, whose definition is set, before anything is created. */
     virga_result (*init)(void *object);
-    /* (optional) Makes what no row says. Buffers, images and layouts are there, passes are not. */
+    /* (optional) Creates what rows can not describe. Buffers, images and layouts exist already, passes do not. */
     virga_result (*create)(void *object);
-    /* (optional) Releases what init and create made; NULL pointers are accepted. */
+    /* (optional) Releases what init and create created. NULL pointers are accepted. */
     void (*destroy)(void *object);
     /* Describes a new object in a log line, e.g. "splash: up to 65536 splashes". */
     void (*describe)(const void *object, char *line, size_t size);
     /* (optional) Bits that are set in the specialisation constant 0 of every pass, and of every draw. */
     uint32_t (*pass_constant)(const void *object);
     uint32_t (*draw_constant)(const void *object);
-    /* Reads the statistics of a completed frame. `parts` says which of them were recorded in it, by bits. */
+    /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
-    /* The public functions of the effect, as a scene calls them. All but set are optional: a scene knows another way,
-     * or there is nothing to be done. */
+    /* The public functions of the effect, as a scene calls them. All except `set` are optional. */
     void (*default_def)(void *def);
     virga_result (*set)(void *object, const void *settings);
     virga_result (*step)(void *object, VkCommandBuffer cmd, const virga_effect_step *step);
@@ -201,9 +202,9 @@ typedef struct virga_effect_type {
     virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
 } virga_effect_type;
 
-/* The fields that all types have alike, of an effect that names its parts as the others do: virga_<name>, its _def and
- * _settings, <name>_readback; tables buffers, rings, images, layouts, passes and pools; callbacks check_def, count,
- * init, create, describe and <name>_read_statistics. */
+/* The fields that are the same for all types, for an effect that names its parts like the others: virga_<name>, its
+ * _def and _settings, <name>_readback; tables buffers, rings, images, layouts, passes and pools; callbacks check_def,
+ * count, init, create, describe and <name>_read_statistics. */
 #define VIRGA_EFFECT_TYPE(effect, title)                                                                               \
     .name = title, .size = sizeof(virga_##effect),                                                                     \
     .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},                  \
@@ -216,7 +217,7 @@ typedef struct virga_effect_type {
     .count = count, .init = init, .create = create, .describe = describe, .read_statistics = effect##_read_statistics, \
     .set = effect##_type_set
 
-/* The public functions that all effects have alike, from <name>_type, and `set` of the type. */
+/* The public functions that are the same for all effects. They use <name>_type, and `set` of the type. */
 #define VIRGA_EFFECT_FUNCTIONS(name)                                                                               \
     static virga_result name##_type_set(void *object, const void *settings)                                        \
     {                                                                                                              \
@@ -252,7 +253,7 @@ typedef struct virga_effect_type {
         return object ? virga_effect_ready(&object->base) : VIRGA_ERROR_INVALID;                                   \
     }
 
-/* And those of effects that draw, with `draw` of the type. */
+/* The same for effects that draw. They use `draw` of the type. */
 #define VIRGA_EFFECT_DRAW_FUNCTIONS(name)                                                                           \
     static virga_result name##_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)             \
     {                                                                                                               \
@@ -263,22 +264,22 @@ typedef struct virga_effect_type {
         return object ? virga_effect_attach(&object->base, "virga_" #name "_attach", target) : VIRGA_ERROR_INVALID; \
     }
 
-/* A ring's buffer, and how far the frame at hand has filled its part. */
+/* A ring's buffer, and how much of the current frame's part is used. */
 typedef struct virga_ring {
     virga_buffer *buffer;
     uint32_t block_bytes, blocks_per_frame;
-    uint64_t frame; /* that `used` belongs to */
+    uint64_t frame; /* the frame that `used` belongs to */
     uint32_t used;
 } virga_ring;
 
-/* Bytes of a block of this type in a ring: each starts where Vulkan lets a dynamic offset be. */
+/* Bytes of a block of this type in a ring, aligned for dynamic offsets. */
 #define VIRGA_RING_BYTES(type) ((sizeof(type) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
 
 /* Pipelines for one target. */
 typedef struct virga_effect_target {
-    uint64_t serial;                               /* of the virga_target; 0: free */
+    uint64_t serial;                               /* serial of the virga_target; 0: free */
     bool motion;                                   /* it has motion vectors */
-    virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* row by row, constant by constant */
+    virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* by row, then by constant */
 } virga_effect_target;
 
 /* The view that the newest prepare was for. */
@@ -289,21 +290,22 @@ typedef struct virga_effect_view {
     float viewport[4];
 } virga_effect_view;
 
-/* What every effect's object begins with. */
+/* The first member of every effect's object. */
 typedef struct virga_effect {
     const virga_effect_type *type;
     virga_context *context;
-    virga_pipeline_group passes; /* all that a step and a prepare need */
+    virga_pipeline_group passes; /* all passes that a step and a prepare use */
     virga_effect_target targets[VIRGA_EFFECT_MAX_TARGETS];
     virga_effect_view view;
-    bool has_contents;      /* first contents were recorded */
-    bool not_drawn_logged;  /* since the last draw that had all it needs */
-    uint64_t step_frame;    /* of the newest step */
-    virga_buffer *readback; /* statistics of the frames in flight */
-    uint64_t readback_frames[VIRGA_EFFECT_PARTS][VIRGA_MAX_FRAMES_IN_FLIGHT]; /* 0: nothing to be read */
+    bool has_contents;      /* the initial contents were recorded */
+    bool not_drawn_logged;  /* it was logged that a draw had nothing to draw; reset by a successful draw */
+    uint64_t step_frame;    /* frame of the newest step */
+    virga_buffer *readback; /* statistics of the frames in flight, for the host */
+    /* Frames whose statistics were not read yet; 0: none. */
+    uint64_t readback_frames[VIRGA_EFFECT_PARTS][VIRGA_MAX_FRAMES_IN_FLIGHT];
 } virga_effect;
 
-/* The member of an object at an offset of a row. */
+/* The member of an object at the offset that a row gives. */
 static inline void *virga_effect_member(const virga_effect *effect, size_t offset)
 {
     return (char *)effect + offset;
@@ -311,77 +313,78 @@ static inline void *virga_effect_member(const virga_effect *effect, size_t offse
 
 /* ---- life cycle */
 
-/* Creates an object: *object is NULL where that fails. `call` names the public function in log lines. */
+/* Creates an object. *object is NULL if that fails. `call` is the name of the public function for log lines. */
 virga_result virga_effect_create(virga_context *context, const virga_effect_type *type, const char *call,
                                  const void *def, void **object);
 void virga_effect_destroy(virga_effect *effect); /* accepts NULL */
 
-/* The same from a definition that was checked, with no budget and no line in the log: for budget.c. */
+/* The same with a definition that was checked, without shrinking and without a log line: for budget.c. */
 virga_result virga_effect_make(virga_context *context, const virga_effect_type *type, const void *def,
                                virga_effect **made);
 
-/* Device memory in bytes, at most and with the most frames in flight; 0 for a definition that is refused. */
+/* Upper bound of the device memory in bytes, with the maximum number of frames in flight. 0 for an invalid
+ * definition. */
 VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *def);
 
-/* Whether the pipelines of all passes are there. */
+/* VIRGA_OK if the pipelines of all passes are built. */
 virga_result virga_effect_ready(const virga_effect *effect);
 
-/* What a function that sets settings checks first. */
+/* The common checks of functions that set settings. */
 virga_result virga_effect_check_set(const virga_effect *effect, const char *call, const void *settings);
 
-/* Sets another lighting in the settings that are in force. */
+/* Replaces the lighting in the current settings. */
 virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting);
 
 /* ---- recording */
 
-/* What a step checks first: cmd and info are there, and so is a frame. */
+/* The common checks of a step: cmd and info are not NULL, and a frame has begun. */
 virga_result virga_effect_check_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                      const void *info);
 
-/* Ticks that a host asks a step to run: `count` of them from `first` on, `max` at most. */
+/* The ticks that a host requests for a step: `count` of them, beginning with `first`, at most `max`. */
 typedef struct virga_tick_range {
     uint32_t first, count, max;
 } virga_tick_range;
 
-/* For effects with one step a frame: it is the first in this frame, and its ticks follow the last one. `last_tick` is
- * NULL before the first step. */
+/* For effects with one step per frame: checks that this is the first step in the frame and that its ticks follow the
+ * last one. `last_tick` is NULL before the first step. */
 virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
                                       const uint32_t *last_tick);
 
-/* Records what rows say of first contents, in the first call; false in all others. Ends with a barrier before transfers
- * and passes. */
+/* In the first call, records the initial contents that rows describe, and returns true; later calls return false. Ends
+ * with a barrier before transfers and passes. */
 bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd);
 
 /* Copies a block into the frame's part of a ring and returns its offset in bytes. push takes the next block. */
 uint32_t virga_ring_push(virga_context *context, virga_ring *ring, const void *block, size_t size);
 uint32_t virga_ring_write(virga_context *context, virga_ring *ring, uint32_t index, const void *block, size_t size);
 
-/* Where the next push will write. */
+/* Offset of the next push. */
 uint32_t virga_ring_next_offset(const virga_context *context, const virga_ring *ring);
 
-/* Blocks that the frame at hand has pushed. */
+/* Number of blocks that were pushed in the current frame. */
 uint32_t virga_ring_used(const virga_context *context, const virga_ring *ring);
 
-/* Fills what the layout's rows have a source for; all else is left as nothing. */
+/* Fills the bindings whose rows have a source; the others stay empty. */
 void virga_effect_bound(const virga_effect *effect, const virga_bindings *bindings,
                         virga_bound bound[VIRGA_MAX_BINDINGS]);
 
-/* A host's image, or a blank in its place. */
+/* The host's image, or `blank` if there is none. */
 virga_bound virga_bound_or_blank(const virga_image *image, const virga_image_2d *blank, VkSampler sampler);
 
-/* The sampler for a host's color image: linear, where devices filter its format. */
+/* The sampler for a host's color image: linear, unless devices may not filter its format. */
 VkSampler virga_color_sampler(const virga_context *context, const virga_image *image);
 
 /* ---- statistics */
 
-/* Copies `size` bytes of a buffer to where the host reads them once this frame has completed. */
+/* Copies `size` bytes of a buffer. The host can read them once this frame has completed. */
 void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uint32_t part, const virga_buffer *from,
                                   VkDeviceSize from_offset, VkDeviceSize to_offset, VkDeviceSize size);
 
-/* Says that this frame has statistics of a part also where nothing was copied. */
+/* Marks a part of this frame's statistics as valid, also if nothing was copied. */
 void virga_effect_mark_statistics(virga_effect *effect, uint32_t part);
 
-/* Reads those of all completed frames, oldest first. */
+/* Reads the statistics of all completed frames, oldest first. */
 void virga_effect_read_statistics(virga_effect *effect);
 
 /* ---- targets and draws */
@@ -391,19 +394,19 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
 /* Whether any target has motion vectors. */
 bool virga_effect_wants_motion(const virga_effect *effect);
 
-/* What a draw checks first. Gives the target's pipelines; VIRGA_NOT_READY where the target is not attached or nothing
- * was prepared in this frame, which is logged once where `ready` is VIRGA_OK. */
+/* The common checks of a draw. Returns the target's pipelines in *found. VIRGA_NOT_READY if the target is not attached
+ * or nothing was prepared in this frame; this is logged once, if `ready` is VIRGA_OK. */
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                      const virga_target *target, virga_result ready, const virga_effect_target **found);
 
-/* The same where nothing needs to be prepared: *found is NULL for a target that is not attached. */
+/* The same for draws that need no prepare. *found is NULL for a target that is not attached. */
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                       const virga_target *target, const virga_effect_target **found);
 
 /* Releases the pipelines of all targets. */
 void virga_effect_retire_targets(virga_effect *effect);
 
-/* Remembers what the draws of a view need. */
+/* Stores what the draws of a view need. */
 void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4]);
 
 #endif

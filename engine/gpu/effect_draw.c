@@ -1,4 +1,4 @@
-/* gpu/effect_draw.c - an effect's pipelines for a target, and what its draws check. */
+/* gpu/effect_draw.c - an effect's pipelines for a target, and the common checks of its draws. */
 #include "gpu/effect.h"
 
 #include "gpu/context.h"
@@ -118,7 +118,7 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
     const virga_log *log = &effect->context->log;
     if (!cmd || !target)
         return virga_wrong_argument(log, "%s: NULL argument", call);
-    if (target->context != effect->context) /* its serials are of another context */
+    if (target->context != effect->context) /* serials of another context's targets are not unique here */
         return virga_wrong_argument(log, "%s: expected a target of the same context", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
@@ -132,7 +132,7 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
     const virga_result result = virga_effect_find_target(effect, call, cmd, target, found);
     if (result)
         return result;
-    /* What was prepared for an earlier frame or step is not what the buffers hold now. */
+    /* The buffers no longer hold what was prepared for an earlier frame or step. */
     if (!*found || !effect->view.ready || effect->view.frame != effect->context->frame_index)
         return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
     effect->not_drawn_logged = false;

@@ -1,4 +1,4 @@
-/* gpu/effect_record.c - what effects record alike: first contents, blocks of rings, descriptors, statistics. */
+/* gpu/effect_record.c - recording that all effects share: initial contents, ring blocks, descriptors, statistics. */
 #include "gpu/effect.h"
 
 #include "gpu/checks.h"
@@ -92,7 +92,7 @@ uint32_t virga_ring_next_offset(const virga_context *context, const virga_ring *
     return block_offset(context, ring, virga_ring_used(context, ring));
 }
 
-/* Blocks are made elsewhere and copied at once: mapped memory may be slow to read. */
+/* Blocks are filled elsewhere and copied at once, because mapped memory may be slow to read. */
 uint32_t virga_ring_write(virga_context *context, virga_ring *ring, uint32_t index, const void *block, size_t size)
 {
     const uint32_t offset = block_offset(context, ring, index);
@@ -152,7 +152,7 @@ virga_bound virga_bound_or_blank(const virga_image *image, const virga_image_2d 
 
 VkSampler virga_color_sampler(const virga_context *context, const virga_image *image)
 {
-    /* Not every device filters four whole floats. */
+    /* Not every device can filter textures of four 32-bit floats. */
     return image && image->format == VK_FORMAT_R32G32B32A32_SFLOAT ? context->nearest : context->linear;
 }
 
@@ -179,7 +179,7 @@ void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uin
     virga_effect_mark_statistics(effect, part);
 }
 
-/* The oldest completed frame that was not read yet; 0: there is none. */
+/* The oldest completed frame whose statistics were not read yet; 0: none. */
 static uint64_t oldest_unread(const virga_effect *effect)
 {
     uint64_t oldest = 0;

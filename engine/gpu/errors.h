@@ -26,14 +26,14 @@ virga_result virga_vulkan_failed(virga_context *context, VkResult result, const 
             goto error;  \
     } while (0)
 
-/* No host memory for `what`. */
+/* Logs that host memory ran out for `what`. */
 virga_result virga_out_of_host_memory(virga_context *context, const char *what);
 
-/* An argument is wrong. Returns VIRGA_ERROR_INVALID. */
+/* Logs a wrong argument. Returns VIRGA_ERROR_INVALID. */
 virga_result virga_wrong_argument(const virga_log *log, const char *format, ...) VIRGA_PRINTF(2, 3);
 
-/* A draw has nothing to draw. Returns VIRGA_NOT_READY, which hosts that check for errors only do not notice, so `call`
- * is logged once: `logged` is reset by the next successful draw. Not logged while pipelines are still being built
+/* A draw has nothing to draw. Returns VIRGA_NOT_READY. Hosts that check only for errors do not notice this, so `call`
+ * is logged once; the next successful draw resets `logged`. It is not logged while pipelines are still being built
  * (`ready` is not VIRGA_OK), which is normal. */
 virga_result virga_log_not_drawn(virga_context *context, const char *call, bool attached, virga_result ready,
                                  bool *logged);

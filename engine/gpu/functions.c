@@ -27,7 +27,7 @@ static PFN_vkVoidFunction from_device(const void *context, const char *name)
     return lookup->get(lookup->device, name);
 }
 
-/* The core name first, then the names that extensions gave the same function. */
+/* Looks up the core name first, then the names of the same function in extensions. */
 static PFN_vkVoidFunction find(lookup_fn lookup, const void *context, const char *name)
 {
     static const char *const suffixes[] = {"", "KHR", "EXT"};
@@ -58,8 +58,8 @@ virga_result virga_functions_load_instance(virga_functions *functions, const vir
         return missing(log, #name);
     VIRGA_INSTANCE_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD
-    /* They belong to an extension of the instance. Only vkGetInstanceProcAddr returns NULL if the host has not enabled
-     * it; for a device, loaders always return a function. */
+    /* These functions belong to an instance extension. Only vkGetInstanceProcAddr returns NULL if the host has not
+     * enabled it. For a device, loaders always return a function. */
 #define VIRGA_LOAD(name) functions->name = (PFN_vk##name)get(instance, "vk" #name);
     VIRGA_OPTIONAL_FUNCTIONS(VIRGA_LOAD)
 #undef VIRGA_LOAD

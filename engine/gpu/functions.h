@@ -1,7 +1,7 @@
 /* gpu/functions.h - the table of Vulkan entry points, all from the host's vkGetInstanceProcAddr. Internal.
  *
- * One line per function. Those of the last list may be missing. A function is looked up by its core name first and, if
- * that is NULL, by its name with an extension's suffix. */
+ * One line per function. Functions of the last list are optional. A function is looked up by its core name first and,
+ * if that is NULL, by its name with an extension's suffix. */
 #ifndef VIRGA_GPU_FUNCTIONS_H
 #define VIRGA_GPU_FUNCTIONS_H
 

@@ -9,13 +9,11 @@
 
 #include <string.h>
 
-#define PAGE_BYTES ((VkDeviceSize)32 << 20) /* requests above half of it get a page of their own size */
-#define PAGE_ROUND ((VkDeviceSize)65536)
-#define PAGE_BUDGET \
-    256 /* a budget should hold at least this many pages, so that little of it is unused space in pages */
-#define MAX_RANGES \
-    256 /* free ranges a page remembers; beyond, a released range is lost to it
-                                             * until the page is empty */
+#define PAGE_BYTES  ((VkDeviceSize)32 << 20) /* larger requests than half of this get a page of their own size */
+#define PAGE_ROUND  ((VkDeviceSize)65536)
+#define PAGE_BUDGET 256 /* minimum number of pages in a budget, so that little of it is unused space in pages */
+/* Free ranges that a page stores; if there are more, a released range is unused until the page is empty. */
+#define MAX_RANGES 256
 
 typedef struct free_range {
     VkDeviceSize offset, size;
@@ -36,8 +34,9 @@ static bool type_fits(const virga_context *context, uint32_t index, uint32_t bit
     return (bits & (1u << index)) && (context->memory_properties.memoryTypes[index].propertyFlags & wanted) == wanted;
 }
 
-/* The first type with all wanted and preferred properties; else, if it is preferred, a cached one (readers invalidate
- * memory that is not coherent); else the first with all wanted properties. UINT32_MAX if there is none. */
+/* The first memory type with all wanted and preferred properties. If there is none and cached memory is preferred, a
+ * cached type (readers invalidate memory that is not coherent). Otherwise the first type with all wanted properties.
+ * UINT32_MAX if there is none. */
 static uint32_t choose_type(const virga_context *context, uint32_t bits, VkMemoryPropertyFlags wanted,
                             VkMemoryPropertyFlags preferred)
 {
@@ -55,7 +54,7 @@ static VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/* Takes `size` bytes from the page's free ranges; false where no range is large enough. */
+/* Allocates `size` bytes from the page's free ranges. False if no range is large enough. */
 static bool page_allocate(virga_memory_page *page, VkDeviceSize size, VkDeviceSize alignment, VkDeviceSize *offset)
 {
     for (uint32_t i = 0; i < page->range_count; i++) {
@@ -161,14 +160,14 @@ error:
     return result;
 }
 
-/* Bytes that may be allocated in all; 0: no limit. */
+/* The limit of allocated bytes in total; 0: no limit. */
 static VkDeviceSize current_budget(const virga_context *context)
 {
     const VkDeviceSize share = context->budget_share;
     return share && share < context->memory_budget ? share : context->memory_budget;
 }
 
-/* VIRGA_ERROR_DEVICE_MEMORY where `size` more bytes would exceed the budget. */
+/* VIRGA_ERROR_DEVICE_MEMORY if `size` more bytes would exceed the budget. */
 static virga_result check_budget(virga_context *context, VkDeviceSize size, const char *name)
 {
     const VkDeviceSize budget = current_budget(context), in_use = context->device_bytes;
@@ -183,7 +182,7 @@ static virga_result check_budget(virga_context *context, VkDeviceSize size, cons
     return VIRGA_ERROR_DEVICE_MEMORY;
 }
 
-/* Size of the new page for a request. */
+/* Size of a new page for a request. */
 static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
 {
     const VkDeviceSize budget = current_budget(context), own = align_up(need, PAGE_ROUND);
@@ -194,7 +193,7 @@ static VkDeviceSize page_size(const virga_context *context, VkDeviceSize need)
     return need > common / 2 || !fits ? own : common;
 }
 
-/* A page with room, or a new one. */
+/* Allocates from a page with space, or from a new one. */
 static virga_result allocate_from_pages(virga_context *context, const VkMemoryRequirements *need, uint32_t type_index,
                                         bool for_image, const char *name, virga_memory *memory)
 {

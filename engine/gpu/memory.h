@@ -12,8 +12,8 @@ typedef struct virga_memory {
     uint32_t type_index;
 } virga_memory;
 
-/* Memory of a type with all `wanted` properties, and with the preferred ones where the device has such a type. `name`
- * is for the log. */
+/* Memory of a type with all `wanted` properties, and with the preferred ones if the device has such a type. `name` is
+ * for the log. */
 virga_result virga_memory_allocate(virga_context *context, const VkMemoryRequirements *requirements,
                                    VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, bool for_image,
                                    const char *name, virga_memory *memory);

@@ -1,5 +1,5 @@
-/* gpu/mesh_map.c - a host's meshes seen from above along parallel lines: height, normal and material of what comes
- * first. Rain reads from it what keeps rain off, ground reads what gets wet. */
+/* gpu/mesh_map.c - renders the host's meshes from above along parallel lines: height, normal and material of the first
+ * surface. Rain uses it for occlusion, ground for the surfaces that get wet. */
 #include "gpu/mesh_map.h"
 #include "core/log.h"
 
@@ -254,7 +254,8 @@ virga_result virga_mesh_map_check(const virga_context *context, const virga_mesh
     return VIRGA_OK;
 }
 
-/* Translations are large far from the world's origin, so they are made relative to the map's origin in double. */
+/* Translations are large at a distance from the world's origin. So they are computed relative to the map's origin in
+ * double precision. */
 static virga_map_push describe_push(const virga_mesh_map *map, const virga_map_view *view, const virga_occluder *mesh)
 {
     virga_map_push push = {.center = {(float)view->center[0], (float)view->center[1]},

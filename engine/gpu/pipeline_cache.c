@@ -1,4 +1,4 @@
-/* gpu/pipeline_cache.c - the context's VkPipelineCache, and the blob that a host saves it as. */
+/* gpu/pipeline_cache.c - the context's VkPipelineCache, and the blob in which a host saves it. */
 #include "gpu/pipeline_cache.h"
 
 #include "gpu/context.h"
@@ -36,7 +36,7 @@ static bool blob_is_whole(const void *blob, size_t size)
            head.hash == hash_bytes((const char *)blob + sizeof head, head.size);
 }
 
-/* Vulkan's own header identifies driver and device: data of another one must not be passed on. */
+/* Vulkan's own header identifies driver and device: data of another one must not reach the driver. */
 static bool data_is_ours(const virga_context *context, const void *data, size_t size)
 {
     VkPipelineCacheHeaderVersionOne header;

@@ -17,7 +17,7 @@ static void pipeline_destroy(virga_context *context, virga_resource *resource)
     virga_free(&context->heap, pipeline);
 }
 
-/* A pipeline of that name, built or requested. Takes ownership of `code`, which its definition may point to. */
+/* Builds or queues a pipeline with that name. Owns `code` from now on; the definition may point to it. */
 static virga_result pipeline_create(virga_context *context, const char *name, virga_pipeline_group *group,
                                     const virga_compute_def *compute, const virga_graphics_def *graphics,
                                     uint32_t *code, virga_pipeline **created)
@@ -45,7 +45,7 @@ virga_result virga_compute_pipeline_create(virga_context *context, const virga_c
     return pipeline_create(context, def->name, def->group, def, NULL, NULL, pipeline);
 }
 
-/* Specialisation constants; a shader may lack some. */
+/* Specialisation constants; a shader may omit some. */
 typedef struct constants {
     uint32_t own;         /* constant 0: of the compute shader, or of both shaders of a draw */
     VkBool32 small_views; /* constant 1: see shaders/gpu/texels.glsl */
@@ -129,7 +129,8 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
         .alphaBlendOp = VK_BLEND_OP_ADD,
         .colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
-    /* A motion vector with alpha 1 replaces the old one, with 0 it does not; masks are blended over each other. */
+    /* A motion vector replaces the old one where its alpha is 1, and does not where it is 0. Masks are blended over
+     * each other. */
     if (def->motion_attachment)
         state->attachments[def->motion_attachment] = (VkPipelineColorBlendAttachmentState){
             .blendEnable = VK_TRUE,
@@ -142,7 +143,7 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
                                                   .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
                                                   .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                                   .colorWriteMask = VK_COLOR_COMPONENT_R_BIT};
-    /* The others keep a write mask of zero: for this the feature independentBlend is required. */
+    /* The other attachments have a write mask of zero, which needs the feature independentBlend. */
     state->blend =
         (VkPipelineColorBlendStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                               .attachmentCount = def->color_count,
@@ -190,7 +191,7 @@ static void describe_raster(const virga_graphics_def *def, graphics_state *state
                                                         .pDynamicStates = state->dynamics};
 }
 
-/* The formats of dynamic rendering, where there is no render pass. */
+/* The formats for dynamic rendering, if there is no render pass. */
 static void describe_rendering(const virga_graphics_def *def, graphics_state *state)
 {
     state->rendering = (VkPipelineRenderingCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
@@ -253,9 +254,9 @@ VkResult virga_graphics_build(const virga_context *context, const virga_graphics
     return result;
 }
 
-/* ---- outputs where the target wants them */
+/* ---- outputs at the locations of the target */
 
-/* As in shaders/gpu/temporal.glsl. */
+/* The locations in shaders/gpu/temporal.glsl. */
 #define LOCATION_MOTION   1
 #define LOCATION_REACTIVE 2
 
@@ -270,8 +271,8 @@ static bool is_output(const uint32_t *code, size_t word_count, uint32_t id)
     return false;
 }
 
-/* The host decides which attachment gets which output, but Vulkan can not specialise locations. So they are patched in
- * the SPIR-V, which needs no check because it is our own. */
+/* The host chooses the attachment of each output, but Vulkan can not specialise locations. So they are patched in the
+ * SPIR-V. This needs no validation, because the SPIR-V is our own. */
 static void move_outputs(const virga_graphics_def *def, uint32_t *code, size_t word_count)
 {
     for (size_t at = SPIRV_HEADER_WORDS; at < word_count; at += code[at] >> 16) {

@@ -1,6 +1,6 @@
 /* gpu/pipelines.h - compute and graphics pipelines from embedded SPIR-V. Internal.
  *
- * When a pipeline is built, at once or later, is decided in gpu/builds.c. */
+ * A pipeline is built at once or later, see gpu/builds.c. */
 #ifndef VIRGA_GPU_PIPELINES_H
 #define VIRGA_GPU_PIPELINES_H
 
@@ -8,15 +8,15 @@
 
 #include <stddef.h>
 
-/* Pipelines that are needed together: nothing that uses them is recorded before all of them are built. */
+/* Pipelines that are used together: nothing that uses them is recorded until all of them are built. */
 typedef struct virga_pipeline_group {
     uint32_t waiting;    /* pipelines still to be built */
-    virga_result failed; /* of the first that failed; VIRGA_OK: none */
+    virga_result failed; /* result of the first that failed; VIRGA_OK: none */
 } virga_pipeline_group;
 
 typedef struct virga_pipeline {
     virga_resource resource;     /* first */
-    VkPipeline pipeline;         /* null until it is built, or if that failed */
+    VkPipeline pipeline;         /* null until it is built, or if the build failed */
     const char *name;            /* static */
     virga_pipeline_group *group; /* (optional) lives until the pipeline is retired */
     struct virga_build *build;   /* NULL: not waiting to be built */
@@ -29,15 +29,15 @@ typedef struct virga_spirv {
     size_t size; /* bytes */
 } virga_spirv;
 
-/* An embedded shader: the array that the build made of shaders/<effect>/<pass>. The first form is for tables. */
+/* An embedded shader: the array that the build generates from shaders/<effect>/<pass>. The first form is for tables. */
 #define VIRGA_SPIRV_ROW(name)         \
     {                                 \
         name##_spv, sizeof name##_spv \
     }
 #define VIRGA_SPIRV(name) ((virga_spirv)VIRGA_SPIRV_ROW(name))
 
-/* What a compute pipeline is built from. `constant` is specialisation constant 0 where the shader has one; constant 1
- * is the context's small_views. */
+/* The definition of a compute pipeline. `constant` is specialisation constant 0, if the shader has one; constant 1 is
+ * the context's small_views. */
 typedef struct virga_compute_def {
     virga_spirv shader;
     VkPipelineLayout layout;
@@ -49,7 +49,7 @@ typedef struct virga_compute_def {
 virga_result virga_compute_pipeline_create(virga_context *context, const virga_compute_def *def,
                                            virga_pipeline **pipeline);
 
-/* What fragment shaders write besides the colour: bits. Such a shader is compiled once for each combination, see
+/* Outputs of fragment shaders besides the colour, as bits. Such a shader is compiled once for each combination, see
  * shaders/meson.build. */
 typedef enum virga_target_outputs {
     VIRGA_OUTPUTS_COLOR = 0,
@@ -59,22 +59,23 @@ typedef enum virga_target_outputs {
     VIRGA_OUTPUTS_FORMS = 4,
 } virga_target_outputs;
 
-/* What a graphics pipeline of ours varies in. Holds no pointer that must outlive the call. */
+/* The definition of a graphics pipeline. No pointer in it must outlive the call. */
 typedef struct virga_graphics_def {
     virga_spirv vertex, fragment;
     VkPipelineLayout layout;
     VkRenderPass render_pass; /* null: dynamic rendering into these formats */
     uint32_t subpass;
     VkFormat color_formats[VIRGA_MAX_ATTACHMENTS], depth_format, stencil_format;
-    uint32_t vertex_stride;                          /* 0: no vertex input; else one vec3 at location 0 */
-    uint32_t color_count;                            /* those beyond the first are not written but for these: */
+    uint32_t vertex_stride; /* 0: no vertex input; else one vec3 at location 0 */
+    /* Attachments beyond the first are written only if they are motion_attachment or reactive_attachment. */
+    uint32_t color_count;
     virga_target_outputs outputs;                    /* of the fragment shader */
     uint32_t motion_attachment, reactive_attachment; /* 0: none */
     bool blend_premultiplied, blend_add;
     bool depth_test, depth_write, reversed_depth;
-    bool cull_back;    /* counter-clockwise on the picture is the front */
-    bool lines;        /* and not triangles; their width is dynamic */
-    uint32_t constant; /* specialisation constant 0 of either shader, where it has one */
+    bool cull_back;    /* counter-clockwise on the screen is the front */
+    bool lines;        /* lines instead of triangles; their width is dynamic */
+    uint32_t constant; /* specialisation constant 0 of both shaders, if they have one */
     VkSampleCountFlagBits samples;
     virga_pipeline_group *group; /* (optional) */
     const char *name;            /* static */
@@ -83,7 +84,7 @@ typedef struct virga_graphics_def {
 virga_result virga_graphics_pipeline_create(virga_context *context, const virga_graphics_def *def,
                                             virga_pipeline **pipeline);
 
-/* Builds one pipeline. Uses the device and changes nothing in the context, so any thread may call it. `call` gets
+/* Builds one pipeline. Uses the device and changes nothing in the context, so any thread may call it. `call` returns
  * the name of the Vulkan call that failed. */
 VkResult virga_compute_build(const virga_context *context, const virga_compute_def *def, VkPipeline *pipeline,
                              const char **call);

@@ -1,4 +1,4 @@
-/* gpu/record.c - barriers and compute passes, as every effect records them. */
+/* gpu/record.c - barriers and compute passes for all effects. */
 #include "gpu/record.h"
 
 #include "gpu/context.h"

@@ -1,4 +1,4 @@
-/* gpu/record.h - barriers and compute passes, as every effect records them. Internal. */
+/* gpu/record.h - barriers and compute passes for all effects. Internal. */
 #ifndef VIRGA_GPU_RECORD_H
 #define VIRGA_GPU_RECORD_H
 
@@ -17,19 +17,19 @@ void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageF
 /* Between two compute passes. */
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd);
 
-/* The same where the pass before may also have written the arguments of an indirect dispatch or draw. */
+/* The same if the previous pass may also have written the arguments of an indirect dispatch or draw. */
 void virga_indirect_barrier(virga_context *context, VkCommandBuffer cmd);
 
-/* One compute pass of that many workgroups. */
+/* A compute pass with this number of workgroups. */
 void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups);
 void virga_dispatch_2d(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t columns,
                        uint32_t rows);
 
-/* One whose workgroups are counted in a buffer, e.g. at offset 0 in the head of a list (virga_list_gpu). */
+/* A compute pass whose number of workgroups is in a buffer, e.g. at offset 0 in the head of a list (virga_list_gpu). */
 void virga_dispatch_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
                              VkBuffer arguments, VkDeviceSize offset);
 
-/* A dispatch, then an indirect barrier: for chains of passes, each of which works on what those before it wrote. */
+/* A dispatch, then an indirect barrier: for chains of passes, each of which reads what earlier ones wrote. */
 void virga_dispatch_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
                                 uint32_t groups);
 void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,

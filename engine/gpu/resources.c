@@ -39,7 +39,7 @@ static void heap_flags(virga_heap_kind heap, VkMemoryPropertyFlags *wanted, VkMe
                      : VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* Checked before a resource is made: beyond a limit the device may do anything. */
+/* Checks a limit before a resource is created: beyond it, the behaviour of the device is undefined. */
 static virga_result check_limit(virga_context *context, const char *name, const char *what, VkDeviceSize value,
                                 VkDeviceSize limit)
 {
@@ -51,8 +51,8 @@ static virga_result check_limit(virga_context *context, const char *name, const 
     return VIRGA_ERROR_UNSUPPORTED;
 }
 
-/* A view of the whole buffer, for shaders that fetch texels. With small_views it covers as much as a view may; it is
- * then bound, but not read. */
+/* Creates a view of the whole buffer, for shaders that fetch texels. With small_views it covers the maximum size of a
+ * view; it is then bound, but not read. */
 static virga_result create_texels(virga_context *context, const char *name, virga_buffer *buffer)
 {
     virga_result result = VIRGA_OK;
@@ -89,7 +89,7 @@ virga_result virga_buffer_create(virga_context *context, VkDeviceSize size, VkBu
     VK_TRY(context, CreateBuffer(context->device, &info, NULL, &buffer->buffer));
     context->objects++;
     context->vk.GetBufferMemoryRequirements(context->device, buffer->buffer, &need);
-    /* Mapped ranges are flushed whole, so they must not share an atom with a neighbour. */
+    /* Mapped ranges are flushed in whole atoms, so they must not share an atom with another buffer. */
     const VkDeviceSize atom = context->properties.limits.nonCoherentAtomSize;
     if (heap != VIRGA_HEAP_DEVICE && need.alignment < atom)
         need.alignment = atom;
@@ -111,7 +111,7 @@ error:
     return result;
 }
 
-/* The mapped range, widened to whole atoms; virga_buffer_create made them the buffer's own. */
+/* The mapped range, extended to whole atoms. They belong to this buffer, see virga_buffer_create. */
 static VkMappedMemoryRange mapped_range(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset,
                                         VkDeviceSize size)
 {
@@ -141,7 +141,7 @@ void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer)
         return;
     const VkResult result = context->vk.InvalidateMappedMemoryRanges(context->device, 1, &range);
     if (result != VK_SUCCESS)
-        virga_vulkan_failed(context, result, "vkInvalidateMappedMemoryRanges"); /* statistics stay as they were */
+        virga_vulkan_failed(context, result, "vkInvalidateMappedMemoryRanges"); /* statistics do not change */
 }
 
 virga_result virga_check_uploads(virga_context *context)

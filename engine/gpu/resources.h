@@ -8,8 +8,8 @@
 typedef struct virga_buffer {
     virga_resource resource; /* first */
     VkBuffer buffer;
-    /* As R32G32B32A32_UINT, where the usage has a uniform texel buffer. It covers the whole buffer, or with the
-     * context's small_views as much as a view may. */
+    /* As R32G32B32A32_UINT, if the usage includes a uniform texel buffer. It covers the whole buffer, or with the
+     * context's small_views the maximum size of a view. */
     VkBufferView texels;
     VkDeviceSize size;
     virga_memory memory;
@@ -27,7 +27,7 @@ typedef struct virga_image_2d {
     virga_memory memory;
 } virga_image_2d;
 
-/* Where a buffer lives. */
+/* The kind of memory of a buffer. */
 typedef enum virga_heap_kind {
     VIRGA_HEAP_DEVICE,   /* on the device */
     VIRGA_HEAP_UPLOAD,   /* mapped, written by the host each frame */
@@ -42,12 +42,12 @@ virga_result virga_image_create(virga_context *context, VkFormat format, VkExten
                                 VkImageUsageFlags usage, VkImageAspectFlags aspect, const char *name,
                                 virga_image_2d **image);
 
-/* Make what the host wrote visible to the device, and what the device wrote visible to the host. A failed flush is
+/* These make the host's writes visible to the device, and the device's writes visible to the host. A failed flush is
  * logged, and the API call that flushed returns virga_check_uploads(). */
 void virga_buffer_flush(virga_context *context, const virga_buffer *buffer, VkDeviceSize offset, VkDeviceSize size);
 void virga_buffer_invalidate(virga_context *context, const virga_buffer *buffer);
 
-/* The error of the flushes since the last call, or VIRGA_OK. A lost device stays lost. */
+/* The error of the flushes since the last call, or VIRGA_OK. After a device loss: VIRGA_ERROR_DEVICE_LOST. */
 virga_result virga_check_uploads(virga_context *context);
 
 /* The name that debuggers and validation messages show. */

@@ -10,15 +10,16 @@ void virga_retire(virga_context *context, virga_resource *resource)
     resource->retired = true;
     resource->next = context->retired;
     context->retired = resource;
-    /* No device work is in flight, so nothing has to wait: its memory is free for the next resource, a create that
-     * failed half-way leaves nothing behind, and a host that renders no more frames gets everything back. */
+    /* No device work is in flight, so the resource is destroyed at once. Its memory is free for the next resource, a
+     * create that failed half-way leaves nothing behind, and a host that renders no more frames gets all memory
+     * back. */
     if (context->making || context->frame_index == context->completed_index)
         virga_destroy_retired(context, false);
 }
 
 void virga_destroy_retired(virga_context *context, bool all)
 {
-    /* A pipeline that is being built on another thread reads its layout, which may be among them. */
+    /* A pipeline that another thread is building reads its layout, which may be one of these resources. */
     if (virga_builds_cancel_retired(context) && !all)
         return;
     virga_resource **at = &context->retired;

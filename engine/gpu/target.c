@@ -1,4 +1,4 @@
-/* gpu/target.c - what draws go into: a host's render pass, or its dynamic rendering. */
+/* gpu/target.c - the target of draws: a host's render pass, or its dynamic rendering. */
 #include "gpu/target.h"
 
 #include "core/settings.h"
@@ -20,7 +20,7 @@ virga_target_def virga_default_target_def(void)
                               .depth_attached = true};
 }
 
-/* A given format must support the use that `what` describes on this device. */
+/* Checks that this device supports the use that `what` describes, if a format is given. */
 static virga_result check_format(const virga_context *context, const char *name, VkFormat format,
                                  VkFormatFeatureFlags wanted, const char *what)
 {
@@ -35,7 +35,8 @@ static virga_result check_format(const virga_context *context, const char *name,
                                 (int)format);
 }
 
-/* An attachment for motion vectors or the reactive mask: one of the pass, not that of the colour, and blendable. */
+/* Checks an attachment for motion vectors or the reactive mask: it exists, is not the colour attachment, and supports
+ * blending. */
 static virga_result check_extra(virga_context *context, const virga_target_def *def, uint32_t index, const char *name)
 {
     if (!index)
@@ -65,7 +66,7 @@ static virga_result check_extras(virga_context *context, const virga_target_def 
     return check_extra(context, def, def->reactive_attachment, "reactive_attachment");
 }
 
-/* Otherwise a pipeline that can not work would be created, which few drivers report. */
+/* Otherwise an invalid pipeline would be created, which few drivers report. */
 static virga_result check_formats(const virga_context *context, const virga_target_def *def)
 {
     virga_result result = check_format(context, "color_formats[0]", def->color_formats[0],

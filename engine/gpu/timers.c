@@ -69,7 +69,7 @@ static void label_end(virga_context *context, VkCommandBuffer cmd)
         context->vk.CmdEndDebugUtilsLabelEXT(cmd);
 }
 
-/* Index of a pass in pass_times. Names are static, so most are found by their address. */
+/* Index of a pass in pass_times. Names are static, so comparing addresses finds nearly all of them. */
 static uint32_t pass_index(virga_timers *timers, const char *name)
 {
     for (uint32_t i = 0; i < timers->pass_count; i++)
@@ -102,8 +102,8 @@ static void wait_for_all(virga_context *context, VkCommandBuffer cmd)
     virga_barrier(context, cmd, all, 0, all, 0);
 }
 
-/* On software Vulkan a timestamp stands between two barriers. Without them it is written before the work in front of it
- * is done, and passes wait for each other there anyway. On a GPU such barriers would also drain the host's own work. */
+/* On software Vulkan a timestamp has a barrier on both sides. Without them it is written before the earlier work is
+ * done. Passes wait for each other there anyway. On a GPU such barriers would also wait for the host's own work. */
 virga_pass_scope virga_pass_begin(virga_context *context, VkCommandBuffer cmd, const char *name)
 {
     const bool alone = context->timers.enabled && context->software;
@@ -138,7 +138,7 @@ static virga_result read_times(virga_context *context, const virga_timer_slot *s
                    ? VIRGA_ERROR_DEVICE_LOST
                    : VIRGA_DEGRADED;
     if (got != VK_SUCCESS)
-        return VIRGA_OK; /* not available: the host recorded into a command buffer that it never submitted */
+        return VIRGA_OK; /* not available: the host never submitted this command buffer */
     for (uint32_t i = 0; i < slot->count / 2; i++) {
         virga_pass_time *time = &context->timers.pass_times[slot->names[i]];
         if (time->frame_index != slot->frame_index)
@@ -150,7 +150,7 @@ static virga_result read_times(virga_context *context, const virga_timer_slot *s
     return VIRGA_OK;
 }
 
-/* Reads the times of a slot, and empties it. */
+/* Reads the times of a slot, and clears it. */
 static virga_result collect_slot(virga_context *context, virga_timer_slot *slot)
 {
     const virga_result result = read_times(context, slot);

@@ -7,15 +7,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define VIRGA_MAX_PASSES  32  /* different pass names with times of their own */
-#define VIRGA_MAX_QUERIES 512 /* timestamps in a frame; passes beyond them are not timed */
+#define VIRGA_MAX_PASSES  32  /* different pass names with a time each */
+#define VIRGA_MAX_QUERIES 512 /* timestamps per frame; passes beyond this number are not timed */
 
 /* The timestamps of one frame in flight. */
 typedef struct virga_timer_slot {
     VkQueryPool pool;
     uint64_t frame_index;
     uint32_t count;                       /* queries written */
-    uint8_t names[VIRGA_MAX_QUERIES / 2]; /* of each pair: an index into pass_times */
+    uint8_t names[VIRGA_MAX_QUERIES / 2]; /* index into pass_times, for each pair of queries */
     bool reset;                           /* the pool was reset in this frame */
 } virga_timer_slot;
 
@@ -28,18 +28,18 @@ typedef struct virga_timers {
     uint32_t pass_count;
 } virga_timers;
 
-/* `valid_bits`: of the queue family's timestamps. 0: it has none, and no pass is timed. */
+/* `valid_bits`: valid timestamp bits of the queue family. 0: it has no timestamps, and no pass is timed. */
 virga_result virga_timers_create(virga_context *context, uint32_t valid_bits);
 void virga_timers_destroy(virga_context *context);
 
-/* A frame begins: reads the times of the frame that used its slot before. VIRGA_DEGRADED where they can not be read,
- * VIRGA_ERROR_DEVICE_LOST where the device is lost. */
+/* Begins a frame: reads the times of the frame that used this slot before. VIRGA_DEGRADED if they can not be read,
+ * VIRGA_ERROR_DEVICE_LOST if the device is lost. */
 virga_result virga_timers_begin_frame(virga_context *context);
 
-/* Reads the times of all frames that have completed. Returns as virga_timers_begin_frame. */
+/* Reads the times of all completed frames. Returns the same as virga_timers_begin_frame. */
 virga_result virga_timers_collect(virga_context *context);
 
-/* Call it before the passes of every call that records outside rendering: the first in a frame resets the queries. */
+/* Called before the passes of every call that records outside rendering: the first in a frame resets the queries. */
 void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
 
 /* A pass between its label and timestamps; `name` is static, e.g. "rain.step". */

@@ -13,8 +13,9 @@
 
 #define VIEW_COOKIE VIRGA_COOKIE(4)
 
-/* Limits of the first two diagonal elements of a projection, the cotangents of half its field of view: from 179.99
- * degrees to a tenth of a microradian. Larger elements are useless, and their products exceed the range of floats. */
+/* Limits of the first two diagonal elements of a projection. These are the cotangents of half the field of view, which
+ * is between a tenth of a microradian and 179.99 degrees. Larger elements are useless, and their products exceed the
+ * range of floats. */
 #define MIN_PROJECTION 1e-4f
 #define MAX_PROJECTION 1e7f
 #define MAX_TIME_S     1e9
@@ -32,7 +33,7 @@ virga_view virga_default_view(void)
     return view;
 }
 
-/* A projection with w = -z that is finite and has a sensible field of view, so that rays can be computed from it. */
+/* Checks that a projection is finite, has w = -z and a sensible field of view, so that rays can be computed from it. */
 static virga_result check_projection(const virga_log *log, const char *name, const float p[16])
 {
     bool sound = p[11] == -1;
@@ -60,7 +61,7 @@ static virga_result check_camera(const virga_log *log, const virga_view *view)
     return VIRGA_OK;
 }
 
-/* An image of the host, if it is given. */
+/* Checks an image of the host, if there is one. */
 static virga_result check_image(const virga_log *log, const char *name, const virga_image *image)
 {
     if (!image->image != !image->view)
@@ -83,7 +84,7 @@ static virga_result check_images(const virga_log *log, const virga_view *view)
 static virga_result check_temporal(const virga_log *log, const virga_temporal *temporal)
 {
     const float *scale = temporal->motion_scale;
-    bool given = false; /* all zero: the open camera */
+    bool given = false; /* all zero: use the open camera */
     for (int i = 0; i < 16; i++)
         given = given || temporal->clip_from_view[i] != 0; /* also true for NaN */
     if (given && (virga_settings_check_positions(log, "view.temporal.position_m", temporal->position_m, 3) ||
@@ -108,7 +109,7 @@ static virga_result check_temporal(const virga_log *log, const virga_temporal *t
     return VIRGA_OK;
 }
 
-/* Limits of Vulkan for a viewport on this device. */
+/* Checks a viewport against Vulkan's limits on this device. */
 static virga_result check_viewport(const virga_context *context, const float box[4])
 {
     const VkPhysicalDeviceLimits *limits = &context->properties.limits;
@@ -175,8 +176,9 @@ static void clip_from_relative(const float clip_from_view[16], const float view_
         }
 }
 
-/* The axes of the camera in the world, scaled to rays: a pixel at ndc (x, y) looks along right x + up y + ahead. With
- * a projection clip.x = a x + c z, clip.w = -z that is x = (ndc + c) / a at depth 1, jitter and shift included. */
+/* Fills the axes of the camera in the world, scaled to rays: a pixel at ndc (x, y) has the direction right x + up y +
+ * ahead. With a projection clip.x = a x + c z, clip.w = -z this means x = (ndc + c) / a at depth 1, including jitter
+ * and shift. */
 static void fill_rays(const virga_view *view, virga_view_gpu *out)
 {
     const float *m = view->view_from_world, *p = view->clip_from_view;
@@ -213,7 +215,7 @@ static void fill_lights(const virga_lighting *lighting, const double camera[3], 
     }
 }
 
-/* The environment, and how a drop spreads light: the same for everything that is drawn. */
+/* Fills the environment and the phase function of drops: the same for all effects. */
 static void fill_environment(const virga_lighting *lighting, virga_view_gpu *out)
 {
     _Static_assert(sizeof out->phase / sizeof out->phase[0] == VIRGA_PHASE_BINS, "bins of the phase function");
@@ -228,12 +230,13 @@ static void fill_environment(const virga_lighting *lighting, virga_view_gpu *out
         out->phase[i] = (float)virga_phase_table[i];
 }
 
-/* Clip coordinates of positions relative to the camera, at both ends of the shutter. */
+/* Fills the transforms of positions relative to the camera to clip coordinates, at both ends of the shutter. */
 static void fill_matrices(const virga_view *view, virga_view_gpu *out)
 {
     const double none[3] = {0, 0, 0};
     clip_from_relative(view->clip_from_view, view->view_from_world, none, out->clip_from_rel);
-    /* The open camera may be at another time than the shutter opens: use the part of its motion within the shutter. */
+    /* The open camera may be at a different time than the opening of the shutter: use the part of its motion within the
+     * shutter. */
     const double share = view->open_camera_s > 0 ? view->shutter_s / view->open_camera_s : view->shutter_s > 0 ? 1 : 0;
     double moved[3];
     for (int i = 0; i < 3; i++)
@@ -261,7 +264,7 @@ void virga_view_previous(const virga_view *view, double position_m[3], float cli
                        given ? view->temporal.view_from_world : view->open_view_from_world, none, clip_from_rel);
 }
 
-/* Where the camera of the previous frame saw things, and when. */
+/* Fills the camera of the previous frame, and its time. */
 static void fill_temporal(const virga_view *view, virga_view_gpu *out)
 {
     const virga_temporal *temporal = &view->temporal;

@@ -1,4 +1,4 @@
-/* gpu/view.h - a host's view and light in the device's terms, for every effect that draws. Internal. */
+/* gpu/view.h - a host's view and light in the GPU's format, for all effects that draw. Internal. */
 #ifndef VIRGA_GPU_VIEW_H
 #define VIRGA_GPU_VIEW_H
 
@@ -10,14 +10,14 @@
  * pixels. */
 virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s);
 
-/* Whether the host gave the previous frame's camera; otherwise the open camera is used. */
+/* Whether the host gave the previous frame's camera. Otherwise the open camera is used. */
 bool virga_view_has_previous(const virga_view *view);
 
 /* The position of the previous frame's camera, and the transform of positions relative to it to clip coordinates. */
 void virga_view_previous(const virga_view *view, double position_m[3], float clip_from_rel[16]);
 
-/* Fills the GPU's view: at `time_s`, of a state at `state_s` whose positions are relative to `origin_m`. View and
- * lighting are valid. Members marked (look) get neutral values, which the effect replaces by its settings. */
+/* Fills the GPU's view at `time_s`. The simulation's state is at `state_s`, with positions relative to `origin_m`. View
+ * and lighting must be valid. Members marked (look) get neutral values, which the effect replaces by its settings. */
 void virga_view_fill(const virga_view *view, const virga_lighting *lighting, const double origin_m[3], double state_s,
                      double time_s, virga_view_gpu *out);
 
