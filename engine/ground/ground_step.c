@@ -435,8 +435,9 @@ static virga_result check_buffers(const virga_ground *ground, const virga_ground
     const VkDeviceSize rules_alignment = context->properties.limits.minUniformBufferOffsetAlignment;
     if (virga_host_list_check(context, "step_info.impacts", info->impacts_offset, info->impacts_size,
                               sizeof(virga_impacts_gpu)) ||
-        (info->returned_droplets && virga_host_list_check(context, "step_info.returned_droplets", info->returned_droplets_offset,
-                                                          info->returned_droplets_size, sizeof(virga_impacts_gpu))))
+        (info->returned_droplets &&
+         virga_host_list_check(context, "step_info.returned_droplets", info->returned_droplets_offset,
+                               info->returned_droplets_size, sizeof(virga_impacts_gpu))))
         return VIRGA_ERROR_INVALID;
     if (info->splash_rules && info->splash_rules_offset % rules_alignment)
         return virga_wrong_argument(
