@@ -205,8 +205,10 @@ bool glass_create_shape(shot *s, glass_pane *pane, uint32_t index, char *error, 
     pane->positions = calloc((size_t)pane->columns * pane->rows, 3 * sizeof *pane->positions);
     if (meshed)
         mask = malloc((size_t)pane->columns * pane->rows);
-    if (!pane->positions || (meshed && !mask))
+    if (!pane->positions || (meshed && !mask)) {
+        free(mask);
         return host_fail(error, error_size, "no memory for a pane");
+    }
     if (!meshed)
         virga_glass_fill_windshield((float)from->width_m, (float)from->height_m, bent ? (float)from->rake_deg : 0,
                                     bent ? (float)from->bend_m : 0, pane->columns, pane->rows, pane->positions);
