@@ -83,7 +83,8 @@
     X(CmdCopyBufferToImage)         \
     X(CmdClearColorImage)           \
     X(CmdCopyBuffer)                \
-    X(CmdFillBuffer)
+    X(CmdFillBuffer)                \
+    X(CmdUpdateBuffer)
 
 #define VIRGA_OPTIONAL_FUNCTIONS(X) \
     X(SetDebugUtilsObjectNameEXT)   \

@@ -11,4 +11,5 @@
 #include <virga/scene.h>
 #include <virga/splash.h>
 #include <virga/vulkan.h>
+#include <virga/water.h>
 #endif

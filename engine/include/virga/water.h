@@ -1,0 +1,153 @@
+/* virga/water.h - water from simulated particles: a surface of surfels that reflects and refracts.
+ *
+ * The method is that of Iwasaki et al. 2006, "Point-based Rendering of Water Surfaces with Splashes Simulated by
+ * Particle-based Simulation". Each particle adds a density around it; the surface is where the density has a certain
+ * value. It is sampled on the edges of a grid, and every sample is a surfel: a small disk with the surface's normal.
+ *
+ * The particles come from the host, in a buffer, in each step: from files, from a simulation of the host, or from
+ * virga_water_solver.
+ *
+ * A frame, outside rendering:
+ *
+ *     virga_water_step(water, cmd, &info);
+ *     virga_water_prepare(water, cmd, &view, time_s);
+ *
+ * and inside rendering, after the opaque scene, virga_water_draw.
+ *
+ * Deterministic: the same particles in the same order give the same bits.
+ * Thread-safety: as virga/vulkan.h says. */
+#ifndef VIRGA_WATER_H
+#define VIRGA_WATER_H
+
+#include <virga/light.h>
+#include <virga/shared/particle.h>
+#include <virga/shared/surfel.h>
+#include <virga/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct virga_water virga_water; /* opaque */
+
+typedef struct virga_water_def {
+    uint32_t size, cookie;
+
+    /* [64; 8388608] particles of a step; further ones are left out, and the log says so. 64 bytes each. Default
+     * 65536. */
+    uint32_t max_particles;
+
+    /* [4096; 16777216] cells of the neighbour grid, 17 bytes each. A cell is as wide as the kernel's radius. If the box
+     * around all particles has more cells, the grid is a smaller box around their median, and particles outside it are
+     * not part of the surface. Default 262144. */
+    uint32_t max_cells;
+
+    /* [64; 1048576] cells that the surface runs through, with their neighbours; 280 bytes each. Further ones have no
+     * surface: the water has a hole there, and the log says so. Default 32768. */
+    uint32_t max_blocks;
+
+    /* [256; 8388608] surfels; 32 bytes each. Further ones are left out, and the log says so. Default 262144. */
+    uint32_t max_surfels;
+} virga_water_def;
+
+VIRGA_API virga_water_def virga_default_water_def(void);
+
+typedef struct virga_water_settings {
+    uint32_t size, cookie;
+
+    /* [0.0001; 10] distance d of particles at rest (m): the side of the cube of water that a particle stands for. Use
+     * the simulation's own value. Default 0.02. */
+    float spacing_m;
+
+    /* [0; 1000] volume of a particle (m^3). 0: spacing_m^3, as in the paper. Programs differ: SPlisHSPlasH uses 0.8
+     * spacing_m^3. Default 0. */
+    float volume_m3;
+
+    /* [1; 4] radius of the kernel in spacings: n of equation 2. Larger is smoother and slower: the cost grows as its
+     * cube. Default 2. */
+    float kernel_spacings;
+
+    /* [0.05; 0.95] density of the surface, where 1 is inside the water. At 0.5 the volume inside the surface is that of
+     * the particles. Default 0.5. */
+    float level;
+} virga_water_settings;
+
+VIRGA_API virga_water_settings virga_default_water_settings(void);
+
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools were made
+ * smaller to fit the context's memory_budget; the log says how small. Errors as virga_context_create; *water is NULL
+ * then. */
+VIRGA_API virga_result virga_water_create(virga_context *context, const virga_water_def *def, virga_water **water);
+
+/* Destroys it and sets *water to NULL. Accepts NULL. Frames in flight may still use it: its resources are freed when
+ * they have completed. */
+VIRGA_API void virga_water_destroy(virga_water **water);
+
+/* Returns VIRGA_OK if its pipelines for stepping and preparing are built, VIRGA_NOT_READY if some are missing, or the
+ * error of one that could not be built. See virga_pipelines_build. Costs nothing. */
+VIRGA_API virga_result virga_water_ready(const virga_water *water);
+
+/* Applies new settings from the next step on. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity or a wrong
+ * cookie: VIRGA_ERROR_INVALID, and nothing changes. */
+VIRGA_API virga_result virga_water_set(virga_water *water, const virga_water_settings *settings);
+
+/* Reads the current settings. */
+VIRGA_API void virga_water_get(const virga_water *water, virga_water_settings *settings);
+
+/* Returns the device memory in bytes that virga_water_create will allocate at most, with eight frames in flight. */
+VIRGA_API VkDeviceSize virga_water_estimate(const virga_water_def *def);
+
+/* Arguments of one step. */
+typedef struct virga_water_step_info {
+    /* `count` virga_particle_gpu from `offset` on; a storage buffer, ready to be read by compute shaders. The offset is
+     * a multiple of the device's minStorageBufferOffsetAlignment. VK_NULL_HANDLE is allowed if count is 0. */
+    VkBuffer particles;
+    VkDeviceSize offset;
+    uint32_t count;
+
+    /* [-1e9; 1e9] position in the world (m) that the particles' positions are relative to. */
+    double origin_m[3];
+} virga_water_step_info;
+
+/* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device
+ * executes the step, and not afterwards.
+ *
+ * Cost on two cores of software Vulkan: see tests/bench/lavapipe_water.txt. */
+VIRGA_API virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info);
+
+/* A range of a buffer, in bytes. */
+typedef struct virga_water_buffer {
+    VkBuffer buffer;
+    VkDeviceSize offset, size;
+} virga_water_buffer;
+
+/* Reads where the surfels of the newest step are: virga_surfel_gpu, as many as virga_water_stats.surfels says for that
+ * frame, relative to `origin_m`. Ready to be read by transfers and compute shaders. */
+VIRGA_API void virga_water_surfels(const virga_water *water, virga_water_buffer *surfels, double origin_m[3]);
+
+/* Reads the density at each particle of the newest step: a float for each, in the order of the particles. 1 is inside
+ * the water, 0 stands for particles outside the grid. Ready to be read by transfers and compute shaders. */
+VIRGA_API void virga_water_densities(const virga_water *water, virga_water_buffer *densities);
+
+/* The newest statistics of completed frames. */
+typedef struct virga_water_stats {
+    /* 0: none yet. */
+    uint64_t frame_index;
+
+    /* Particles of the step; those with positions that are not finite, or too far from the origin; those in the grid.
+     */
+    uint32_t particles, invalid, in_grid;
+
+    /* Surfels that were made, and those for which there was no room. */
+    uint32_t surfels, surfels_dropped;
+
+    /* Cells that the surface may run through, and those of them for which there was no room. */
+    uint32_t blocks, blocks_dropped;
+} virga_water_stats;
+
+VIRGA_API void virga_water_stats_get(virga_water *water, virga_water_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

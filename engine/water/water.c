@@ -1,0 +1,305 @@
+/* water/water.c - creates and destroys water objects, applies settings, and answers queries. */
+#include "water/water_internal.h"
+
+#include "core/settings.h"
+#include "gpu/errors.h"
+
+#include "shaders/water_grid_bounds_comp.spv.h"
+#include "shaders/water_grid_copy_comp.spv.h"
+#include "shaders/water_grid_count_comp.spv.h"
+#include "shaders/water_grid_fill_comp.spv.h"
+#include "shaders/water_grid_fit_comp.spv.h"
+#include "shaders/water_grid_median_comp.spv.h"
+#include "shaders/water_grid_offsets_comp.spv.h"
+#include "shaders/water_grid_order_comp.spv.h"
+#include "shaders/water_grid_scan_comp.spv.h"
+#include "shaders/water_grid_search_comp.spv.h"
+#include "shaders/water_grid_sums_comp.spv.h"
+#include "shaders/water_grid_thin_comp.spv.h"
+#include "shaders/water_grid_window_comp.spv.h"
+#include "shaders/water_surface_block_compact_comp.spv.h"
+#include "shaders/water_surface_block_mark_comp.spv.h"
+#include "shaders/water_surface_block_scan_comp.spv.h"
+#include "shaders/water_surface_density_comp.spv.h"
+#include "shaders/water_surface_edge_write_comp.spv.h"
+#include "shaders/water_surface_field_comp.spv.h"
+#include "shaders/water_surface_surfel_count_comp.spv.h"
+#include "shaders/water_surface_surfel_scan_comp.spv.h"
+#include "shaders/water_surface_surfel_write_comp.spv.h"
+
+#include <virga/shared/compact.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#define DEF_COOKIE      VIRGA_COOKIE(31)
+#define SETTINGS_COOKIE VIRGA_COOKIE(32)
+
+/* ---- defaults */
+
+virga_water_def virga_default_water_def(void)
+{
+    return (virga_water_def){.size = sizeof(virga_water_def),
+                             .cookie = DEF_COOKIE,
+                             .max_particles = 65536,
+                             .max_cells = 262144,
+                             .max_blocks = 32768,
+                             .max_surfels = 262144};
+}
+
+virga_water_settings virga_default_water_settings(void)
+{
+    return (virga_water_settings){.size = sizeof(virga_water_settings),
+                                  .cookie = SETTINGS_COOKIE,
+                                  .spacing_m = 0.02f,
+                                  .kernel_spacings = 2,
+                                  .level = 0.5f};
+}
+
+static const virga_setting_row def_rows[] = {
+    {"water_def.max_particles", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_particles), 64, 8388608},
+    {"water_def.max_cells", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_cells), 4096, 16777216},
+    {"water_def.max_blocks", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_blocks), 64, 1048576},
+    {"water_def.max_surfels", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_surfels), 256, 8388608},
+};
+
+static virga_result check_def(const virga_log *log, void *given)
+{
+    virga_water_def *def = given;
+    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
+        return VIRGA_ERROR_INVALID;
+    /* Whole workgroups of the passes over cells. */
+    def->max_cells = (def->max_cells + VIRGA_WATER_SCAN_CELLS - 1) / VIRGA_WATER_SCAN_CELLS * VIRGA_WATER_SCAN_CELLS;
+    return VIRGA_OK;
+}
+
+/* Reduces a pool to what a storage buffer of the device holds. */
+static bool fit_pool(const virga_context *context, const char *name, uint32_t bytes_each, uint32_t *pool)
+{
+    const VkDeviceSize max = context->properties.limits.maxStorageBufferRange / bytes_each - 1;
+    if (*pool <= max)
+        return false;
+    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "%s: %u, as storage buffers of this device hold no more than %u bytes", name, (uint32_t)max,
+                    context->properties.limits.maxStorageBufferRange);
+    *pool = (uint32_t)max;
+    return true;
+}
+
+static virga_result fit_device(const virga_context *context, void *given)
+{
+    virga_water_def *def = given;
+    bool reduced = fit_pool(context, "water_def.max_particles", sizeof(virga_particle_gpu), &def->max_particles);
+    reduced |= fit_pool(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
+    reduced |= fit_pool(context, "water_def.max_surfels", sizeof(virga_surfel_gpu), &def->max_surfels);
+    return reduced ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+/* ---- resources */
+
+enum {
+    COUNT_PARTICLES = 1,
+    COUNT_CELLS,
+    COUNT_SCAN_GROUPS,
+    COUNT_PICK_BYTES,
+    COUNT_BLOCKS,
+    COUNT_POINTS,
+    COUNT_SURFELS,
+};
+
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    const virga_water_def *def = given;
+    counts[COUNT_PARTICLES] = def->max_particles;
+    counts[COUNT_CELLS] = def->max_cells;
+    counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_WATER_SCAN_CELLS;
+    counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES((VkDeviceSize)def->max_cells);
+    counts[COUNT_BLOCKS] = def->max_blocks;
+    counts[COUNT_POINTS] = (VkDeviceSize)def->max_blocks * VIRGA_WATER_POINTS;
+    counts[COUNT_SURFELS] = def->max_surfels;
+}
+
+#define AT(member) offsetof(virga_water, member)
+#define DEVICE     VIRGA_HEAP_DEVICE
+
+static const virga_effect_buffer buffers[] = {
+    WATER_GRID_BUFFERS(virga_water, "water", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
+    {"water.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_water_state_gpu),
+     .first = VIRGA_FIRST_FILL},
+    {"water.cell_marks", AT(cell_marks), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_CELLS},
+    {"water.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
+    {"water.block_insides", AT(block_insides), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_BLOCKS},
+    {"water.blocks", AT(blocks), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
+     .count = COUNT_BLOCKS},
+    {"water.block_of", AT(block_of), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_CELLS},
+    {"water.fields", AT(fields), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_POINTS},
+    {"water.block_starts", AT(block_starts), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_BLOCKS},
+    {"water.densities", AT(densities), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
+    {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
+     .first = VIRGA_FIRST_FILL},
+};
+
+static const virga_effect_ring rings[] = {
+    {"water.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_water_step_gpu), VIRGA_COUNT_ONE},
+};
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+#define DYNAMIC VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+
+static const virga_binding_kind grid_bindings[] = {
+    WATER_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
+};
+
+static const virga_binding_kind bindings[] = {
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
+    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},                            /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_insides)},                         /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(blocks)},                                /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_of)},                              /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(fields)},                                /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_starts)},                          /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 15 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 18 */
+};
+
+static const virga_effect_layout layouts[] = {
+    [WATER_LAYOUT_GRID] = WATER_GRID_LAYOUT(virga_water, grid_bindings, 1),
+    [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
+};
+
+#define PASS(pass)                                                                                             \
+    {                                                                                                          \
+        "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), .layout = WATER_LAYOUT_SURFACE \
+    }
+static const virga_effect_pass passes[] = {
+    WATER_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
+    PASS(density),
+    PASS(block_mark),
+    PASS(block_scan),
+    PASS(block_compact),
+    PASS(field),
+    PASS(surfel_count),
+    PASS(surfel_scan),
+    PASS(edge_write),
+    PASS(surfel_write),
+};
+
+static const virga_effect_pool pools[] = {
+    {"max_surfels", offsetof(virga_water_def, max_surfels), 256, 256},
+    {"max_blocks", offsetof(virga_water_def, max_blocks), 64, 64},
+    {"max_cells", offsetof(virga_water_def, max_cells), 4096, VIRGA_WATER_SCAN_CELLS},
+    {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
+};
+
+static virga_result init(void *object)
+{
+    ((virga_water *)object)->settings = virga_default_water_settings();
+    return VIRGA_OK;
+}
+
+static void describe(const void *object, char *line, size_t size)
+{
+    const virga_water *water = object;
+    snprintf(line, size, "water: up to %u particles and %u surfels", water->def.max_particles, water->def.max_surfels);
+}
+
+VIRGA_EFFECT_FUNCTIONS(water)
+
+const virga_effect_type water_type = {
+    .name = "water",
+    .size = sizeof(virga_water),
+    .def = {"water_def", sizeof(virga_water_def), DEF_COOKIE, offsetof(virga_water, def)},
+    .settings = {"water_settings", sizeof(virga_water_settings), SETTINGS_COOKIE, offsetof(virga_water, settings)},
+    .buffers = buffers,
+    .buffer_count = VIRGA_ROWS(buffers),
+    .rings = rings,
+    .ring_count = VIRGA_ROWS(rings),
+    .layouts = layouts,
+    .layout_count = VIRGA_ROWS(layouts),
+    .passes = passes,
+    .pass_count = VIRGA_ROWS(passes),
+    .pools = pools,
+    .pool_count = VIRGA_ROWS(pools),
+    .readback_name = "water.readback",
+    .readback_bytes = sizeof(water_readback),
+    .check_def = check_def,
+    .fit_device = fit_device,
+    .count = count,
+    .init = init,
+    .describe = describe,
+    .read_statistics = water_read_statistics,
+    .set = water_type_set,
+};
+
+/* ---- settings */
+
+#define NUMBER(member, min, max)                                                                        \
+    {                                                                                                   \
+        "water_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_water_settings, member), min, max \
+    }
+
+static const virga_setting_row settings_rows[] = {
+    NUMBER(spacing_m, 1e-4, 10),
+    NUMBER(volume_m3, 0, 1000),
+    NUMBER(kernel_spacings, 1, 4),
+    NUMBER(level, 0.05, 0.95),
+};
+
+virga_result virga_water_set(virga_water *water, const virga_water_settings *settings)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    const virga_result result = virga_effect_check_set(&water->base, "virga_water_set", settings);
+    if (result)
+        return result;
+    virga_water_settings next = *settings;
+    bool changed = false;
+    if (virga_settings_apply_rows(&water->base.context->log, settings_rows, VIRGA_ROWS(settings_rows), &next, &changed))
+        return VIRGA_ERROR_INVALID;
+    water->settings = next;
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+/* ---- queries */
+
+static virga_water_buffer whole_buffer(const virga_water *water, const virga_buffer *buffer)
+{
+    return water->base.has_contents ? (virga_water_buffer){buffer->buffer, 0, buffer->size} : (virga_water_buffer){0};
+}
+
+void virga_water_surfels(const virga_water *water, virga_water_buffer *surfels, double origin_m[3])
+{
+    if (surfels)
+        *surfels = water ? whole_buffer(water, water->surfels) : (virga_water_buffer){0};
+    for (int axis = 0; origin_m && axis < 3; axis++)
+        origin_m[axis] = water ? water->origin_m[axis] : 0;
+}
+
+void virga_water_densities(const virga_water *water, virga_water_buffer *densities)
+{
+    if (densities)
+        *densities = water ? whole_buffer(water, water->densities) : (virga_water_buffer){0};
+}
+
+void virga_water_stats_get(virga_water *water, virga_water_stats *stats)
+{
+    if (!stats)
+        return;
+    memset(stats, 0, sizeof *stats);
+    if (!water)
+        return;
+    virga_effect_read_statistics(&water->base);
+    *stats = water->stats;
+}

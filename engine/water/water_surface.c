@@ -1,0 +1,219 @@
+/* water/water_surface.c - records a step: particles become the surfels of a surface. */
+#include "water/water_internal.h"
+
+#include "core/settings.h"
+#include "gpu/checks.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+/* Particles with a lower density than this are near the surface. Water at rest has densities of 0.95 to 1.05 inside,
+ * and about 0.7 in its outermost layer. */
+#define FULL_DENSITY     0.85f
+#define FULL_ABOVE_LEVEL 0.35f /* and at least so much more than the density of the surface */
+
+/* ---- statistics */
+
+static uint32_t saturated_difference(uint32_t a, uint32_t b)
+{
+    return a > b ? a - b : 0;
+}
+
+void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
+{
+    virga_water *water = object;
+    water_readback read;
+    (void)parts;
+    memcpy(&read, data, sizeof read);
+    const uint32_t particles = water->step_particles[ring_slot];
+    water->stats =
+        (virga_water_stats){.frame_index = frame,
+                            .particles = particles,
+                            .invalid = saturated_difference(particles, read.grid.valid),
+                            .in_grid = read.grid.sorted,
+                            .surfels = read.state.surfels,
+                            .surfels_dropped = saturated_difference(read.state.surfels_wanted, read.state.surfels),
+                            .blocks = read.state.blocks,
+                            .blocks_dropped = saturated_difference(read.state.blocks_wanted, read.state.blocks)};
+}
+
+/* ---- a step */
+
+/* How far the surface may be from the nearest particle of low density (m).
+ *
+ * In a half space of water, at a distance s beyond its boundary, the density is the integral of the kernel over the
+ * part of its ball that is in the water. The kernel's integral over a plane at the distance z is
+ * 315 / (256 h^9) (h^2 - z^2)^4. The boundary is half a spacing beyond the outermost particles. Particles may be closer
+ * together than at rest, by a quarter of the density, and out of their order, by a fifth of the spacing. */
+static double surface_reach(double level, double d, double h)
+{
+    const int steps = 256;
+    double density = 0, z = h;
+    for (int i = 0; i < 2 * steps && 1.25 * density < level; i++) {
+        const double middle = z - 0.5 * h / steps;
+        density += 315 / (256 * pow(h, 9)) * pow(h * h - middle * middle, 4) * h / steps;
+        z -= h / steps;
+    }
+    const double reach = z + 0.5 * d + 0.2 * d;
+    return reach < 0.6 * d ? 0.6 * d : reach;
+}
+
+static void fill_step(const virga_water *water, uint32_t particles, virga_water_step_gpu *out)
+{
+    const virga_water_settings *settings = &water->settings;
+    const double d = (double)settings->spacing_m, h = (double)settings->kernel_spacings * d;
+    const double volume = settings->volume_m3 > 0 ? (double)settings->volume_m3 : d * d * d;
+    /* Equation 2 with the particle's own volume in place of d^3: W'(r, h) = kernel (1 - (r / h)^2)^3. */
+    const double kernel = 315 * volume / (64 * PI * h * h * h), point_m = h / VIRGA_WATER_SIDE;
+    *out = (virga_water_step_gpu){.cell_m = (float)h,
+                                  .inv_cell_m = (float)(1 / h),
+                                  .particles = particles,
+                                  .max_cells = water->def.max_cells,
+                                  .max_blocks = water->def.max_blocks,
+                                  .max_surfels = water->def.max_surfels,
+                                  .kernel = (float)kernel,
+                                  .kernel_gradient = (float)(-6 * kernel / (h * h)),
+                                  .inv_h2 = (float)(1 / (h * h)),
+                                  .level = settings->level,
+                                  .full = fmaxf(FULL_DENSITY, settings->level + FULL_ABOVE_LEVEL),
+                                  .reach = (float)(surface_reach((double)settings->level, d, h) / h),
+                                  .point_m = (float)point_m,
+                                  .surfel_m = (float)(1.2 * point_m)};
+}
+
+/* Dispatches with a workgroup for each entry of a list whose length an earlier pass wrote into the state. */
+static void over(const virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    virga_dispatch_indirect_and_barrier(water->base.context, cmd, pipeline, water->state->buffer, groups);
+}
+
+static void over_cells(const virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
+{
+    virga_dispatch_indirect_and_barrier(water->base.context, cmd, pipeline, water->grid.state->buffer, groups);
+}
+
+static void record_densities(virga_water *water, VkCommandBuffer cmd)
+{
+    over_cells(water, cmd, water->density, offsetof(virga_water_grid_gpu, sorted_groups));
+}
+
+static void record_fields(virga_water *water, VkCommandBuffer cmd)
+{
+    virga_context *context = water->base.context;
+    over_cells(water, cmd, water->block_mark, offsetof(virga_water_grid_gpu, cell_groups));
+    virga_dispatch_and_barrier(context, cmd, water->block_scan, 1);
+    over_cells(water, cmd, water->block_compact, offsetof(virga_water_grid_gpu, word_groups));
+    over(water, cmd, water->field, offsetof(virga_water_state_gpu, block_groups));
+}
+
+static void record_surfels(virga_water *water, VkCommandBuffer cmd)
+{
+    over(water, cmd, water->surfel_count, offsetof(virga_water_state_gpu, block_lane_groups));
+    virga_dispatch_and_barrier(water->base.context, cmd, water->surfel_scan, 1);
+    over(water, cmd, water->edge_write, offsetof(virga_water_state_gpu, block_lane_groups));
+    over(water, cmd, water->surfel_write, offsetof(virga_water_state_gpu, surfel_groups));
+}
+
+static void run(virga_water *water, VkCommandBuffer cmd, const char *name, VkDescriptorSet set, uint32_t offset,
+                void (*record)(virga_water *, VkCommandBuffer))
+{
+    virga_context *context = water->base.context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, name);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, water->bindings->layout, 0, 1, &set, 1,
+                                      &offset);
+    record(water, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
+static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    const virga_context *context = water->base.context;
+    const virga_result result = virga_effect_check_step(&water->base, "virga_water_step", cmd, info);
+    if (result)
+        return result;
+    if (water->base.step_frame == context->frame_index)
+        return virga_wrong_argument(&context->log, "virga_water_step: expected one step a frame");
+    if (info->count && !info->particles)
+        return virga_wrong_argument(&context->log, "step_info.particles: expected a buffer with %u particles, got NULL",
+                                    info->count);
+    if (info->offset % context->properties.limits.minStorageBufferOffsetAlignment)
+        return virga_wrong_argument(&context->log, "step_info.offset: expected a multiple of %u, got %llu",
+                                    (uint32_t)context->properties.limits.minStorageBufferOffsetAlignment,
+                                    (unsigned long long)info->offset);
+    if (virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3))
+        return VIRGA_ERROR_INVALID;
+    return virga_effect_ready(&water->base);
+}
+
+static VkDescriptorSet write_set(virga_water *water, const virga_bindings *layout, const virga_water_step_info *info,
+                                 uint32_t particles)
+{
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&water->base, layout, bound);
+    bound[WATER_BIND_PARTICLES] = particles
+                                      ? (virga_bound){.buffer = info->particles,
+                                                      .offset = info->offset,
+                                                      .range = (VkDeviceSize)particles * sizeof(virga_particle_gpu)}
+                                      : (virga_bound){.buffer = water->surfels->buffer}; /* not read */
+    return virga_bindings_write(water->base.context, (virga_bindings *)layout, 0, bound);
+}
+
+/* Waits for the previous frame's reads of what this step writes. */
+static void wait_for_readers(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+}
+
+virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
+{
+    const virga_result result = check_step(water, cmd, info);
+    if (result)
+        return result;
+    virga_context *context = water->base.context;
+    const uint32_t particles = info->count < water->def.max_particles ? info->count : water->def.max_particles;
+    virga_water_step_gpu step;
+    virga_timers_reset(context, cmd);
+    virga_effect_read_statistics(&water->base);
+    water->base.step_frame = context->frame_index;
+    water->base.view.ready = false;
+    memcpy(water->origin_m, info->origin_m, sizeof water->origin_m);
+    water->step_particles[context->ring_slot] = particles;
+    fill_step(water, particles, &step);
+    const uint32_t offset = virga_ring_push(context, &water->step_ring, &step, sizeof step);
+    const VkDescriptorSet grid_set = write_set(water, water->grid.bindings, info, particles);
+    const VkDescriptorSet set = write_set(water, water->bindings, info, particles);
+    wait_for_readers(context, cmd);
+    virga_effect_first_contents(&water->base, cmd);
+    context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");
+    water_grid_record(context, cmd, &water->grid, grid_set, offset, particles);
+    virga_pass_end(context, cmd, scope);
+    run(water, cmd, "water.density", set, offset, record_densities);
+    run(water, cmd, "water.field", set, offset, record_fields);
+    run(water, cmd, "water.surfels", set, offset, record_surfels);
+    virga_effect_copy_statistics(&water->base, cmd, 0, water->grid.state, 0, offsetof(water_readback, grid),
+                                 sizeof(virga_water_grid_gpu));
+    virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),
+                                 sizeof(virga_water_state_gpu));
+    const virga_result uploaded = virga_check_uploads(context);
+    if (uploaded || particles == info->count)
+        return uploaded;
+    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "step_info.count: %u particles, and water_def.max_particles is %u: the others are left out",
+                    info->count, particles);
+    return VIRGA_DEGRADED;
+}

@@ -1,0 +1,52 @@
+/* water_gpu.h - the water effect's uniform blocks and state. Internal to Virga. */
+#ifndef VIRGA_SHARED_WATER_GPU_H
+#define VIRGA_SHARED_WATER_GPU_H
+
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_water_step_gpu virga_water_step_gpu;
+typedef struct virga_water_state_gpu virga_water_state_gpu;
+#endif
+
+#define VIRGA_WATER_BOUNDS_EACH 16 /* particles of an invocation of bounds.comp */
+#define VIRGA_WATER_SIDE        4  /* grid points of a block along each axis: its cell is four steps wide */
+#define VIRGA_WATER_POINTS      64 /* grid points of a block */
+
+/* One step. Lengths in m. */
+struct virga_water_step_gpu {
+    float cell_m;     /* side of a cell: the kernel's radius h */
+    float inv_cell_m; /* 1/m */
+    uint particles;
+    uint max_cells;
+    uint max_blocks;
+    uint max_surfels;
+    float kernel;          /* factor of the density function, equation 2: 315 v / (64 pi h^3), without unit */
+    float kernel_gradient; /* 1/m^2, -6 kernel / h^2 */
+    float inv_h2;          /* 1/m^2, 1 / h^2 */
+    float level;           /* density of the surface; 1 is inside the water */
+    float full;            /* particles with less than this density are near the surface */
+    float reach;           /* distance of the surface from such particles at most, in cells */
+    float point_m;         /* distance of grid points */
+    float surfel_m;        /* radius of a surfel */
+};
+
+/* Written by the passes of a step; read back as statistics. */
+struct virga_water_state_gpu {
+    uint block_groups[3];      /* indirect arguments: a workgroup for each block */
+    uint block_lane_groups[3]; /* an invocation for each block */
+    uint blocks;               /* blocks of the surface */
+    uint blocks_wanted;        /* blocks that the surface needs, without the limit of max_blocks */
+    uint surfels;              /* surfels of the surface */
+    uint surfels_wanted;       /* without the limit of max_surfels */
+    uint surfel_groups[3];     /* an invocation for each surfel */
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 56);
+VIRGA_ASSERT_SIZE(virga_water_state_gpu, 52);
+#undef uint
+#endif
+
+#endif

@@ -1,0 +1,28 @@
+// copy.comp - copies positions, shares and velocities into the sorted lists, so that neighbours lie side by side in
+// memory.
+// One invocation per sorted particle. Reads: sorted_indices, particles, tickets, kept. Writes: sorted,
+// sorted_velocities.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define GRID_ACCESS
+#include "water/grid.glsl"
+#include "water/tickets.glsl"
+#define KEPT_ACCESS readonly
+#include "water/kept.glsl"
+
+layout(std430, set = 0, binding = 10) writeonly buffer SortedVelocities { vec4 sorted_velocities[]; };
+
+layout(local_size_x = VIRGA_WATER_LANES) in;
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= grid.sorted)
+        return;
+    const uint particle = sorted_indices[i], factor = kept[tickets[particle].x];
+    const float share = min(particles[particle].share, 1.0) * (factor > 0u ? uintBitsToFloat(factor) : 1.0);
+    const vec3 velocity = to_vec(particles[particle].velocity);
+    sorted_velocities[i] = vec4(all(lessThan(abs(velocity), vec3(1e4))) ? velocity : vec3(0.0), 0.0);
+    sorted[i] = vec4(to_vec(particles[particle].position), share);
+}

@@ -1,0 +1,180 @@
+/* The surface of water: densities, the grid, and surfels against double precision. */
+#include "water_fixture.h"
+
+static water_fixture f;
+
+/* Two blocks of water, a ball, and drops around them. */
+static void put_water(void)
+{
+    const double low[3] = {-0.11, 0.02, 0.3}, high[3] = {0.19, 0.13, 0.37}, center[3] = {0.05, 0.35, 0.4};
+    const uint32_t counts[3] = {12, 7, 9}, thin[3] = {9, 1, 8};
+    uint32_t hash = 3;
+    f.count = 0;
+    f.settings.spacing_m = 0.02f;
+    water_fixture_box(&f, low, counts, 0.02, 0.3);
+    water_fixture_box(&f, high, thin, 0.02, 0.1);
+    water_fixture_ball(&f, center, 0.07, 0.019);
+    for (int i = 0; i < 40; i++)
+        water_fixture_add(&f, water_random(&hash, -0.3, 0.5), water_random(&hash, -0.1, 0.6),
+                          water_random(&hash, 0.1, 0.8))
+            ->share = i % 3 ? 1 : 0.4f;
+    for (uint32_t i = 0; i < f.count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            f.particles[i].velocity[axis] = (float)(axis + 1);
+}
+
+static void densities_are_those_of_double_precision(void **state)
+{
+    (void)state;
+    water_fixture_open(&f);
+    put_water();
+    water_fixture_step(&f);
+    for (uint32_t i = 0; i < f.count; i++) {
+        const double at[3] = {(double)f.particles[i].position[0], (double)f.particles[i].position[1],
+                              (double)f.particles[i].position[2]};
+        const double expected = water_reference(&f, at, NULL);
+        if (fabs((double)f.densities[i] - expected) > 2e-5)
+            fail_msg("particle %u: %.7f, expected %.7f", i, (double)f.densities[i], expected);
+    }
+    water_fixture_close(&f);
+}
+
+static void surfels_lie_on_the_surface_with_its_normal(void **state)
+{
+    (void)state;
+    water_fixture_open(&f);
+    put_water();
+    water_fixture_step(&f);
+    double worst = 0, worst_normal = 1;
+    REQUIRE(f.stats.surfels > 1000 && !f.stats.surfels_dropped);
+    for (uint32_t i = 0; i < f.stats.surfels; i++) {
+        const virga_surfel_gpu *surfel = &f.surfels[i];
+        const double at[3] = {(double)surfel->position[0], (double)surfel->position[1], (double)surfel->position[2]};
+        double gradient[3], normal[3], length = 0, along = 0;
+        const double missing = water_reference(&f, at, gradient) - (double)f.settings.level;
+        water_unpack_normal(surfel->normal, normal);
+        for (int axis = 0; axis < 3; axis++) {
+            length += gradient[axis] * gradient[axis];
+            along -= normal[axis] * gradient[axis];
+        }
+        worst = fmax(worst, fabs(missing) / sqrt(length));
+        worst_normal = fmin(worst_normal, along / sqrt(length));
+        REQUIRE(fabs((double)surfel->velocity[0] - 1) < 1e-4 && fabs((double)surfel->velocity[2] - 3) < 1e-4);
+    }
+    printf("off the surface by up to %g m; cosine of normals from %g\n", worst, worst_normal);
+    REQUIRE(worst < 0.05 * 0.02);
+    REQUIRE(worst_normal > 0.9);
+    water_fixture_close(&f);
+}
+
+/* Number of edges of the whole grid, also far from the water, that the surface crosses. */
+static uint32_t count_crossings(void)
+{
+    const double step = 2 * 0.02 / VIRGA_WATER_SIDE;
+    enum { X = 120, Y = 110, Z = 110 };
+    const int low[3] = {-45, -25, 0};
+    static double field[Z][Y][X];
+    uint32_t crossings = 0;
+    for (int z = 0; z < Z; z++)
+        for (int y = 0; y < Y; y++)
+            for (int x = 0; x < X; x++) {
+                const double at[3] = {step * (low[0] + x), step * (low[1] + y), step * (low[2] + z)};
+                field[z][y][x] = water_reference(&f, at, NULL) - (double)f.settings.level;
+            }
+    for (int z = 0; z < Z - 1; z++)
+        for (int y = 0; y < Y - 1; y++)
+            for (int x = 0; x < X - 1; x++)
+                crossings += ((field[z][y][x] < 0) != (field[z][y][x + 1] < 0)) +
+                             ((field[z][y][x] < 0) != (field[z][y + 1][x] < 0)) +
+                             ((field[z][y][x] < 0) != (field[z + 1][y][x] < 0));
+    return crossings;
+}
+
+static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)
+{
+    (void)state;
+    water_fixture_open(&f);
+    put_water();
+    const float levels[3] = {0.5f, 0.2f, 0.8f};
+    for (int i = 0; i < 3; i++) {
+        f.settings.level = levels[i];
+        water_fixture_step(&f);
+        const uint32_t expected = count_crossings();
+        if (f.stats.surfels != expected)
+            fail_msg("level %g: %u surfels (%u, %u dropped), expected %u", (double)levels[i], f.stats.surfels,
+                     f.stats.surfels_dropped, f.stats.blocks_dropped, expected);
+    }
+    water_fixture_close(&f);
+}
+
+static void a_ball_has_the_volume_of_its_particles(void **state)
+{
+    (void)state;
+    const double center[3] = {0, 0, 0};
+    water_fixture_open(&f);
+    f.settings.spacing_m = 0.02f;
+    water_fixture_ball(&f, center, 0.2, 0.02);
+    water_fixture_step(&f);
+    /* The mean of the radius, cubed, is the volume but for the roughness of the surface. */
+    double sum = 0;
+    for (uint32_t i = 0; i < f.stats.surfels; i++) {
+        const float *at = f.surfels[i].position;
+        sum += sqrt((double)(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]));
+    }
+    const double radius = sum / f.stats.surfels, volume = 4 * M_PI / 3 * pow(radius, 3), water = f.count * pow(0.02, 3);
+    if (fabs(volume / water - 1) > 0.02)
+        fail_msg("%g m^3 of water in a surface around %g m^3", water, volume);
+    water_fixture_close(&f);
+}
+
+static void the_order_of_particles_changes_nothing_but_rounding(void **state)
+{
+    (void)state;
+    static float before[4096];
+    water_fixture_open(&f);
+    put_water();
+    water_fixture_step(&f);
+    const uint32_t surfels = f.stats.surfels;
+    memcpy(before, f.densities, f.count * sizeof before[0]);
+    for (uint32_t i = 0; i < f.count / 2; i++) {
+        const virga_particle_gpu swapped = f.particles[i];
+        f.particles[i] = f.particles[f.count - 1 - i];
+        f.particles[f.count - 1 - i] = swapped;
+    }
+    water_fixture_step(&f);
+    assert_int_equal(f.stats.surfels, surfels);
+    for (uint32_t i = 0; i < f.count; i++)
+        assert_float_equal(before[i], f.densities[f.count - 1 - i], 1e-5);
+    water_fixture_close(&f);
+}
+
+static void the_same_particles_give_the_same_bits(void **state)
+{
+    (void)state;
+    water_fixture_open(&f);
+    put_water();
+    water_fixture_step(&f);
+    const size_t size = f.stats.surfels * sizeof *f.surfels;
+    virga_surfel_gpu *before = malloc(size);
+    REQUIRE(before);
+    memcpy(before, f.surfels, size);
+    for (int i = 0; i < 4; i++) {
+        water_fixture_step(&f);
+        assert_memory_equal(before, f.surfels, size);
+    }
+    free(before);
+    water_fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(densities_are_those_of_double_precision),
+        cmocka_unit_test(surfels_lie_on_the_surface_with_its_normal),
+        cmocka_unit_test(every_edge_that_the_surface_crosses_has_a_surfel),
+        cmocka_unit_test(a_ball_has_the_volume_of_its_particles),
+        cmocka_unit_test(the_order_of_particles_changes_nothing_but_rounding),
+        cmocka_unit_test(the_same_particles_give_the_same_bits),
+    };
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
+}

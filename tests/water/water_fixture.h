@@ -1,0 +1,175 @@
+/* water_fixture.h - water on a device with validation, with particles that a test chooses. */
+#ifndef VIRGA_TESTS_WATER_FIXTURE_H
+#define VIRGA_TESTS_WATER_FIXTURE_H
+
+#include "../host/effect_fixture.h"
+
+#include "water/water_internal.h"
+
+#include <virga/shared/random.h>
+#include <virga/virga.h>
+
+#include <math.h>
+
+typedef struct water_fixture {
+    fixture gpu;
+    virga_context *context;
+    virga_water *water;
+    virga_water_settings settings;
+    host_buffer particle_buffer, download;
+    virga_particle_gpu *particles; /* of the next step */
+    uint32_t count;
+    double origin_m[3];
+    /* Read back. */
+    const float *densities;
+    const virga_surfel_gpu *surfels;
+    virga_water_stats stats;
+} water_fixture;
+
+static inline virga_water_def water_fixture_def(void)
+{
+    virga_water_def def = virga_default_water_def();
+    def.max_particles = 8192;
+    def.max_cells = 32768;
+    def.max_blocks = 4096;
+    def.max_surfels = 65536;
+    return def;
+}
+
+static inline void water_fixture_open_with(water_fixture *f, const virga_water_def *def, bool timings)
+{
+    memset(f, 0, sizeof *f);
+    f->context = effect_fixture_open(&f->gpu, timings, effect_fixture_log, NULL);
+    REQUIRE(virga_water_create(f->context, def, &f->water) == VIRGA_OK);
+    f->settings = virga_default_water_settings();
+    char *error = f->gpu.error;
+    const size_t size = sizeof f->gpu.error;
+    REQUIRE(host_buffer_create(&f->gpu.device, (VkDeviceSize)def->max_particles * sizeof(virga_particle_gpu),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "particles", &f->particle_buffer,
+                               error, size));
+    REQUIRE(host_buffer_create(&f->gpu.device, f->water->densities->size + f->water->surfels->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download,
+                               error, size));
+    f->particles = f->particle_buffer.mapped;
+}
+
+static inline void water_fixture_open(water_fixture *f)
+{
+    const virga_water_def def = water_fixture_def();
+    water_fixture_open_with(f, &def, false);
+}
+
+static inline virga_particle_gpu *water_fixture_add(water_fixture *f, double x, double y, double z)
+{
+    REQUIRE(f->count < f->water->def.max_particles);
+    virga_particle_gpu *particle = &f->particles[f->count];
+    *particle = (virga_particle_gpu){.position = {(float)x, (float)y, (float)z}, .share = 1, .id = f->count++};
+    return particle;
+}
+
+/* Records a step with the particles of the fixture and reads its results back. */
+static inline virga_result water_fixture_try(water_fixture *f)
+{
+    VkDeviceSize offset = 0;
+    const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
+    virga_water_step_info info = {.particles = f->particle_buffer.buffer, .count = f->count};
+    memcpy(info.origin_m, f->origin_m, sizeof info.origin_m);
+    const virga_result result = virga_water_step(f->water, cmd, &info);
+    effect_fixture_transfers(cmd);
+    f->densities =
+        effect_fixture_copy(cmd, f->water->densities->buffer, f->water->densities->size, &f->download, &offset);
+    f->surfels = effect_fixture_copy(cmd, f->water->surfels->buffer, f->water->surfels->size, &f->download, &offset);
+    effect_fixture_complete(&f->gpu, f->context);
+    host_buffer_invalidate(&f->gpu.device, &f->download);
+    virga_water_stats_get(f->water, &f->stats);
+    return result;
+}
+
+static inline void water_fixture_step(water_fixture *f)
+{
+    REQUIRE(virga_water_set(f->water, &f->settings) == VIRGA_OK);
+    REQUIRE(water_fixture_try(f) == VIRGA_OK);
+}
+
+static inline void water_fixture_close(water_fixture *f)
+{
+    virga_water_destroy(&f->water);
+    virga_context_destroy(&f->context);
+    host_buffer *const buffers[] = {&f->particle_buffer, &f->download};
+    assert_int_equal(effect_fixture_end(&f->gpu, buffers, 2), 0);
+}
+
+/* ---- shapes of water, with particles `d` apart */
+
+static inline double water_random(uint32_t *hash, double low, double high)
+{
+    *hash = virga_hash1(*hash);
+    return low + (high - low) * (double)virga_unit(*hash);
+}
+
+/* A box of particles, each moved by up to `jitter` d on each axis. */
+static inline void water_fixture_box(water_fixture *f, const double low[3], const uint32_t counts[3], double d,
+                                     double jitter)
+{
+    uint32_t hash = 7;
+    for (uint32_t z = 0; z < counts[2]; z++)
+        for (uint32_t y = 0; y < counts[1]; y++)
+            for (uint32_t x = 0; x < counts[0]; x++)
+                water_fixture_add(f, low[0] + d * (x + water_random(&hash, -jitter, jitter)),
+                                  low[1] + d * (y + water_random(&hash, -jitter, jitter)),
+                                  low[2] + d * (z + water_random(&hash, -jitter, jitter)));
+}
+
+/* A ball of particles on a lattice, around a center. */
+static inline void water_fixture_ball(water_fixture *f, const double center[3], double radius, double d)
+{
+    const int n = (int)(radius / d) + 1;
+    for (int z = -n; z <= n; z++)
+        for (int y = -n; y <= n; y++)
+            for (int x = -n; x <= n; x++)
+                if (d * d * (x * x + y * y + z * z) <= radius * radius)
+                    water_fixture_add(f, center[0] + d * x, center[1] + d * y, center[2] + d * z);
+}
+
+/* ---- reference in double precision */
+
+/* Density at a point (equation 1), and its gradient. */
+static inline double water_reference(const water_fixture *f, const double at[3], double gradient[3])
+{
+    const double d = (double)f->settings.spacing_m, h = (double)f->settings.kernel_spacings * d;
+    const double volume = f->settings.volume_m3 > 0 ? (double)f->settings.volume_m3 : d * d * d;
+    const double factor = 315 / (64 * M_PI * pow(h, 9)) * volume;
+    double sum = 0;
+    for (int axis = 0; gradient && axis < 3; axis++)
+        gradient[axis] = 0;
+    for (uint32_t i = 0; i < f->count; i++) {
+        double apart[3], r2 = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            apart[axis] = at[axis] - (double)f->particles[i].position[axis];
+            r2 += apart[axis] * apart[axis];
+        }
+        if (!(r2 < h * h))
+            continue;
+        sum += (double)f->particles[i].share * factor * pow(h * h - r2, 3);
+        for (int axis = 0; gradient && axis < 3; axis++)
+            gradient[axis] -= (double)f->particles[i].share * factor * 6 * pow(h * h - r2, 2) * apart[axis];
+    }
+    return sum;
+}
+
+static inline void water_unpack_normal(uint32_t packed, double n[3])
+{
+    const double x = (double)(int16_t)(packed & 0xffff) / 32767, y = (double)(int16_t)(packed >> 16) / 32767;
+    n[0] = x;
+    n[1] = y;
+    n[2] = 1 - fabs(x) - fabs(y);
+    if (n[2] < 0) {
+        n[0] = (1 - fabs(y)) * (x >= 0 ? 1 : -1);
+        n[1] = (1 - fabs(x)) * (y >= 0 ? 1 : -1);
+    }
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int axis = 0; axis < 3; axis++)
+        n[axis] /= length;
+}
+
+#endif
