@@ -4,19 +4,19 @@
 #include "core/settings.h"
 #include "gpu/errors.h"
 
-#include "shaders/water_grid_bounds_comp.spv.h"
-#include "shaders/water_grid_copy_comp.spv.h"
-#include "shaders/water_grid_count_comp.spv.h"
-#include "shaders/water_grid_fill_comp.spv.h"
-#include "shaders/water_grid_fit_comp.spv.h"
-#include "shaders/water_grid_median_comp.spv.h"
-#include "shaders/water_grid_offsets_comp.spv.h"
-#include "shaders/water_grid_order_comp.spv.h"
-#include "shaders/water_grid_scan_comp.spv.h"
-#include "shaders/water_grid_search_comp.spv.h"
-#include "shaders/water_grid_sums_comp.spv.h"
-#include "shaders/water_grid_thin_comp.spv.h"
-#include "shaders/water_grid_window_comp.spv.h"
+#include "shaders/particles_bounds_comp.spv.h"
+#include "shaders/particles_copy_comp.spv.h"
+#include "shaders/particles_count_comp.spv.h"
+#include "shaders/particles_fill_comp.spv.h"
+#include "shaders/particles_fit_comp.spv.h"
+#include "shaders/particles_median_comp.spv.h"
+#include "shaders/particles_offsets_comp.spv.h"
+#include "shaders/particles_order_comp.spv.h"
+#include "shaders/particles_scan_comp.spv.h"
+#include "shaders/particles_search_comp.spv.h"
+#include "shaders/particles_sums_comp.spv.h"
+#include "shaders/particles_thin_comp.spv.h"
+#include "shaders/particles_window_comp.spv.h"
 #include "shaders/water_surface_block_compact_comp.spv.h"
 #include "shaders/water_surface_block_mark_comp.spv.h"
 #include "shaders/water_surface_block_scan_comp.spv.h"
@@ -69,7 +69,7 @@ static virga_result check_def(const virga_log *log, void *given)
     if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
         return VIRGA_ERROR_INVALID;
     /* Whole workgroups of the passes over cells. */
-    def->max_cells = (def->max_cells + VIRGA_WATER_SCAN_CELLS - 1) / VIRGA_WATER_SCAN_CELLS * VIRGA_WATER_SCAN_CELLS;
+    def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
     return VIRGA_OK;
 }
 
@@ -112,7 +112,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     const virga_water_def *def = given;
     counts[COUNT_PARTICLES] = def->max_particles;
     counts[COUNT_CELLS] = def->max_cells;
-    counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_WATER_SCAN_CELLS;
+    counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_GRID_SCAN_CELLS;
     counts[COUNT_PICK_BYTES] = VIRGA_PICK_BYTES((VkDeviceSize)def->max_cells);
     counts[COUNT_BLOCKS] = def->max_blocks;
     counts[COUNT_POINTS] = (VkDeviceSize)def->max_blocks * VIRGA_WATER_POINTS;
@@ -123,7 +123,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 #define DEVICE     VIRGA_HEAP_DEVICE
 
 static const virga_effect_buffer buffers[] = {
-    WATER_GRID_BUFFERS(virga_water, "water", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
+    PARTICLE_GRID_BUFFERS(virga_water, "water", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
     {"water.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_water_state_gpu),
      .first = VIRGA_FIRST_FILL},
     {"water.cell_marks", AT(cell_marks), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_CELLS},
@@ -149,7 +149,7 @@ static const virga_effect_ring rings[] = {
 #define DYNAMIC VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
 
 static const virga_binding_kind grid_bindings[] = {
-    WATER_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
+    PARTICLE_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
 };
 
 static const virga_binding_kind bindings[] = {
@@ -175,7 +175,7 @@ static const virga_binding_kind bindings[] = {
 };
 
 static const virga_effect_layout layouts[] = {
-    [WATER_LAYOUT_GRID] = WATER_GRID_LAYOUT(virga_water, grid_bindings, 1),
+    [WATER_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_water, grid_bindings, 1),
     [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
 };
 
@@ -184,7 +184,7 @@ static const virga_effect_layout layouts[] = {
         "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), .layout = WATER_LAYOUT_SURFACE \
     }
 static const virga_effect_pass passes[] = {
-    WATER_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
+    PARTICLE_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
     PASS(density),
     PASS(block_mark),
     PASS(block_scan),
@@ -199,7 +199,7 @@ static const virga_effect_pass passes[] = {
 static const virga_effect_pool pools[] = {
     {"max_surfels", offsetof(virga_water_def, max_surfels), 256, 256},
     {"max_blocks", offsetof(virga_water_def, max_blocks), 64, 64},
-    {"max_cells", offsetof(virga_water_def, max_cells), 4096, VIRGA_WATER_SCAN_CELLS},
+    {"max_cells", offsetof(virga_water_def, max_cells), 4096, VIRGA_GRID_SCAN_CELLS},
     {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
 };
 

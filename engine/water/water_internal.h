@@ -1,7 +1,6 @@
 /* water/water_internal.h - defines the struct of virga_water and the functions its files share. Internal.
  *
  *   water.c          create, destroy, settings, queries
- *   water_grid.c     the neighbour grid
  *   water_surface.c  a step: particles become surfels
  */
 #ifndef VIRGA_WATER_WATER_INTERNAL_H
@@ -9,14 +8,14 @@
 
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "particles/particle_grid.h"
 #include "water/water.h"
-#include "water/water_grid.h"
 
 #include <virga/shared/water_gpu.h>
 
 /* The data that is read back for one frame. */
 typedef struct water_readback {
-    virga_water_grid_gpu grid;
+    virga_particle_grid_gpu grid;
     virga_water_state_gpu state;
 } water_readback;
 
@@ -31,7 +30,7 @@ struct virga_water {
     virga_water_settings settings;
     double origin_m[3];
 
-    water_grid grid;
+    particle_grid grid;
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
         *surfels;
     virga_ring step_ring;

@@ -99,15 +99,15 @@ static void over_cells(const virga_water *water, VkCommandBuffer cmd, const virg
 
 static void record_densities(virga_water *water, VkCommandBuffer cmd)
 {
-    over_cells(water, cmd, water->density, offsetof(virga_water_grid_gpu, sorted_groups));
+    over_cells(water, cmd, water->density, offsetof(virga_particle_grid_gpu, sorted_groups));
 }
 
 static void record_fields(virga_water *water, VkCommandBuffer cmd)
 {
     virga_context *context = water->base.context;
-    over_cells(water, cmd, water->block_mark, offsetof(virga_water_grid_gpu, cell_groups));
+    over_cells(water, cmd, water->block_mark, offsetof(virga_particle_grid_gpu, cell_groups));
     virga_dispatch_and_barrier(context, cmd, water->block_scan, 1);
-    over_cells(water, cmd, water->block_compact, offsetof(virga_water_grid_gpu, word_groups));
+    over_cells(water, cmd, water->block_compact, offsetof(virga_particle_grid_gpu, word_groups));
     over(water, cmd, water->field, offsetof(virga_water_state_gpu, block_groups));
 }
 
@@ -200,13 +200,13 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");
-    water_grid_record(context, cmd, &water->grid, grid_set, offset, particles);
+    particle_grid_record(context, cmd, &water->grid, grid_set, offset, particles);
     virga_pass_end(context, cmd, scope);
     run(water, cmd, "water.density", set, offset, record_densities);
     run(water, cmd, "water.field", set, offset, record_fields);
     run(water, cmd, "water.surfels", set, offset, record_surfels);
     virga_effect_copy_statistics(&water->base, cmd, 0, water->grid.state, 0, offsetof(water_readback, grid),
-                                 sizeof(virga_water_grid_gpu));
+                                 sizeof(virga_particle_grid_gpu));
     virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),
                                  sizeof(virga_water_state_gpu));
     const virga_result uploaded = virga_check_uploads(context);

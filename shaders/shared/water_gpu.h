@@ -2,7 +2,7 @@
 #ifndef VIRGA_SHARED_WATER_GPU_H
 #define VIRGA_SHARED_WATER_GPU_H
 
-#include "types.h"
+#include "particle_grid.h"
 
 #ifndef VIRGA_GLSL
 #define uint virga_uint
@@ -10,11 +10,11 @@ typedef struct virga_water_step_gpu virga_water_step_gpu;
 typedef struct virga_water_state_gpu virga_water_state_gpu;
 #endif
 
-#define VIRGA_WATER_BOUNDS_EACH 16 /* particles of an invocation of bounds.comp */
-#define VIRGA_WATER_SIDE        4  /* grid points of a block along each axis: its cell is four steps wide */
-#define VIRGA_WATER_POINTS      64 /* grid points of a block */
+#define VIRGA_WATER_LANES  VIRGA_GRID_LANES
+#define VIRGA_WATER_SIDE   4  /* grid points of a block along each axis: its cell is four steps wide */
+#define VIRGA_WATER_POINTS 64 /* grid points of a block */
 
-/* One step. Lengths in m. */
+/* One step. Lengths in m. The first members are those of virga_particle_step_gpu. */
 struct virga_water_step_gpu {
     float cell_m;     /* side of a cell: the kernel's radius h */
     float inv_cell_m; /* 1/m */
@@ -45,6 +45,7 @@ struct virga_water_state_gpu {
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_step_gpu, 56);
+VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_water_state_gpu, 52);
 #undef uint
 #endif

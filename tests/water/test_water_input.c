@@ -71,7 +71,7 @@ static void all_particles_at_one_position_are_thinned_out_alike_in_every_run(voi
         water_fixture_add(&f, 0.01, 0.01, 0.01);
     for (int i = 0; i < 3; i++) {
         water_fixture_step(&f);
-        assert_in_range(f.stats.in_grid, VIRGA_WATER_CELL_MAX - 100, VIRGA_WATER_CELL_MAX + 100);
+        assert_in_range(f.stats.in_grid, VIRGA_GRID_CELL_MAX - 100, VIRGA_GRID_CELL_MAX + 100);
         float max = 0;
         for (uint32_t k = 0; k < f.count; k++)
             max = fmaxf(max, f.densities[k]);

@@ -11,7 +11,7 @@ Box particle_box()
         low = ivec3(grid.low[0], grid.low[1], grid.low[2]);
         high = ivec3(grid.high[0], grid.high[1], grid.high[2]);
     }
-    return Box(low - VIRGA_WATER_GRID_MARGIN, uvec3(high - low + 1 + 2 * VIRGA_WATER_GRID_MARGIN));
+    return Box(low - VIRGA_GRID_MARGIN, uvec3(high - low + 1 + 2 * VIRGA_GRID_MARGIN));
 }
 
 bool is_too_large(uvec3 dims)

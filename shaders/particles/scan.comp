@@ -4,17 +4,17 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/group_starts.glsl"
+#include "particles/grid.glsl"
+#include "particles/group_starts.glsl"
 #define SCAN_LANES 256u
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {
     const uint groups = grid.scan_groups[0];
-    const uint each = (groups + VIRGA_WATER_LANES - 1u) / VIRGA_WATER_LANES;
+    const uint each = (groups + VIRGA_GRID_LANES - 1u) / VIRGA_GRID_LANES;
     const uint first = min(gl_LocalInvocationIndex * each, groups), end = min(first + each, groups);
     uint sum = 0u;
     for (uint i = first; i < end; i++)
@@ -29,6 +29,6 @@ void main()
     if (gl_LocalInvocationIndex != 0u)
         return;
     grid.sorted = all.x;
-    grid.sorted_groups = uint[3]((all.x + VIRGA_WATER_LANES - 1u) / VIRGA_WATER_LANES, 1u, 1u);
+    grid.sorted_groups = uint[3]((all.x + VIRGA_GRID_LANES - 1u) / VIRGA_GRID_LANES, 1u, 1u);
     cell_starts[grid.cells] = all.x;
 }

@@ -5,8 +5,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/histogram.glsl"
+#include "particles/grid.glsl"
+#include "particles/histogram.glsl"
 
 layout(local_size_x = 3) in;
 
@@ -15,16 +15,16 @@ void main()
     const uint axis = gl_LocalInvocationIndex;
     if (grid.search_groups[0] == 0u)
         return;
-    uint below = grid.below[axis], bin = 0u, found = VIRGA_WATER_BINS;
-    for (; bin < VIRGA_WATER_BINS; bin++) {
-        const uint here = histogram[axis * VIRGA_WATER_BINS + bin];
-        histogram[axis * VIRGA_WATER_BINS + bin] = 0u;
-        if (found == VIRGA_WATER_BINS && below + here > grid.valid / 2u)
+    uint below = grid.below[axis], bin = 0u, found = VIRGA_GRID_BINS;
+    for (; bin < VIRGA_GRID_BINS; bin++) {
+        const uint here = histogram[axis * VIRGA_GRID_BINS + bin];
+        histogram[axis * VIRGA_GRID_BINS + bin] = 0u;
+        if (found == VIRGA_GRID_BINS && below + here > grid.valid / 2u)
             found = bin;
-        if (found == VIRGA_WATER_BINS)
+        if (found == VIRGA_GRID_BINS)
             below += here;
     }
     grid.below[axis] = below;
     grid.from[axis] += int(found * grid.width[axis]);
-    grid.width[axis] = (grid.width[axis] + VIRGA_WATER_BINS - 1u) / VIRGA_WATER_BINS;
+    grid.width[axis] = (grid.width[axis] + VIRGA_GRID_BINS - 1u) / VIRGA_GRID_BINS;
 }

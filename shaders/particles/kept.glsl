@@ -4,4 +4,4 @@
 #endif
 layout(std430, set = 0, binding = 8) KEPT_ACCESS buffer Kept { uint kept[]; };
 
-uint staying(uint cell, uint count) { return count > VIRGA_WATER_CELL_MAX ? kept[cell] : count; }
+uint staying(uint cell, uint count) { return count > VIRGA_GRID_CELL_MAX ? kept[cell] : count; }

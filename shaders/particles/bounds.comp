@@ -4,9 +4,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
+#include "particles/grid.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 shared int group_low[3], group_high[3];
 shared uint group_valid;
@@ -15,17 +15,17 @@ void main()
 {
     const uint lane = gl_LocalInvocationIndex;
     if (lane < 3u) {
-        group_low[lane] = VIRGA_WATER_COORDINATE;
-        group_high[lane] = -VIRGA_WATER_COORDINATE;
+        group_low[lane] = VIRGA_GRID_COORDINATE;
+        group_high[lane] = -VIRGA_GRID_COORDINATE;
     }
     if (lane == 3u)
         group_valid = 0u;
     barrier();
-    ivec3 low = ivec3(VIRGA_WATER_COORDINATE), high = ivec3(-VIRGA_WATER_COORDINATE);
+    ivec3 low = ivec3(VIRGA_GRID_COORDINATE), high = ivec3(-VIRGA_GRID_COORDINATE);
     uint valid = 0u;
-    for (uint i = 0u; i < VIRGA_WATER_BOUNDS_EACH; i++) {
+    for (uint i = 0u; i < VIRGA_GRID_BOUNDS_EACH; i++) {
         const uint particle =
-            (gl_WorkGroupID.x * VIRGA_WATER_BOUNDS_EACH + i) * VIRGA_WATER_LANES + lane;
+            (gl_WorkGroupID.x * VIRGA_GRID_BOUNDS_EACH + i) * VIRGA_GRID_LANES + lane;
         if (particle >= frame.particles)
             break;
         const vec3 p = to_vec(particles[particle].position);

@@ -6,14 +6,14 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/tickets.glsl"
+#include "particles/grid.glsl"
+#include "particles/tickets.glsl"
 #define KEPT_ACCESS readonly
-#include "water/kept.glsl"
+#include "particles/kept.glsl"
 
 layout(std430, set = 0, binding = 10) writeonly buffer SortedVelocities { vec4 sorted_velocities[]; };
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {

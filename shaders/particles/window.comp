@@ -6,8 +6,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/box.glsl"
+#include "particles/grid.glsl"
+#include "particles/box.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -26,7 +26,7 @@ void main()
     grid.first = int[3](first.x, first.y, first.z);
     grid.dims = uint[3](dims.x, dims.y, dims.z);
     grid.cells = dims.x * dims.y * dims.z;
-    grid.scan_groups = groups(grid.cells, VIRGA_WATER_SCAN_CELLS);
-    grid.cell_groups = groups(grid.cells, VIRGA_WATER_LANES);
-    grid.word_groups = groups(grid.cells, 32u * VIRGA_WATER_LANES);
+    grid.scan_groups = groups(grid.cells, VIRGA_GRID_SCAN_CELLS);
+    grid.cell_groups = groups(grid.cells, VIRGA_GRID_LANES);
+    grid.word_groups = groups(grid.cells, 32u * VIRGA_GRID_LANES);
 }

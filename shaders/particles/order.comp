@@ -5,16 +5,16 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
+#include "particles/grid.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {
     const uint cell = gl_GlobalInvocationID.x;
     if (cell >= grid.cells)
         return;
-    // Insertion: a cell has about ten particles, and never many more than VIRGA_WATER_CELL_MAX.
+    // Insertion: a cell has about ten particles, and never many more than VIRGA_GRID_CELL_MAX.
     const uint first = cell_starts[cell], end = cell_starts[cell + 1u];
     for (uint i = first + 1u; i < end; i++) {
         const uint own = sorted_indices[i];

@@ -5,13 +5,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/kept.glsl"
-#include "water/group_starts.glsl"
+#include "particles/grid.glsl"
+#include "particles/kept.glsl"
+#include "particles/group_starts.glsl"
 #define SCAN_LANES 256u
 #include "gpu/group_scan.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {

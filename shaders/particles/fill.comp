@@ -4,10 +4,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #define GRID_ACCESS
-#include "water/grid.glsl"
-#include "water/tickets.glsl"
+#include "particles/grid.glsl"
+#include "particles/tickets.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 void main()
 {
@@ -15,6 +15,6 @@ void main()
     if (particle >= frame.particles)
         return;
     const uvec2 ticket = tickets[particle];
-    if (ticket.x != VIRGA_WATER_NO_CELL)
+    if (ticket.x != VIRGA_GRID_NO_CELL)
         sorted_indices[cell_starts[ticket.x] + ticket.y] = particle;
 }

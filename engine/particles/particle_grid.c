@@ -1,16 +1,14 @@
-/* water/water_grid.c - records the passes that sort particles into the neighbour grid. */
-#include "water/water_grid.h"
+/* particles/particle_grid.c - records the passes that sort particles into the neighbour grid. */
+#include "particles/particle_grid.h"
 
 #include "gpu/context.h"
 #include "gpu/record.h"
 
-#include <virga/shared/water_gpu.h>
-
 /* Clears the counts, and sets the bounds to those of no particles. */
-static void reset(virga_context *context, VkCommandBuffer cmd, const water_grid *grid)
+static void reset(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
 {
-    virga_water_grid_gpu empty = {.low = {VIRGA_WATER_COORDINATE, VIRGA_WATER_COORDINATE, VIRGA_WATER_COORDINATE},
-                                  .high = {-VIRGA_WATER_COORDINATE, -VIRGA_WATER_COORDINATE, -VIRGA_WATER_COORDINATE}};
+    virga_particle_grid_gpu empty = {.low = {VIRGA_GRID_COORDINATE, VIRGA_GRID_COORDINATE, VIRGA_GRID_COORDINATE},
+                                     .high = {-VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE, -VIRGA_GRID_COORDINATE}};
     context->vk.CmdUpdateBuffer(cmd, grid->state->buffer, 0, sizeof empty, &empty);
     context->vk.CmdFillBuffer(cmd, grid->cell_starts->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, grid->kept->buffer, 0, VK_WHOLE_SIZE, 0);
@@ -23,29 +21,32 @@ static uint32_t groups_of(uint32_t items, uint32_t each)
     return (items + each - 1) / each;
 }
 
-void water_grid_record(virga_context *context, VkCommandBuffer cmd, const water_grid *grid, VkDescriptorSet set,
-                       uint32_t offset, uint32_t particles)
+void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkDescriptorSet set,
+                          uint32_t offset, uint32_t particles)
 {
-    const uint32_t groups = groups_of(particles, VIRGA_WATER_LANES);
+    const uint32_t groups = groups_of(particles, VIRGA_GRID_LANES);
     const VkBuffer state = grid->state->buffer;
     reset(context, cmd, grid);
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, grid->bindings->layout, 0, 1, &set, 1,
                                       &offset);
-    virga_dispatch_and_barrier(context, cmd, grid->bounds, groups_of(groups, VIRGA_WATER_BOUNDS_EACH));
+    virga_dispatch_and_barrier(context, cmd, grid->bounds, groups_of(groups, VIRGA_GRID_BOUNDS_EACH));
     virga_dispatch_and_barrier(context, cmd, grid->fit, 1);
     for (int round = 0; round < 2; round++) {
         virga_dispatch_indirect_and_barrier(context, cmd, grid->search, state,
-                                            offsetof(virga_water_grid_gpu, search_groups));
+                                            offsetof(virga_particle_grid_gpu, search_groups));
         virga_dispatch_and_barrier(context, cmd, grid->median, 1);
     }
     virga_dispatch_and_barrier(context, cmd, grid->window, 1);
     virga_dispatch_and_barrier(context, cmd, grid->count, groups);
     virga_dispatch_and_barrier(context, cmd, grid->thin, groups);
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->sums, state, offsetof(virga_water_grid_gpu, scan_groups));
+    virga_dispatch_indirect_and_barrier(context, cmd, grid->sums, state,
+                                        offsetof(virga_particle_grid_gpu, scan_groups));
     virga_dispatch_and_barrier(context, cmd, grid->scan, 1);
     virga_dispatch_indirect_and_barrier(context, cmd, grid->offsets, state,
-                                        offsetof(virga_water_grid_gpu, scan_groups));
+                                        offsetof(virga_particle_grid_gpu, scan_groups));
     virga_dispatch_and_barrier(context, cmd, grid->fill, groups);
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->order, state, offsetof(virga_water_grid_gpu, cell_groups));
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->copy, state, offsetof(virga_water_grid_gpu, sorted_groups));
+    virga_dispatch_indirect_and_barrier(context, cmd, grid->order, state,
+                                        offsetof(virga_particle_grid_gpu, cell_groups));
+    virga_dispatch_indirect_and_barrier(context, cmd, grid->copy, state,
+                                        offsetof(virga_particle_grid_gpu, sorted_groups));
 }

@@ -3,12 +3,12 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "water/grid.glsl"
+#include "particles/grid.glsl"
 #define KEPT_ACCESS readonly
-#include "water/kept.glsl"
-#include "water/group_starts.glsl"
+#include "particles/kept.glsl"
+#include "particles/group_starts.glsl"
 
-layout(local_size_x = VIRGA_WATER_LANES) in;
+layout(local_size_x = VIRGA_GRID_LANES) in;
 
 shared uint group_sum;
 
