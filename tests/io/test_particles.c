@@ -1,0 +1,266 @@
+/* test_particles.c - frames of particles: every format gives the same numbers, and what is wrong is one line. */
+#include "check_io.h"
+#include "particle_files.h"
+#include "particles.h"
+
+#include <math.h>
+
+static void assert_particles(const particles *read, uint32_t count)
+{
+    assert_int_equal(read->count, count);
+    assert_non_null(read->position);
+    assert_non_null(read->velocity);
+    assert_non_null(read->id);
+    assert_non_null(read->density);
+    for (uint32_t i = 0; i < count; i++) {
+        const float position[3] = {(float)i, 0.5f * (float)i, -1.25f}, velocity[3] = {0.25f * (float)i, -2, 3};
+        assert_memory_equal(read->position[i], position, sizeof position);
+        assert_memory_equal(read->velocity[i], velocity, sizeof velocity);
+        assert_int_equal(read->id[i], 1000 - i);
+        assert_true(read->density[i] == 990.0f + (float)i);
+    }
+}
+
+static void must_read(const char *path, particles *read)
+{
+    if (!particles_read(path, read, error, sizeof error))
+        fail_msg("%s", error);
+}
+
+static void each_format_gives_the_same_particles(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < FILE_KINDS; kind++)
+        for (uint32_t count = 0; count <= 900; count += 300) {
+            particle_file file = make_particle_file((particle_file_kind)kind, count);
+            particle_file packed = gzip_particle_file(&file);
+            particles read;
+            put_file(in_folder("plain"), file.data, file.size);
+            put_file(in_folder("packed"), packed.data, packed.size);
+            must_read(in_folder("plain"), &read);
+            assert_particles(&read, count);
+            particles_free(&read);
+            must_read(in_folder("packed"), &read);
+            assert_particles(&read, count);
+            particles_free(&read);
+            free(file.data);
+            free(packed.data);
+        }
+}
+
+static void formats_are_known_by_their_first_bytes(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"PLY", "PLY", "PLY", "VTK", "VTK", "VTK", "VTK", "VTK", "bgeo"};
+    for (int kind = 0; kind < FILE_KINDS; kind++) {
+        particle_file file = make_particle_file((particle_file_kind)kind, 3);
+        put_file(in_folder("named.yaml"), file.data, file.size);
+        assert_string_equal(particles_format(in_folder("named.yaml")), names[kind]);
+        free(file.data);
+    }
+    put_file(in_folder("named.ply"), "virga: 1\n", 9);
+    assert_null(particles_format(in_folder("named.ply")));
+    assert_null(particles_format(in_folder("none.ply")));
+}
+
+static void read_text(const char *text, particles *read)
+{
+    put_file(in_folder("text"), text, strlen(text));
+    must_read(in_folder("text"), read);
+}
+
+static void attributes_may_be_missing(void **state)
+{
+    (void)state;
+    particles read;
+    read_text("ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty float x\r\nproperty float y\r\n"
+              "property float z\r\nproperty float vx\r\nproperty float vy\r\nend_header\r\n1 2 3 4 5\r\n",
+              &read);
+    assert_true(read.position[0][2] == 3);
+    assert_null(read.velocity); /* without vz */
+    assert_null(read.id);
+    assert_null(read.density);
+    particles_free(&read);
+}
+
+static void names_of_attributes_vary(void **state)
+{
+    (void)state;
+    static const char *const names[][5] = {
+        {"vx", "vy", "vz", "id", "density"},
+        {"velocity_x", "velocity_y", "velocity_z", "particle_id", "rho"},
+        {"VEL0", "VEL1", "VEL2", "ID", "Density"},
+        {"velocity[0]", "velocity[1]", "velocity[2]", "ids", "dens"},
+    };
+    for (size_t i = 0; i < COUNT(names); i++) {
+        char text[512];
+        particles read;
+        snprintf(text, sizeof text,
+                 "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property float %s\nproperty float %s\nproperty float %s\nproperty float %s\nproperty float %s\n"
+                 "end_header\n1 2 3 4 5 6 7 8\n",
+                 names[i][0], names[i][1], names[i][2], names[i][3], names[i][4]);
+        read_text(text, &read);
+        assert_non_null(read.velocity);
+        assert_true(read.velocity[0][0] == 4 && read.velocity[0][2] == 6);
+        assert_non_null(read.id);
+        assert_int_equal(read.id[0], 7);
+        assert_non_null(read.density);
+        assert_true(read.density[0] == 8);
+        particles_free(&read);
+    }
+}
+
+static void positions_that_are_no_numbers_are_kept(void **state)
+{
+    (void)state;
+    particles read;
+    read_text("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+              "end_header\nnan -nan(ind) 1\ninf 1e300 0\n",
+              &read);
+    assert_int_equal(read.count, 2);
+    assert_true(isnan(read.position[0][0]) && isnan(read.position[0][1]));
+    assert_true(isinf(read.position[1][0]) && isinf(read.position[1][1]));
+    particles_free(&read);
+}
+
+#define PLY   "ply\nformat ascii 1.0\n"
+#define XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define VTK   "# vtk DataFile Version 3.0\ntitle\n"
+#define DATA  VTK "ASCII\nDATASET POLYDATA\n"
+#define GEO_5 "BgeoV\0\0\0\5"
+#define ZERO  "\0\0\0\0"
+
+static void wrong_files_are_one_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t size;
+        const char *place, *reason;
+    } files[] = {
+#define TEXT(text) text, sizeof text - 1
+        {TEXT(""), "byte 0:", "expected PLY, legacy VTK or bgeo"},
+        {TEXT("hello"), "byte 0:", "expected PLY"},
+        {TEXT("\177NSJb"), "byte 0:", "classic format, version 5"},
+        {TEXT("scf1"), "byte 0:", "blosc"},
+        {TEXT("ply\nformat ascii 2.0\n"), "line 2:", "'format ascii 2.0', expected 'format ascii 1.0'"},
+        {TEXT(PLY "element vertex -1\n"), "line 3:", "expected 'element NAME COUNT'"},
+        {TEXT(PLY "element vertex 1\n" XYZ), "line 7:", "the file ends here"},
+        {TEXT(PLY "element vertex 1\nproperty quad x\n"), "line 4:", "expected a type"},
+        {TEXT(PLY "element vertex 1\nproperty float x\nend_header\n1\n"), "line 5:", "properties x, y and z"},
+        {TEXT(PLY "element face 1\n" XYZ "end_header\n1 2 3\n"), "line 7:", "an element vertex"},
+        {TEXT(PLY "element vertex 2\n" XYZ "end_header\n1 2 3\n4 5\n"), "line 10:", "the file ends here"},
+        {TEXT(PLY "element vertex 2\n" XYZ "end_header\n1 2 3\n4 5,5 6\n"), "line 9:", "'5,5', expected a number"},
+        {TEXT(PLY "element vertex 1\n" XYZ "property int id\nend_header\n1 2 3 1.5\n"), "line 9:", "id 1.5"},
+        {TEXT(PLY "element vertex 99999999999999999999\n" XYZ "end_header\n1 2 3\n"), "line 7:", "at most 33554432"},
+        {TEXT("ply\nformat binary_little_endian 1.0\nelement vertex 3\n" XYZ "end_header\n0123456789"), "byte",
+         "the file ends at byte"},
+        {TEXT(VTK "ASCII\nDATASET STRUCTURED_POINTS\n"), "line 4:", "expected DATASET POLYDATA or UNSTRUCTURED_GRID"},
+        {TEXT(VTK "BINARIES\n"), "line 3:", "expected ASCII or BINARY"},
+        {TEXT(DATA "POINTS many float\n"), "line 5:", "expected a count"},
+        {TEXT(DATA "POINTS 1 quad\n"), "line 5:", "expected a type"},
+        {TEXT(DATA "POINTS 1 float\n1 2 3\nPOINT_DATA 2\n"), "line 7:", "as many rows as points"},
+        {TEXT(DATA "POINTS 1 float\n1 2 3\nCOLOURS 2\n"), "line 7:", "'COLOURS 2', expected a section"},
+        {TEXT(DATA "POINTS 1 float\n1 2 3\nPOINT_DATA 1\nFIELD f 1\nid 1 3 int\n1 2 3\n"),
+         "line 9:", "'id' has 3 rows, expected 1"},
+        {TEXT(DATA "VERTICES 0 0\n"), "line", "expected POINTS"},
+        {TEXT(GEO_5 ZERO), "byte 13:", "the file ends at byte 13"},
+        {TEXT("BgeoV\0\0\0\6" ZERO ZERO ZERO ZERO ZERO ZERO ZERO ZERO), "byte 37:", "version 6, expected 5"},
+        {TEXT(GEO_5 "\377\0\0\0" ZERO ZERO ZERO ZERO ZERO ZERO ZERO), "byte 37:", "4278190080 particles"},
+        {TEXT(GEO_5 ZERO ZERO ZERO ZERO "\0\0\0\1" ZERO ZERO ZERO "\0\1P\0\1\0\0\0\3"), "byte 46:", "'P' of type 3"},
+        {TEXT("\x1f\x8b\x08\0\0\0\0\0\0\3abcdefgh"), "byte", "gzip"},
+    };
+    for (size_t i = 0; i < COUNT(files); i++) {
+        particles read;
+        put_file(in_folder("bad.particles"), files[i].text, files[i].size);
+        assert_false(particles_read(in_folder("bad.particles"), &read, error, sizeof error));
+        assert_error(files[i].place, files[i].reason);
+        assert_error("cannot read ", "bad.particles: ");
+        assert_null(read.position);
+        assert_int_equal(read.count, 0);
+    }
+}
+
+static void what_has_no_end_is_refused(void **state)
+{
+    (void)state;
+    particles read;
+    assert_false(particles_read("/dev/zero", &read, error, sizeof error));
+    assert_error("/dev/zero", "expected a regular file");
+    assert_false(particles_read(folder, &read, error, sizeof error));
+    assert_error(folder, "expected a regular file");
+    assert_false(particles_read(in_folder("none"), &read, error, sizeof error));
+    assert_error("none", "No such file or directory");
+}
+
+/* A header promises 32 million particles; with 256 MB more address space the reader may not take them. */
+static void memory_is_taken_as_rows_come(void **state)
+{
+    (void)state;
+    static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 33554432\n" XYZ "end_header\n";
+    char file[sizeof head - 1 + 12000] = {0};
+    struct rlimit limit, less;
+    particles read;
+    long pages = 0;
+    FILE *own = fopen("/proc/self/statm", "r");
+    assert_non_null(own);
+    assert_int_equal(fscanf(own, "%ld", &pages), 1);
+    fclose(own);
+    memcpy(file, head, sizeof head - 1);
+    put_file(in_folder("short.ply"), file, sizeof file);
+    getrlimit(RLIMIT_AS, &limit);
+    less = limit;
+    less.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)256 << 20);
+    setrlimit(RLIMIT_AS, &less);
+    const bool ok = particles_read(in_folder("short.ply"), &read, error, sizeof error);
+    setrlimit(RLIMIT_AS, &limit);
+    assert_false(ok);
+    assert_error("short.ply", "the file ends at byte");
+}
+
+/* Files of another program; they are not part of the project. */
+static void files_of_splishsplash_are_read(void **state)
+{
+    (void)state;
+    particles ply, vtk, geo;
+    char path[256];
+    const char *shared = getenv("VIRGA_TEST_PARTICLES");
+    snprintf(path, sizeof path, "%s/dam_break_0060.ply", shared ? shared : "/work/shared/particles/dam_break");
+    if (access(path, R_OK) != 0) {
+        print_message("no %s; VIRGA_TEST_PARTICLES names the folder\n", path);
+        skip();
+    }
+    must_read(path, &ply);
+    memcpy(strrchr(path, '.'), ".vtk", 5);
+    must_read(path, &vtk);
+    snprintf(strrchr(path, '.'), 6, ".bgeo");
+    must_read(path, &geo);
+    assert_int_equal(ply.count, 7290);
+    assert_int_equal(vtk.count, 7290);
+    assert_int_equal(geo.count, 7290);
+    assert_memory_equal(vtk.position, geo.position, 7290 * sizeof *geo.position);
+    assert_memory_equal(vtk.velocity, geo.velocity, 7290 * sizeof *geo.velocity);
+    assert_memory_equal(vtk.density, geo.density, 7290 * sizeof *geo.density);
+    for (uint32_t i = 0; i < geo.count; i++)
+        assert_memory_equal(geo.position[i], ply.position[geo.id[i]], sizeof *geo.position);
+    particles_free(&ply);
+    particles_free(&vtk);
+    particles_free(&geo);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST_IN_FOLDER(each_format_gives_the_same_particles),
+        TEST_IN_FOLDER(formats_are_known_by_their_first_bytes),
+        TEST_IN_FOLDER(attributes_may_be_missing),
+        TEST_IN_FOLDER(names_of_attributes_vary),
+        TEST_IN_FOLDER(positions_that_are_no_numbers_are_kept),
+        TEST_IN_FOLDER(wrong_files_are_one_line),
+        TEST_IN_FOLDER(what_has_no_end_is_refused),
+        TEST_IN_FOLDER(memory_is_taken_as_rows_come),
+        TEST_IN_FOLDER(files_of_splishsplash_are_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
