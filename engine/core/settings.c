@@ -136,7 +136,28 @@ void virga_clamp_vector(const virga_log *log, const char *name, float v[3], floa
     *changed = true;
 }
 
-/* ---- tables of numbers */
+/* ---- tables of settings */
+
+void virga_settings_fill(const virga_setting_row *rows, size_t count, void *settings)
+{
+    for (size_t i = 0; i < count; i++) {
+        void *value = (char *)settings + rows[i].member;
+        switch (rows[i].number) {
+        case VIRGA_NUMBER_FLOAT: *(float *)value = (float)rows[i].value; break;
+        case VIRGA_NUMBER_DOUBLE: *(double *)value = rows[i].value; break;
+        default: *(uint32_t *)value = (uint32_t)rows[i].value; break;
+        }
+    }
+}
+
+static virga_result check_enum(const virga_log *log, const virga_setting_row *row, uint32_t value)
+{
+    if (value >= row->min && value <= row->max)
+        return VIRGA_OK;
+    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_ARGUMENT, "%s: expected %g to %g, got %" PRId32, row->name,
+                    row->min, row->max, (int32_t)value);
+    return VIRGA_ERROR_INVALID;
+}
 
 static virga_result check_row(const virga_log *log, const virga_setting_row *row, const char *settings)
 {
@@ -144,29 +165,31 @@ static virga_result check_row(const virga_log *log, const virga_setting_row *row
     switch (row->number) {
     case VIRGA_NUMBER_FLOAT: return virga_settings_check_finite(log, row->name, value, 1);
     case VIRGA_NUMBER_DOUBLE: return virga_settings_check_finite_double(log, row->name, value, 1);
+    case VIRGA_NUMBER_ENUM: return check_enum(log, row, *(const uint32_t *)value);
     default: return VIRGA_OK;
     }
 }
 
-/* The maximum is rounded to float. Otherwise a value at the maximum could be out of range by rounding. */
-static float max_of(const virga_setting_row *row, const char *settings)
+/* An earlier row's number, or `bound` if there is none. The bound is rounded to float: otherwise a value at it could be
+ * out of range by rounding. */
+static float bound_of(const char *settings, size_t member, double bound)
 {
-    const float max = (float)row->max;
-    const float bound = row->max_member ? *(const float *)(const void *)(settings + row->max_member) : max;
-    return bound < max ? bound : max;
+    return member ? *(const float *)(const void *)(settings + member) : (float)bound;
 }
 
 static void clamp_row(const virga_log *log, const virga_setting_row *row, char *settings, bool *changed)
 {
     void *value = settings + row->member;
-    if (row->number == VIRGA_NUMBER_U32)
+    if (row->number == VIRGA_NUMBER_FLOAT) {
+        const float min = fmaxf((float)row->min, bound_of(settings, row->min_member, row->min));
+        const float max = fminf((float)row->max, bound_of(settings, row->max_member, row->max));
+        *(float *)value = virga_clamp_setting_float(log, row->name, *(float *)value, min, max, changed);
+    } else if (row->number == VIRGA_NUMBER_DOUBLE) {
+        *(double *)value = virga_clamp_setting(log, row->name, *(double *)value, row->min, row->max, changed);
+    } else if (row->number == VIRGA_NUMBER_U32) {
         *(uint32_t *)value = virga_clamp_setting_u32(log, row->name, *(uint32_t *)value, (uint32_t)row->min,
                                                      (uint32_t)row->max, changed);
-    else if (row->number == VIRGA_NUMBER_DOUBLE)
-        *(double *)value = virga_clamp_setting(log, row->name, *(double *)value, row->min, row->max, changed);
-    else
-        *(float *)value =
-            virga_clamp_setting_float(log, row->name, *(float *)value, (float)row->min, max_of(row, settings), changed);
+    }
 }
 
 virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting_row *rows, size_t count,

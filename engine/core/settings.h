@@ -54,18 +54,36 @@ virga_result virga_settings_check_finite_double(const virga_log *log, const char
 virga_result virga_settings_check_positions(const virga_log *log, const char *name, const double *values,
                                             uint32_t count);
 
-/* A number of a settings struct, and the range that it is clamped to. */
-typedef enum virga_number { VIRGA_NUMBER_FLOAT, VIRGA_NUMBER_DOUBLE, VIRGA_NUMBER_U32 } virga_number;
+/* The type of a setting. An enum outside its range is an error; the other types are clamped. */
+typedef enum virga_number {
+    VIRGA_NUMBER_FLOAT,
+    VIRGA_NUMBER_DOUBLE,
+    VIRGA_NUMBER_U32,
+    VIRGA_NUMBER_ENUM,
+} virga_number;
 
+/* A setting: its type, range and default. */
 typedef struct virga_setting_row {
     const char *name; /* the host's name of the setting */
     virga_number number;
     size_t member; /* offset in the struct */
-    double min, max;
-    size_t max_member; /* (floats) offset of an earlier row's number, which is also a maximum of this one; 0: none */
+    double min, max, value;
+    /* (floats) Offsets of earlier rows' numbers, which bound this one too; 0: none. */
+    size_t max_member, min_member;
 } virga_setting_row;
 
-/* VIRGA_ERROR_INVALID if a number is not finite. Otherwise all numbers are clamped, see virga_clamp_setting. */
+/* The row of a member of `type`, named "prefix.member". The arguments after `member`: minimum, maximum, default (0 if
+ * left out), and the other members of the row. */
+/* clang-format off */
+#define VIRGA_SETTING_ROW(prefix, type, kind, member, ...) \
+    {#prefix "." #member, VIRGA_NUMBER_##kind, offsetof(type, member), __VA_ARGS__}
+/* clang-format on */
+
+/* Sets all rows to their defaults. */
+void virga_settings_fill(const virga_setting_row *rows, size_t count, void *settings);
+
+/* VIRGA_ERROR_INVALID if a number is not finite or an enum not in its range. Otherwise all numbers are clamped, see
+ * virga_clamp_setting. */
 virga_result virga_settings_apply_rows(const virga_log *log, const virga_setting_row *rows, size_t count,
                                        void *settings, bool *changed);
 

@@ -53,77 +53,86 @@
 
 /* ---- defaults */
 
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(glass_def, virga_glass_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(glass_settings, virga_glass_settings, kind, member, __VA_ARGS__)
+
+/* clang-format off */
+static const virga_setting_row def_rows[] = {
+    DEF(U32, seed, 0, UINT32_MAX, 1),
+    DEF(FLOAT, width_m, 0.01, 10, 1.4),
+    DEF(FLOAT, height_m, 0.01, 10, 0.75),
+    DEF(FLOAT, affinity_size_m, 0.0005, 0.1, 0.006),
+    DEF(U32, max_drops, 256, 262144, 32768),
+    DEF(U32, max_texels, 64, 4096, 1024),
+    DEF(U32, max_ticks_per_step, 1, 64, 16),
+    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+};
+/* clang-format on */
+
+/* Those without a default here have that of VIRGA_GLASS_KIND_PAPER. */
+static const virga_setting_row setting_rows[] = {
+    SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO),
+    SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM),
+    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_PHYSICAL, VIRGA_GLASS_STYLE_PHYSICAL),
+    SETTING(FLOAT, advancing_deg, 5, 175),
+    SETTING(FLOAT, receding_deg, 1, 175, .max_member = offsetof(virga_glass_settings, advancing_deg)),
+    SETTING(FLOAT, drag, 0.01, 100, 1),
+    SETTING(FLOAT, kinetic_hold, 0, 1),
+    SETTING(FLOAT, affinity, 0, 2),
+    SETTING(FLOAT, meander, 0, 1, 0.1),
+    SETTING(FLOAT, path_ease, 0, 1, 0.6),
+    SETTING(FLOAT, path_dry_s, 0.1, 600, 8),
+    SETTING(FLOAT, merge_distance, 0, 2, 1.2),
+    SETTING(FLOAT, tail_spacing_m, 0.001, 1, 0.012),
+    SETTING(FLOAT, tail_max_radius_mm, 0, 2),
+    SETTING(FLOAT, tail_lifetime_s, 0.1, 3600, 12),
+    SETTING(FLOAT, film_um, 0, 100),
+    SETTING(FLOAT, film_break_s, 0, 60, 0.8),
+    SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.5),
+    SETTING(FLOAT, mist_max_mm, 0, 1, 0.6),
+    SETTING(FLOAT, air_share, 0, 2, 0.4),
+    SETTING(FLOAT, particle_radius_mm, 0.2, 5, 1.5),
+    SETTING(FLOAT, penalty, 0, 1, 0.1),
+    SETTING(FLOAT, particle_band, 1, 16, 4),
+    SETTING(FLOAT, hold_back_mm, 0, 20, 2.2),
+    SETTING(FLOAT, compress_from, 0, 2, 0.5),
+    SETTING(FLOAT, compress_step, 0, 1, 0.1),
+    SETTING(FLOAT, compress_k, 0, 1, 0.3),
+    SETTING(FLOAT, threshold, 0.05, 0.95, 0.5),
+    SETTING(FLOAT, impact_s, 0, 2, 0.25),
+    SETTING(FLOAT, paper_shift, 0, 4, 0.35),
+    SETTING(FLOAT, thickness_mm, 0, 50, 5),
+    SETTING(FLOAT, tint[0], 0, 1, 1),
+    SETTING(FLOAT, tint[1], 0, 1, 1),
+    SETTING(FLOAT, tint[2], 0, 1, 1),
+    SETTING(FLOAT, gain, 0, 100, 1),
+    SETTING(U32, hold_back_cells, 0, 8, 3),
+    SETTING(U32, compress_steps, 0, 16, 5),
+    SETTING(U32, wiper_count, 0, VIRGA_GLASS_MAX_WIPERS),
+};
+
 virga_glass_def virga_default_glass_def(void)
 {
-    return (virga_glass_def){.size = sizeof(virga_glass_def),
-                             .cookie = DEF_COOKIE,
-                             .seed = 1,
-                             .width_m = 1.4f,
-                             .height_m = 0.75f,
-                             .cell_m = 0.002f,
-                             .max_drops = 32768,
-                             .affinity_size_m = 0.006f,
-                             .max_texels = 1024,
-                             .max_ticks_per_step = 16,
-                             .tick_s = 1.0 / 60};
+    virga_glass_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .cell_m = 0.002f};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
 }
 
 virga_glass_settings virga_default_glass_settings(void)
 {
-    virga_glass_settings settings = {.size = sizeof settings,
-                                     .cookie = SETTINGS_COOKIE,
-                                     .drag = 1,
-                                     .meander = 0.1f,
-                                     .path_ease = 0.6f,
-                                     .path_dry_s = 8,
-                                     .merge_distance = 1.2f,
-                                     .tail_spacing_m = 0.012f,
-                                     .tail_lifetime_s = 12,
-                                     .film_break_s = 0.8f,
-                                     .evaporation_mm_h = 0.5f,
-                                     .mist_max_mm = 0.6f,
-                                     .air_share = 0.4f,
-                                     .particle_radius_mm = 1.5f,
-                                     .penalty = 0.1f,
-                                     .particle_band = 4,
-                                     .hold_back_mm = 2.2f,
-                                     .hold_back_cells = 3,
-                                     .density = VIRGA_GLASS_DENSITY_GOTO,
-                                     .blend = VIRGA_GLASS_BLEND_SUM,
-                                     .compress = true,
-                                     .compress_from = 0.5f,
-                                     .compress_step = 0.1f,
-                                     .compress_k = 0.3f,
-                                     .compress_steps = 5,
-                                     .threshold = 0.5f,
-                                     .impact_s = 0.25f,
-                                     .style = VIRGA_GLASS_STYLE_PHYSICAL,
-                                     .paper_shift = 0.35f,
-                                     .thickness_mm = 5,
-                                     .tint = {1, 1, 1},
-                                     .gain = 1,
-                                     .lighting = virga_default_lighting()};
+    virga_glass_settings settings = {
+        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .compress = true, .lighting = virga_default_lighting()};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
     virga_glass_apply_kind(VIRGA_GLASS_KIND_PAPER, &settings);
     for (uint32_t i = 0; i < VIRGA_GLASS_MAX_WIPERS; i++)
         settings.wipers[i] = virga_default_glass_wiper();
     return settings;
 }
 
-static const virga_setting_row def_rows[] = {
-    {"glass_def.width_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, width_m), 0.01, 10},
-    {"glass_def.height_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, height_m), 0.01, 10},
-    {"glass_def.affinity_size_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_def, affinity_size_m), 0.0005, 0.1},
-    {"glass_def.max_drops", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_drops), 256, 262144},
-    {"glass_def.max_texels", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_texels), 64, 4096},
-    {"glass_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_glass_def, max_ticks_per_step), 1, 64},
-    {"glass_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_glass_def, tick_s), 1e-3, 0.05},
-};
-
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_glass_def *def = given;
-    if (virga_settings_check_finite(log, "glass_def.cell_m", &def->cell_m, 1) ||
-        virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
+    if (virga_settings_check_finite(log, "glass_def.cell_m", &def->cell_m, 1))
         return VIRGA_ERROR_INVALID;
     const float min_m = (float)sqrt((double)def->width_m * (double)def->height_m / MAX_CELLS) * 1.01f;
     def->cell_m =
@@ -385,7 +394,6 @@ static virga_result init(void *object)
     virga_glass *glass = object;
     glass->columns = glass_cells_along(glass->def.width_m, glass->def.cell_m);
     glass->rows = glass_cells_along(glass->def.height_m, glass->def.cell_m);
-    glass->settings = virga_default_glass_settings();
     return VIRGA_OK;
 }
 
@@ -410,19 +418,38 @@ static void describe(const void *object, char *line, size_t size)
     snprintf(line, size, "glass: %u x %u cells, up to %u drops", glass->columns, glass->rows, glass->def.max_drops);
 }
 
-_Static_assert(sizeof(virga_glass_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
+static virga_result check_settings(const void *object, void *given, bool *changed)
+{
+    const virga_glass *glass = object;
+    virga_glass_settings *settings = given;
+    for (uint32_t i = 0; i < settings->wiper_count; i++)
+        if (glass_check_wiper(&glass->base.context->log, &settings->wipers[i], changed))
+            return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+static virga_result apply_settings(void *object, void *settings)
+{
+    return glass_picture_need(object, settings);
+}
 
 VIRGA_EFFECT_FUNCTIONS(glass)
 VIRGA_EFFECT_DRAW_FUNCTIONS(glass)
+VIRGA_EFFECT_STATISTICS_FUNCTION(glass)
 
 const virga_effect_type glass_type = {
-    VIRGA_EFFECT_TYPE(glass, "a pane"),
+    VIRGA_EFFECT_TYPE(glass, "a pane", "glass_settings"),
+    VIRGA_TABLE(image),
     .lighting = offsetof(virga_glass_settings, lighting),
     .draws = glass_draws,
     .draw_count = GLASS_DRAW_ROWS,
     .draw_layout = LAYOUT_PICTURE,
     .extra_bytes = extra_bytes,
+    .init = init,
+    .create = create,
     .destroy = destroy,
+    .check_settings = check_settings,
+    .apply_settings = apply_settings,
     .draw_constant = glass_draw_constant,
     .draw = glass_type_draw,
 };
@@ -445,123 +472,6 @@ virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass)
                                   .height_m = glass->def.height_m,
                                   .max_drops = glass->def.max_drops,
                                   .seed = glass->def.seed};
-}
-
-/* ---- settings */
-
-#define WIPER(member, min, max)                                                                   \
-    {                                                                                             \
-        "glass_wiper." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_glass_wiper, member), min, max \
-    }
-
-static const virga_setting_row wiper_rows[] = {
-    WIPER(pivot_m[0], -20, 20),
-    WIPER(pivot_m[1], -20, 20),
-    WIPER(reach_m, 0.01, 10),
-    {"glass_wiper.blade_m", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_wiper, blade_m), 0.01, 10,
-     offsetof(virga_glass_wiper, reach_m)},
-    WIPER(width_m, 0.001, 0.1),
-    WIPER(low_deg, -720, 720),
-    WIPER(high_deg, -720, 720),
-    WIPER(blade_deg, -180, 180),
-    WIPER(blade_hold_direction, 0, 1),
-    WIPER(sweep_s, 0.1, 60),
-    WIPER(pause_s, 0, 3600),
-    WIPER(phase_s, 0, 3600),
-    WIPER(host_deg, -7200, 7200),
-    WIPER(film_mm, 0, 0.5),
-    WIPER(wear, 0, 1),
-};
-
-static virga_result check_wiper(const virga_log *log, virga_glass_wiper *w, bool *changed)
-{
-    if ((uint32_t)w->drive > VIRGA_GLASS_HOST)
-        return virga_wrong_argument(log, "glass_wiper.drive: there is no drive %d", (int)w->drive);
-    if (virga_settings_apply_rows(log, wiper_rows, VIRGA_ROWS(wiper_rows), w, changed))
-        return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
-}
-
-#define NUMBER(member, min, max)                                                                        \
-    {                                                                                                   \
-        "glass_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_glass_settings, member), min, max \
-    }
-#define COUNT(member, min, max)                                                                       \
-    {                                                                                                 \
-        "glass_settings." #member, VIRGA_NUMBER_U32, offsetof(virga_glass_settings, member), min, max \
-    }
-
-static const virga_setting_row settings_rows[] = {
-    NUMBER(advancing_deg, 5, 175),
-    {"glass_settings.receding_deg", VIRGA_NUMBER_FLOAT, offsetof(virga_glass_settings, receding_deg), 1, 175,
-     offsetof(virga_glass_settings, advancing_deg)},
-    NUMBER(drag, 0.01, 100),
-    NUMBER(kinetic_hold, 0, 1),
-    NUMBER(affinity, 0, 2),
-    NUMBER(meander, 0, 1),
-    NUMBER(path_ease, 0, 1),
-    NUMBER(path_dry_s, 0.1, 600),
-    NUMBER(merge_distance, 0, 2),
-    NUMBER(tail_spacing_m, 0.001, 1),
-    NUMBER(tail_max_radius_mm, 0, 2),
-    NUMBER(tail_lifetime_s, 0.1, 3600),
-    NUMBER(film_um, 0, 100),
-    NUMBER(film_break_s, 0, 60),
-    NUMBER(evaporation_mm_h, 0, 100),
-    NUMBER(mist_max_mm, 0, 1),
-    NUMBER(air_share, 0, 2),
-    NUMBER(particle_radius_mm, 0.2, 5),
-    NUMBER(penalty, 0, 1),
-    NUMBER(particle_band, 1, 16),
-    NUMBER(hold_back_mm, 0, 20),
-    NUMBER(compress_from, 0, 2),
-    NUMBER(compress_step, 0, 1),
-    NUMBER(compress_k, 0, 1),
-    NUMBER(threshold, 0.05, 0.95),
-    NUMBER(impact_s, 0, 2),
-    NUMBER(paper_shift, 0, 4),
-    NUMBER(thickness_mm, 0, 50),
-    NUMBER(tint[0], 0, 1),
-    NUMBER(tint[1], 0, 1),
-    NUMBER(tint[2], 0, 1),
-    NUMBER(gain, 0, 100),
-    COUNT(hold_back_cells, 0, 8),
-    COUNT(compress_steps, 0, 16),
-    COUNT(wiper_count, 0, VIRGA_GLASS_MAX_WIPERS),
-};
-
-static virga_result check_numbers(const virga_log *log, virga_glass_settings *s, bool *changed)
-{
-    if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), s, changed))
-        return VIRGA_ERROR_INVALID;
-    for (uint32_t i = 0; i < s->wiper_count; i++)
-        if (check_wiper(log, &s->wipers[i], changed))
-            return VIRGA_ERROR_INVALID;
-    return VIRGA_OK;
-}
-
-virga_result virga_glass_set(virga_glass *glass, const virga_glass_settings *settings)
-{
-    if (!glass)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &glass->base.context->log;
-    const virga_result result = virga_effect_check_set(&glass->base, "virga_glass_set", settings);
-    if (result)
-        return result;
-    virga_glass_settings next = *settings;
-    bool changed = false;
-    if ((uint32_t)next.density > VIRGA_GLASS_DENSITY_NISHIMURA || (uint32_t)next.blend > VIRGA_GLASS_BLEND_WEIGHTED ||
-        (uint32_t)next.style > VIRGA_GLASS_STYLE_PHYSICAL)
-        return virga_wrong_argument(log, "glass_settings: there is no density %d, blend %d or style %d",
-                                    (int)next.density, (int)next.blend, (int)next.style);
-    if (check_numbers(log, &next, &changed) ||
-        virga_lighting_check(log, "glass_settings", &next.lighting, &changed) < 0)
-        return VIRGA_ERROR_INVALID;
-    const virga_result needed = glass_picture_need(glass, &next);
-    if (needed)
-        return needed;
-    glass->settings = next;
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 /* ---- queries */
@@ -588,15 +498,4 @@ void virga_glass_surface(const virga_glass *glass, virga_glass_buffer *surface, 
         *columns = glass ? glass->columns : 0;
     if (rows)
         *rows = glass ? glass->rows : 0;
-}
-
-void virga_glass_stats_get(virga_glass *glass, virga_glass_stats *stats)
-{
-    if (!stats)
-        return;
-    memset(stats, 0, sizeof *stats);
-    if (!glass)
-        return;
-    virga_effect_read_statistics(&glass->base);
-    *stats = glass->stats;
 }

@@ -88,6 +88,7 @@ double glass_drag(const virga_glass_settings *settings);
 virga_result glass_shape_init(virga_glass *glass);
 
 /* ---- glass_wipers.c */
+virga_result glass_check_wiper(const virga_log *log, virga_glass_wiper *wiper, bool *changed);
 void glass_fill_blades(virga_glass *glass, double from_s, double to_s, double share_from, double share_to,
                        virga_glass_tick_gpu *tick);
 

@@ -7,19 +7,37 @@
 
 #define RADIANS (3.14159265358979323846 / 180)
 
+#define WIPER(kind, member, ...) VIRGA_SETTING_ROW(glass_wiper, virga_glass_wiper, kind, member, __VA_ARGS__)
+
+static const virga_setting_row rows[] = {
+    WIPER(ENUM, drive, 0, VIRGA_GLASS_HOST, VIRGA_GLASS_CONTINUOUS),
+    WIPER(FLOAT, pivot_m[0], -20, 20),
+    WIPER(FLOAT, pivot_m[1], -20, 20),
+    WIPER(FLOAT, reach_m, 0.01, 10, 0.6),
+    WIPER(FLOAT, blade_m, 0.01, 10, 0.5, offsetof(virga_glass_wiper, reach_m)),
+    WIPER(FLOAT, width_m, 0.001, 0.1, 0.008),
+    WIPER(FLOAT, low_deg, -720, 720, 5),
+    WIPER(FLOAT, high_deg, -720, 720, 95),
+    WIPER(FLOAT, blade_deg, -180, 180),
+    WIPER(FLOAT, blade_hold_direction, 0, 1),
+    WIPER(FLOAT, sweep_s, 0.1, 60, 0.6),
+    WIPER(FLOAT, pause_s, 0, 3600, 3),
+    WIPER(FLOAT, phase_s, 0, 3600),
+    WIPER(FLOAT, host_deg, -7200, 7200),
+    WIPER(FLOAT, film_mm, 0, 0.5, 0.004),
+    WIPER(FLOAT, wear, 0, 1, 0.3),
+};
+
 virga_glass_wiper virga_default_glass_wiper(void)
 {
-    return (virga_glass_wiper){.pivot_m = {0, 0},
-                               .reach_m = 0.6f,
-                               .blade_m = 0.5f,
-                               .width_m = 0.008f,
-                               .low_deg = 5,
-                               .high_deg = 95,
-                               .drive = VIRGA_GLASS_CONTINUOUS,
-                               .sweep_s = 0.6f,
-                               .pause_s = 3,
-                               .film_mm = 0.004f,
-                               .wear = 0.3f};
+    virga_glass_wiper wiper = {0};
+    virga_settings_fill(rows, VIRGA_ROWS(rows), &wiper);
+    return wiper;
+}
+
+virga_result glass_check_wiper(const virga_log *log, virga_glass_wiper *wiper, bool *changed)
+{
+    return virga_settings_apply_rows(log, rows, VIRGA_ROWS(rows), wiper, changed);
 }
 
 /* A crank converts the motor's constant rotation into a swing. The angle follows half a cosine from end to end, so the

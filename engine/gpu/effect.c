@@ -1,8 +1,8 @@
 /* gpu/effect.c - the lifetime of an effect: estimates, creates within the memory budget, initialises, destroys. */
 #include "gpu/effect.h"
 
+#include "core/light.h"
 #include "core/memory.h"
-#include "core/settings.h"
 #include "gpu/budget.h"
 #include "gpu/builds.h"
 #include "gpu/context.h"
@@ -54,16 +54,22 @@ static VkDeviceSize image_bytes(const virga_effect_image *row, const effect_coun
     return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * texel_bytes(row->format);
 }
 
-/* Copies a definition and checks the copy. */
-static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *checked)
+/* Copies a struct whose size and cookie are right, and applies its rows to the copy. */
+static virga_result copy_checked(const virga_log *log, const virga_struct_id *id, const virga_setting_row *rows,
+                                 uint32_t row_count, const void *given, void *copy, bool *changed)
 {
     const uint32_t *head = given; /* size, cookie */
-    const virga_result result =
-        virga_settings_check(log, type->def.name, head[0], type->def.size, head[1], type->def.cookie);
+    const virga_result result = virga_settings_check(log, id->name, head[0], id->size, head[1], id->cookie);
     if (result)
         return result;
-    memcpy(checked, given, type->def.size);
-    return type->check_def ? type->check_def(log, checked) : VIRGA_OK;
+    memcpy(copy, given, id->size);
+    return virga_settings_apply_rows(log, rows, row_count, copy, changed);
+}
+
+static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *def)
+{
+    const virga_result result = copy_checked(log, &type->def, type->def_rows, type->def_count, given, def, NULL);
+    return !result && type->check_def ? type->check_def(log, def) : result;
 }
 
 VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *given)
@@ -199,6 +205,7 @@ virga_result virga_effect_make(virga_context *context, const virga_effect_type *
     effect->type = type;
     effect->context = context;
     memcpy(virga_effect_member(effect, type->def.member), def, type->def.size);
+    type->default_settings(virga_effect_member(effect, type->settings.member));
     context->effects++;
     const virga_result result = init(effect);
     if (result < 0) {
@@ -296,16 +303,28 @@ virga_result virga_effect_ready(const virga_effect *effect)
 
 /* ---- settings */
 
-virga_result virga_effect_check_set(const virga_effect *effect, const char *call, const void *settings)
+virga_result virga_effect_set(virga_effect *effect, const char *call, const void *given)
 {
+    const virga_effect_type *type = effect->type;
     const virga_log *log = &effect->context->log;
-    const virga_struct_id *id = &effect->type->settings;
-    const uint32_t *head = settings; /* size, cookie */
-    if (!settings)
+    _Alignas(16) char settings[VIRGA_EFFECT_MAX_SETTINGS];
+    bool changed = false;
+    virga_result result = VIRGA_OK;
+    if (!given)
         return virga_wrong_argument(log, "%s: NULL argument", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    return virga_settings_check(log, id->name, head[0], id->size, head[1], id->cookie);
+    TRY(copy_checked(log, &type->settings, type->setting_rows, type->setting_count, given, settings, &changed));
+    if (type->lighting)
+        TRY(virga_lighting_check(log, type->log_name, (virga_lighting *)(void *)(settings + type->lighting), &changed));
+    if (type->check_settings)
+        TRY(type->check_settings(effect, settings, &changed));
+    if (type->apply_settings)
+        TRY(type->apply_settings(effect, settings));
+    memcpy(virga_effect_member(effect, type->settings.member), settings, type->settings.size);
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+error:
+    return result;
 }
 
 virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting)
@@ -316,5 +335,5 @@ virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lightin
     _Alignas(16) char settings[VIRGA_EFFECT_MAX_SETTINGS];
     memcpy(settings, virga_effect_member(effect, type->settings.member), type->settings.size);
     memcpy(settings + type->lighting, lighting, sizeof *lighting);
-    return type->set(effect, settings);
+    return virga_effect_set(effect, "virga_scene_lighting_set", settings);
 }

@@ -8,7 +8,7 @@
 #ifndef VIRGA_GPU_EFFECT_H
 #define VIRGA_GPU_EFFECT_H
 
-#include "core/log.h"
+#include "core/settings.h"
 #include "gpu/bindings.h"
 #include "gpu/device_check.h"
 #include "gpu/pipelines.h"
@@ -18,7 +18,7 @@
 
 #define VIRGA_EFFECT_MAX_COUNTS   24
 #define VIRGA_EFFECT_MAX_DEF      512   /* bytes */
-#define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes, of an effect with a lighting */
+#define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes */
 #define VIRGA_EFFECT_MAX_TARGETS  8
 #define VIRGA_EFFECT_MAX_DRAWS    32 /* pipelines of a target */
 #define VIRGA_EFFECT_PARTS        2  /* parts of a frame's statistics: its step and its prepare */
@@ -149,11 +149,14 @@ typedef struct virga_effect_step {
 } virga_effect_step;
 
 typedef struct virga_effect_type {
-    const char *name; /* in log lines: "the ground", "a pane" */
-    size_t size;      /* of the object */
+    const char *name;     /* in log lines: "the ground", "a pane" */
+    const char *log_name; /* of its settings in log lines */
+    size_t size;          /* of the object */
     virga_struct_id def, settings;
     size_t lighting; /* offset of the virga_lighting in the settings; 0: none */
 
+    const virga_setting_row *def_rows, *setting_rows;
+    uint32_t def_count, setting_count;
     const virga_effect_buffer *buffers;
     uint32_t buffer_count;
     const virga_effect_ring *rings;
@@ -172,7 +175,7 @@ typedef struct virga_effect_type {
     const char *readback_name; /* name of the buffer for statistics readback */
     uint32_t readback_bytes;   /* per frame; 0: no statistics */
 
-    /* Checks a definition and clamps it to its ranges. The size and the cookie are already checked. */
+    /* (optional) Checks what the rows of a definition do not, after them. */
     virga_result (*check_def)(const virga_log *log, void *def);
     /* (optional) Makes a definition fit the device: VIRGA_DEGRADED if it had to be reduced. */
     virga_result (*fit_device)(const virga_context *context, void *def);
@@ -180,7 +183,8 @@ typedef struct virga_effect_type {
     void (*count)(const void *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS]);
     /* (optional) Bytes of device memory that `create` allocates besides the rows. */
     VkDeviceSize (*extra_bytes)(const void *def);
-    /* Initialises the object, whose definition is set, before anything is created. */
+    /* (optional) Initialises the object, before anything is created. Its definition and its default settings are set.
+     */
     virga_result (*init)(void *object);
     /* (optional) Creates what rows can not describe. Buffers, images and layouts exist already, passes do not. */
     virga_result (*create)(void *object);
@@ -194,34 +198,47 @@ typedef struct virga_effect_type {
     /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
-    /* The public functions of the effect, as a scene calls them. All except `set` are optional. */
+    void (*default_settings)(void *settings);
+    /* (optional) Checks what the rows of settings do not, after them. Sets *changed if it clamped something. */
+    virga_result (*check_settings)(const void *object, void *settings, bool *changed);
+    /* (optional) Applies new settings, while the object still has the old ones. An error leaves those in force. */
+    virga_result (*apply_settings)(void *object, void *settings);
+
+    /* (optional) The public functions of the effect, as a scene calls them. */
     void (*default_def)(void *def);
-    virga_result (*set)(void *object, const void *settings);
     virga_result (*step)(void *object, VkCommandBuffer cmd, const virga_effect_step *step);
     virga_result (*prepare)(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s);
     virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
 } virga_effect_type;
 
-/* The fields that are the same for all types, for an effect that names its parts like the others: virga_<name>, its
- * _def and _settings, <name>_readback; tables buffers, rings, images, layouts, passes and pools; callbacks check_def,
- * count, init, create, describe and <name>_read_statistics. */
-#define VIRGA_EFFECT_TYPE(effect, title)                                                                               \
-    .name = title, .size = sizeof(virga_##effect),                                                                     \
-    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},                  \
-    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                              \
-                 offsetof(virga_##effect, settings)},                                                                  \
-    .buffers = buffers, .buffer_count = VIRGA_ROWS(buffers), .rings = rings, .ring_count = VIRGA_ROWS(rings),          \
-    .images = images, .image_count = VIRGA_ROWS(images), .layouts = layouts, .layout_count = VIRGA_ROWS(layouts),      \
-    .passes = passes, .pass_count = VIRGA_ROWS(passes), .pools = pools, .pool_count = VIRGA_ROWS(pools),               \
-    .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback), .check_def = check_def,         \
-    .count = count, .init = init, .create = create, .describe = describe, .read_statistics = effect##_read_statistics, \
-    .set = effect##_type_set
+/* The fields .<row>s and .<row>_count for a table of that name, e.g. VIRGA_TABLE(image) for the table `images`. */
+#define VIRGA_TABLE(row) .row##s = row##s, .row##_count = VIRGA_ROWS(row##s)
 
-/* The public functions that are the same for all effects. They use <name>_type, and `set` of the type. */
+/* The fields that are the same for all types, for an effect that names its parts like the others: virga_<name>, its
+ * _def and _settings, <name>_readback; tables def_rows, setting_rows, buffers, rings, layouts, passes and pools;
+ * callbacks check_def, count, describe and <name>_read_statistics. */
+#define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                                                      \
+    .name = title, .log_name = settings_log_name, .size = sizeof(virga_##effect),                                \
+    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},            \
+    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                        \
+                 offsetof(virga_##effect, settings)},                                                            \
+    .def_rows = def_rows, .def_count = VIRGA_ROWS(def_rows), .setting_rows = setting_rows,                       \
+    .setting_count = VIRGA_ROWS(setting_rows), VIRGA_TABLE(buffer), VIRGA_TABLE(ring), VIRGA_TABLE(layout),      \
+    .passes = passes, .pass_count = VIRGA_ROWS(passes), VIRGA_TABLE(pool), .readback_name = #effect ".readback", \
+    .readback_bytes = sizeof(effect##_readback), .check_def = check_def, .count = count, .describe = describe,   \
+    .read_statistics = effect##_read_statistics, .default_settings = effect##_default_settings
+
+/* The public functions that are the same for all effects, and the callback for default settings. They use
+ * <name>_type. */
 #define VIRGA_EFFECT_FUNCTIONS(name)                                                                               \
-    static virga_result name##_type_set(void *object, const void *settings)                                        \
+    _Static_assert(sizeof(virga_##name##_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room for a copy of them");       \
+    static void name##_default_settings(void *settings)                                                            \
     {                                                                                                              \
-        return virga_##name##_set(object, settings);                                                               \
+        *(virga_##name##_settings *)settings = virga_default_##name##_settings();                                  \
+    }                                                                                                              \
+    virga_result virga_##name##_set(virga_##name *object, const virga_##name##_settings *settings)                 \
+    {                                                                                                              \
+        return object ? virga_effect_set(&object->base, "virga_" #name "_set", settings) : VIRGA_ERROR_INVALID;    \
     }                                                                                                              \
     VkDeviceSize virga_##name##_estimate(const virga_##name##_def *def)                                            \
     {                                                                                                              \
@@ -251,6 +268,16 @@ typedef struct virga_effect_type {
     virga_result virga_##name##_ready(const virga_##name *object)                                                  \
     {                                                                                                              \
         return object ? virga_effect_ready(&object->base) : VIRGA_ERROR_INVALID;                                   \
+    }
+
+/* The public reader of statistics, for effects that keep them in `stats` as the host gets them. */
+#define VIRGA_EFFECT_STATISTICS_FUNCTION(name)                                       \
+    void virga_##name##_stats_get(virga_##name *object, virga_##name##_stats *stats) \
+    {                                                                                \
+        if (object)                                                                  \
+            virga_effect_read_statistics(&object->base);                             \
+        if (stats)                                                                   \
+            *stats = object ? object->stats : (virga_##name##_stats){0};             \
     }
 
 /* The same for effects that draw. They use `draw` of the type. */
@@ -329,8 +356,9 @@ VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *de
 /* VIRGA_OK if the pipelines of all passes are built. */
 virga_result virga_effect_ready(const virga_effect *effect);
 
-/* The common checks of functions that set settings. */
-virga_result virga_effect_check_set(const virga_effect *effect, const char *call, const void *settings);
+/* Checks settings, clamps them and applies them. `call` is the name of the public function for log lines.
+ * VIRGA_DEGRADED: some are clamped. An error changes nothing. */
+virga_result virga_effect_set(virga_effect *effect, const char *call, const void *settings);
 
 /* Replaces the lighting in the current settings. */
 virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting);

@@ -30,30 +30,42 @@
 
 /* ---- defaults */
 
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(ground_def, virga_ground_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(ground_settings, virga_ground_settings, kind, member, __VA_ARGS__)
+
+static const virga_setting_row def_rows[] = {
+    DEF(U32, seed, 0, UINT32_MAX, 1),
+    DEF(U32, cells, 128, 4096, 1024),
+    DEF(FLOAT, cell_m, 0.01, 0.1, 0.05),
+    DEF(U32, cached_tiles, 0, 60000, 1024),
+    DEF(U32, far_cells, 0, 2048, 512),
+    DEF(U32, ripple_texels, 64, 4096, 1024),
+    DEF(FLOAT, ripple_texel_m, 0.002, 0.05, 0.005),
+    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    DEF(U32, flow_ticks, 1, 60, 4),
+    DEF(U32, max_impacts, 256, 4194240, 65536),
+    DEF(U32, max_spawns, 0, 1048576, 65536),
+    DEF(U32, max_returned_droplets, 0, 4194240, 131072),
+    DEF(U32, max_ticks_per_step, 1, 64, 16),
+};
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.2),
+    SETTING(FLOAT, start_wetness, 0, 1),
+    SETTING(FLOAT, start_water_mm, 0, 50),
+};
+
 virga_ground_def virga_default_ground_def(void)
 {
-    return (virga_ground_def){.size = sizeof(virga_ground_def),
-                              .cookie = DEF_COOKIE,
-                              .seed = 1,
-                              .cells = 1024,
-                              .cell_m = 0.05f,
-                              .cached_tiles = 1024,
-                              .far_cells = 512,
-                              .tick_s = 1.0 / 60,
-                              .flow_ticks = 4,
-                              .ripple_texels = 1024,
-                              .ripple_texel_m = 0.005f,
-                              .max_impacts = 65536,
-                              .max_spawns = 65536,
-                              .max_returned_droplets = 131072,
-                              .max_ticks_per_step = 16,
-                              .occluder_strides = {12, 32}};
+    virga_ground_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .occluder_strides = {12, 32}};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
 }
 
 virga_ground_settings virga_default_ground_settings(void)
 {
-    virga_ground_settings settings = {
-        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .evaporation_mm_h = 0.2f, .measure = true};
+    virga_ground_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE, .measure = true};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
     ground_default_materials(settings.materials);
     return settings;
 }
@@ -70,27 +82,9 @@ static void fit_to_cells(virga_ground_def *def)
         def->far_cells = def->far_cells < min_far ? min_far : def->far_cells / VIRGA_GROUND_TILE * VIRGA_GROUND_TILE;
 }
 
-static const virga_setting_row def_rows[] = {
-    {"ground_def.cells", VIRGA_NUMBER_U32, offsetof(virga_ground_def, cells), 128, 4096},
-    {"ground_def.cell_m", VIRGA_NUMBER_FLOAT, offsetof(virga_ground_def, cell_m), 0.01, 0.1},
-    {"ground_def.cached_tiles", VIRGA_NUMBER_U32, offsetof(virga_ground_def, cached_tiles), 0, 60000},
-    {"ground_def.far_cells", VIRGA_NUMBER_U32, offsetof(virga_ground_def, far_cells), 0, 2048},
-    {"ground_def.ripple_texels", VIRGA_NUMBER_U32, offsetof(virga_ground_def, ripple_texels), 64, 4096},
-    {"ground_def.ripple_texel_m", VIRGA_NUMBER_FLOAT, offsetof(virga_ground_def, ripple_texel_m), 0.002, 0.05},
-    {"ground_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_ground_def, tick_s), 1e-3, 0.05},
-    {"ground_def.flow_ticks", VIRGA_NUMBER_U32, offsetof(virga_ground_def, flow_ticks), 1, 60},
-    {"ground_def.max_impacts", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_impacts), 256, 4194240},
-    {"ground_def.max_spawns", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_spawns), 0, 1048576},
-    {"ground_def.max_returned_droplets", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_returned_droplets), 0,
-     4194240},
-    {"ground_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_ground_def, max_ticks_per_step), 1, 64},
-};
-
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_ground_def *def = given;
-    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
-        return VIRGA_ERROR_INVALID;
     if (def->cells & (def->cells - 1))
         return virga_wrong_argument(log, "ground_def.cells: expected a power of two, got %u", def->cells);
     fit_to_cells(def);
@@ -276,7 +270,6 @@ static VkDeviceSize extra_bytes(const void *given)
 static virga_result init(void *object)
 {
     virga_ground *ground = object;
-    ground->settings = virga_default_ground_settings(); /* zeroed memory means dry ground */
     ground->window.tiles = ground->def.cells / VIRGA_GROUND_TILE;
     ground->window.cache_capacity = ground->def.cached_tiles;
     ground->window.cache =
@@ -318,13 +311,37 @@ static void describe(const void *object, char *line, size_t size)
              def->cached_tiles);
 }
 
+static virga_result check_settings(const void *object, void *settings, bool *changed)
+{
+    const virga_ground *ground = object;
+    return ground_check_materials(&ground->base.context->log, ((virga_ground_settings *)settings)->materials, changed);
+}
+
+static virga_result apply_settings(void *object, void *given)
+{
+    virga_ground *ground = object;
+    const virga_ground_settings *next = given, *old = &ground->settings;
+    virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
+    const bool same_start = next->start_wetness == old->start_wetness && next->start_water_mm == old->start_water_mm;
+    if (same_start && ground->base.has_contents)
+        return VIRGA_OK;
+    ground_fill_soils(next, (double)ground->def.cell_m, soils);
+    ground_standing_start(ground->standing, next, soils);
+    return VIRGA_OK;
+}
+
 VIRGA_EFFECT_FUNCTIONS(ground)
 
 const virga_effect_type ground_type = {
-    VIRGA_EFFECT_TYPE(ground, "the ground"),
+    VIRGA_EFFECT_TYPE(ground, "the ground", "ground_settings"),
+    VIRGA_TABLE(image),
     .fit_device = fit_device,
     .extra_bytes = extra_bytes,
+    .init = init,
+    .create = create,
     .destroy = destroy,
+    .check_settings = check_settings,
+    .apply_settings = apply_settings,
 };
 
 /* ---- descriptors */
@@ -383,31 +400,6 @@ void ground_write_sets(virga_ground *ground)
     write_set(ground, GROUND_DROPS);
     if (ground->info.returned_droplets)
         write_set(ground, GROUND_RETURNS);
-}
-
-/* ---- settings */
-
-virga_result virga_ground_set(virga_ground *ground, const virga_ground_settings *settings)
-{
-    if (!ground)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &ground->base.context->log;
-    virga_result result = virga_effect_check_set(&ground->base, "virga_ground_set", settings);
-    if (result)
-        return result;
-    virga_ground_settings next = *settings;
-    result = ground_check_settings(log, &next);
-    if (result < 0)
-        return result;
-    const bool other =
-        next.start_wetness != ground->settings.start_wetness || next.start_water_mm != ground->settings.start_water_mm;
-    ground->settings = next;
-    if (other || !ground->base.has_contents) {
-        virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
-        ground_fill_soils(&next, (double)ground->def.cell_m, soils);
-        ground_standing_start(ground->standing, &next, soils);
-    }
-    return result;
 }
 
 void virga_ground_refresh_heights(virga_ground *ground)

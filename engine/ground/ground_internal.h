@@ -21,7 +21,8 @@
 
 /* ---- materials.c */
 void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATERIALS]);
-virga_result ground_check_settings(const virga_log *log, virga_ground_settings *settings);
+virga_result ground_check_materials(const virga_log *log, virga_ground_material materials[VIRGA_GROUND_MATERIALS],
+                                    bool *changed);
 void ground_fill_soils(const virga_ground_settings *settings, double cell_m,
                        virga_soil_gpu soils[VIRGA_GROUND_MATERIALS]);
 

@@ -43,37 +43,28 @@ void ground_default_materials(virga_ground_material materials[VIRGA_GROUND_MATER
         materials[i] = table[i < sizeof table / sizeof table[0] ? i : VIRGA_MATERIAL_DEFAULT];
 }
 
-static void check(const virga_log *log, float *value, float low, float high, const char *name, bool *changed)
-{
-    *value = virga_clamp_setting_float(log, name, *value, low, high, changed);
-}
+#define MATERIAL(member, ...) \
+    VIRGA_SETTING_ROW(ground_settings.materials, virga_ground_material, FLOAT, member, __VA_ARGS__)
 
-virga_result ground_check_settings(const virga_log *log, virga_ground_settings *settings)
+/* clang-format off */
+static const virga_setting_row rows[] = {
+    MATERIAL(capacity_mm, 0, 100),
+    MATERIAL(retention_mm, 0, 50),
+    MATERIAL(infiltration_mm_h, 0, 10000),
+    MATERIAL(drying, 0, 10),
+    MATERIAL(manning_n, 0.005, 1),
+    MATERIAL(bump_height_mm, 0, 50),
+    MATERIAL(bump_width_m, 0.2, 50),
+};
+/* clang-format on */
+
+virga_result ground_check_materials(const virga_log *log, virga_ground_material materials[VIRGA_GROUND_MATERIALS],
+                                    bool *changed)
 {
-    bool changed = false;
-    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++) {
-        virga_ground_material *m = &settings->materials[i];
-        float *const values[7] = {&m->capacity_mm, &m->retention_mm,   &m->infiltration_mm_h, &m->drying,
-                                  &m->manning_n,   &m->bump_height_mm, &m->bump_width_m};
-        for (int j = 0; j < 7; j++)
-            if (virga_settings_check_finite(log, "ground_settings.materials", values[j], 1))
-                return VIRGA_ERROR_INVALID;
-        check(log, &m->capacity_mm, 0, 100, "ground_settings.materials.capacity_mm", &changed);
-        check(log, &m->retention_mm, 0, 50, "ground_settings.materials.retention_mm", &changed);
-        check(log, &m->infiltration_mm_h, 0, 10000, "ground_settings.materials.infiltration_mm_h", &changed);
-        check(log, &m->drying, 0, 10, "ground_settings.materials.drying", &changed);
-        check(log, &m->manning_n, 0.005f, 1, "ground_settings.materials.manning_n", &changed);
-        check(log, &m->bump_height_mm, 0, 50, "ground_settings.materials.bump_height_mm", &changed);
-        check(log, &m->bump_width_m, 0.2f, 50, "ground_settings.materials.bump_width_m", &changed);
-    }
-    if (virga_settings_check_finite(log, "ground_settings.evaporation_mm_h", &settings->evaporation_mm_h, 1) ||
-        virga_settings_check_finite(log, "ground_settings.start_wetness", &settings->start_wetness, 1) ||
-        virga_settings_check_finite(log, "ground_settings.start_water_mm", &settings->start_water_mm, 1))
-        return VIRGA_ERROR_INVALID;
-    check(log, &settings->evaporation_mm_h, 0, 100, "ground_settings.evaporation_mm_h", &changed);
-    check(log, &settings->start_wetness, 0, 1, "ground_settings.start_wetness", &changed);
-    check(log, &settings->start_water_mm, 0, 50, "ground_settings.start_water_mm", &changed);
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+    for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
+        if (virga_settings_apply_rows(log, rows, VIRGA_ROWS(rows), &materials[i], changed))
+            return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
 }
 
 /* Converts millimetres on a cell to nanolitres: 1 mm on 1 m^2 is one litre. */

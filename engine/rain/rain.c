@@ -40,67 +40,70 @@
 
 /* ---- defaults */
 
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(rain_def, virga_rain_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(rain, virga_rain_settings, kind, member, __VA_ARGS__)
+
+/* clang-format off */
+static const virga_setting_row def_rows[] = {
+    DEF(U32, seed, 0, UINT32_MAX, 1),
+    DEF(U32, max_drops, 1024, 4194304, 131072),
+    DEF(FLOAT, range_m, 4, 512, 32),
+    DEF(U32, max_impacts, 256, 4194240, 65536),
+    DEF(U32, max_ticks_per_step, 1, 64, 16),
+    DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES),
+    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    DEF(U32, occlusion_cascades, 1, 4, 2),
+    DEF(U32, occlusion_slants, 1, 4, 2),
+};
+/* clang-format on */
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(FLOAT, rate_mm_h, 0, 200, 10),
+    SETTING(FLOAT, air_density, 0.3, 2, VIRGA_AIR_DENSITY),
+    SETTING(FLOAT, transition_s, 0, 60, 0.5),
+    SETTING(FLOAT, wind_m_s[0], -60, 60),
+    SETTING(FLOAT, wind_m_s[1], -60, 60),
+    SETTING(FLOAT, wind_m_s[2], -60, 60),
+    SETTING(FLOAT, gust_m_s, 0, 30),
+    SETTING(FLOAT, gust_time_s, 0.1, 600, 4),
+    SETTING(FLOAT, streak_gain, 0, 100, 1),
+    SETTING(FLOAT, light_gain, 0, 100, 1),
+    SETTING(FLOAT, min_width_px, 0.5, 4, 1),
+    SETTING(FLOAT, soft_m, 0, 1, 0.05),
+    SETTING(FLOAT, near_fade_m, 0, 5, 0.15),
+    SETTING(FLOAT, oscillation, 0, 4, 1),
+    SETTING(FLOAT, haze, 0, 4, 1),
+    SETTING(FLOAT, haze_sky_m, 0, 1e5, 400),
+    SETTING(FLOAT, glow, 0, 100, 1),
+    SETTING(FLOAT, streak_min_mm, 0.2, 2, 0.4),
+    SETTING(U32, default_material, 0, 255),
+    SETTING(U32, occlusion_interval, 1, 16, 1),
+};
+
 virga_rain_def virga_default_rain_def(void)
 {
-    return (virga_rain_def){.size = sizeof(virga_rain_def),
-                            .cookie = DEF_COOKIE,
-                            .seed = 1,
-                            .max_drops = 131072,
-                            .range_m = 32,
-                            .max_impacts = 65536,
-                            .max_ticks_per_step = 16,
-                            .tick_s = 1.0 / 60,
-                            .occlusion_size = 1024,
-                            .occlusion_cascades = 2,
-                            .occlusion_slants = 2,
-                            .occluder_strides = {12, 32}};
+    virga_rain_def def = {
+        .size = sizeof def, .cookie = DEF_COOKIE, .occlusion_size = 1024, .occluder_strides = {12, 32}};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
 }
 
 virga_rain_settings virga_default_rain_settings(void)
 {
-    return (virga_rain_settings){.size = sizeof(virga_rain_settings),
-                                 .cookie = SETTINGS_COOKIE,
-                                 .rate_mm_h = 10,
-                                 .air_density = (float)VIRGA_AIR_DENSITY,
-                                 .transition_s = 0.5f,
-                                 .gust_time_s = 4,
-                                 .lighting = virga_default_lighting(),
-                                 .streak_gain = 1,
-                                 .light_gain = 1,
-                                 .min_width_px = 1,
-                                 .soft_m = 0.05f,
-                                 .near_fade_m = 0.15f,
-                                 .oscillation = 1,
-                                 .haze = 1,
-                                 .haze_sky_m = 400,
-                                 .glow = 1,
-                                 .streak_min_mm = 0.4f,
-                                 .occlusion_interval = 1};
+    virga_rain_settings settings = {
+        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .lighting = virga_default_lighting()};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    return settings;
 }
 
 /* ---- the sizes that follow from a definition */
 
-static const virga_setting_row def_rows[] = {
-    {"rain_def.max_drops", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_drops), 1024, 4194304},
-    {"rain_def.range_m", VIRGA_NUMBER_FLOAT, offsetof(virga_rain_def, range_m), 4, 512},
-    {"rain_def.max_impacts", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_impacts), 256, 4194240},
-    {"rain_def.max_streaks", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_streaks), 256, 4194304},
-    {"rain_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_ticks_per_step), 1, 64},
-    {"rain_def.max_panes", VIRGA_NUMBER_U32, offsetof(virga_rain_def, max_panes), 0, VIRGA_RAIN_MAX_PANES},
-    {"rain_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_rain_def, tick_s), 1e-3, 0.05},
-    {"rain_def.occlusion_cascades", VIRGA_NUMBER_U32, offsetof(virga_rain_def, occlusion_cascades), 1, 4},
-    {"rain_def.occlusion_slants", VIRGA_NUMBER_U32, offsetof(virga_rain_def, occlusion_slants), 1, 4},
-};
-
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_rain_def *def = given;
-    const bool as_many_streaks = !def->max_streaks;
-    if (as_many_streaks)
-        def->max_streaks = 4194304;
-    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
-        return VIRGA_ERROR_INVALID;
-    if (as_many_streaks)
+    if (def->max_streaks)
+        def->max_streaks = virga_clamp_setting_u32(log, "rain_def.max_streaks", def->max_streaks, 256, 4194304, NULL);
+    else
         def->max_streaks = def->max_drops;
     if (def->occlusion_size)
         def->occlusion_size =
@@ -253,7 +256,6 @@ static VkDeviceSize extra_bytes(const void *given)
 static virga_result init(void *object)
 {
     virga_rain *rain = object;
-    rain->settings = virga_default_rain_settings();
     double side_m;
     plan_levels(&rain->def, &rain->levels, &rain->groups_per_level, &side_m);
     rain->groups = rain->levels * rain->groups_per_level;
@@ -306,66 +308,18 @@ static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view 
     return virga_rain_prepare(object, cmd, view, time_s);
 }
 
-_Static_assert(sizeof(virga_rain_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
-
-VIRGA_EFFECT_FUNCTIONS(rain)
-VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
-
-const virga_effect_type rain_type = {
-    VIRGA_EFFECT_TYPE(rain, "rain"),
-    .lighting = offsetof(virga_rain_settings, lighting),
-    .draws = rain_draws,
-    .draw_count = RAIN_DRAW_ROWS,
-    .extra_bytes = extra_bytes,
-    .destroy = destroy,
-    .pass_constant = pass_constant,
-    .prepare = prepare,
-    .draw = rain_type_draw,
-};
-
 /* ---- settings */
 
-#define NUMBER(member, min, max)                                                             \
-    {                                                                                        \
-        "rain." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_rain_settings, member), min, max \
-    }
-#define COUNT(member, min, max)                                                            \
-    {                                                                                      \
-        "rain." #member, VIRGA_NUMBER_U32, offsetof(virga_rain_settings, member), min, max \
-    }
-
-static const virga_setting_row settings_rows[] = {
-    NUMBER(rate_mm_h, 0, 200),
-    NUMBER(air_density, 0.3, 2),
-    NUMBER(transition_s, 0, 60),
-    NUMBER(wind_m_s[0], -60, 60),
-    NUMBER(wind_m_s[1], -60, 60),
-    NUMBER(wind_m_s[2], -60, 60),
-    NUMBER(gust_m_s, 0, 30),
-    NUMBER(gust_time_s, 0.1, 600),
-    NUMBER(streak_gain, 0, 100),
-    NUMBER(light_gain, 0, 100),
-    NUMBER(min_width_px, 0.5, 4),
-    NUMBER(soft_m, 0, 1),
-    NUMBER(near_fade_m, 0, 5),
-    NUMBER(oscillation, 0, 4),
-    NUMBER(haze, 0, 4),
-    NUMBER(haze_sky_m, 0, 1e5),
-    NUMBER(glow, 0, 100),
-    NUMBER(streak_min_mm, 0.2, 2),
-    COUNT(default_material, 0, 255),
-    COUNT(occlusion_interval, 1, 16),
-};
-
-static virga_result check_settings(const virga_log *log, virga_rain_settings *settings, bool *changed)
+static virga_result check_settings(const void *object, void *given, bool *changed)
 {
-    if (virga_settings_check_positions(log, "rain.wind_min_m", settings->wind_min_m, 3) ||
-        virga_settings_check_positions(log, "rain.wind_max_m", settings->wind_max_m, 3))
-        return VIRGA_ERROR_INVALID;
-    const virga_result result = virga_lighting_check(log, "rain", &settings->lighting, changed);
-    if (result)
-        return result;
-    return virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), settings, changed);
+    const virga_rain *rain = object;
+    const virga_rain_settings *settings = given;
+    const virga_log *log = &rain->base.context->log;
+    (void)changed;
+    if (settings->wind_texture && (!rain->def.wind_texture || !settings->wind_texture->view))
+        return virga_wrong_argument(log, "rain.wind_texture: expected def.wind_texture at creation and an image view");
+    const virga_result result = virga_settings_check_positions(log, "rain.wind_min_m", settings->wind_min_m, 3);
+    return result ? result : virga_settings_check_positions(log, "rain.wind_max_m", settings->wind_max_m, 3);
 }
 
 /* Copies the host's table, so that its pointers need not stay valid. The results are NULL for other kinds of sizes. */
@@ -400,12 +354,17 @@ static bool same_sizes(const virga_sizes *a, const virga_sizes *b)
            !memcmp(a->table_number, b->table_number, a->table_count * sizeof(double));
 }
 
-/* Applies settings that were checked. */
-static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters, double *numbers)
+static virga_result apply_settings(void *object, void *given)
 {
+    virga_rain *rain = object;
+    virga_rain_settings *next = given;
     const virga_rain_settings *old = &rain->settings;
     const bool new_rain = old->rate_mm_h != next->rate_mm_h || old->air_density != next->air_density ||
                           !same_sizes(&old->sizes, &next->sizes);
+    double *diameters, *numbers;
+    const virga_result result = copy_table(rain, &next->sizes, &diameters, &numbers);
+    if (result)
+        return result;
     next->sizes.table_diameter_m = diameters;
     next->sizes.table_number = numbers;
     virga_free(&rain->base.context->heap, rain->table_diameter_m);
@@ -417,7 +376,6 @@ static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters
         next->wind_texture = &rain->wind_image;
         rain->sway_on = true;
     }
-    rain->settings = *next;
     if (new_rain) {
         rain_classes_set_air(rain->classes, (double)next->air_density);
         rain_classes_set_rain(rain->classes, &next->sizes, (double)next->rate_mm_h, (double)next->air_density,
@@ -427,30 +385,28 @@ static void apply(virga_rain *rain, virga_rain_settings *next, double *diameters
         rain_wind_at(&rain->wind, next, rain->def.seed, rain->wind_now);
         rain_classes_settle(rain->classes, rain->wind_now);
     }
+    return VIRGA_OK;
 }
 
-virga_result virga_rain_set(virga_rain *rain, const virga_rain_settings *settings)
-{
-    if (!rain)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &rain->base.context->log;
-    virga_result result = virga_effect_check_set(&rain->base, "virga_rain_set", settings);
-    if (result)
-        return result;
-    if (settings->wind_texture && (!rain->def.wind_texture || !settings->wind_texture->view))
-        return virga_wrong_argument(log, "rain.wind_texture: expected def.wind_texture at creation and an image view");
-    virga_rain_settings next = *settings;
-    bool changed = false;
-    result = check_settings(log, &next, &changed);
-    if (result)
-        return result;
-    double *diameters, *numbers;
-    result = copy_table(rain, &next.sizes, &diameters, &numbers);
-    if (result)
-        return result;
-    apply(rain, &next, diameters, numbers);
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
+VIRGA_EFFECT_FUNCTIONS(rain)
+VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
+
+const virga_effect_type rain_type = {
+    VIRGA_EFFECT_TYPE(rain, "rain", "rain"),
+    VIRGA_TABLE(image),
+    .lighting = offsetof(virga_rain_settings, lighting),
+    .draws = rain_draws,
+    .draw_count = RAIN_DRAW_ROWS,
+    .extra_bytes = extra_bytes,
+    .init = init,
+    .create = create,
+    .destroy = destroy,
+    .pass_constant = pass_constant,
+    .check_settings = check_settings,
+    .apply_settings = apply_settings,
+    .prepare = prepare,
+    .draw = rain_type_draw,
+};
 
 /* ---- buffers and statistics */
 

@@ -29,37 +29,48 @@
 
 /* ---- defaults */
 
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(splash_def, virga_splash_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(splash_settings, virga_splash_settings, kind, member, __VA_ARGS__)
+
+/* clang-format off */
+static const virga_setting_row def_rows[] = {
+    DEF(U32, max_splashes, 256, 1048576, 65536),
+    DEF(U32, max_droplets, 256, 4194304, 131072),
+    DEF(U32, max_spawns, 256, 1048576, 65536),
+    DEF(U32, max_ticks_per_step, 1, 64, 16),
+    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+};
+/* clang-format on */
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(ENUM, mode, 0, VIRGA_SPLASH_MODE_PHYSICAL, VIRGA_SPLASH_MODE_PHYSICAL),
+    SETTING(ENUM, style, 0, VIRGA_SPLASH_STYLE_FILM, VIRGA_SPLASH_STYLE_FILM),
+    SETTING(FLOAT, pile_max_s, 0.001, 0.2, 0.012),
+    SETTING(FLOAT, pile_max_m, 0.001, 0.2, 0.008),
+    SETTING(FLOAT, bounce, 0, 1, 0.25),
+    SETTING(FLOAT, wind_share, 0, 2, 0.4),
+    SETTING(FLOAT, droplet_range_m, 0, 1000, 2.5),
+    SETTING(FLOAT, dot_min_mm, 0.05, 5, 0.5),
+    SETTING(FLOAT, air_density, 0.3, 2, 1.204),
+    SETTING(FLOAT, gain, 0, 100, 1),
+    SETTING(FLOAT, light_gain, 0, 100, 1),
+    SETTING(FLOAT, min_width_px, 0.5, 4, 1),
+    SETTING(FLOAT, soft_m, 0, 1, 0.002),
+    SETTING(FLOAT, near_fade_m, 0, 5, 0.05),
+};
+
 virga_splash_def virga_default_splash_def(void)
 {
-    return (virga_splash_def){.size = sizeof(virga_splash_def),
-                              .cookie = DEF_COOKIE,
-                              .max_splashes = 65536,
-                              .max_droplets = 131072,
-                              .max_spawns = 65536,
-                              .max_returned_droplets = 131072,
-                              .max_ticks_per_step = 16,
-                              .tick_s = 1.0 / 60};
+    virga_splash_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .max_returned_droplets = 131072};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
 }
 
 virga_splash_settings virga_default_splash_settings(void)
 {
-    virga_splash_settings settings = {.size = sizeof settings,
-                                      .cookie = SETTINGS_COOKIE,
-                                      .mode = VIRGA_SPLASH_MODE_PHYSICAL,
-                                      .style = VIRGA_SPLASH_STYLE_FILM,
-                                      .pile_max_s = 0.012f,
-                                      .pile_max_m = 0.008f,
-                                      .bounce = 0.25f,
-                                      .wind_share = 0.4f,
-                                      .droplet_range_m = 2.5f,
-                                      .dot_min_mm = 0.5f,
-                                      .air_density = 1.204f,
-                                      .lighting = virga_default_lighting(),
-                                      .gain = 1,
-                                      .light_gain = 1,
-                                      .min_width_px = 1,
-                                      .soft_m = 0.002f,
-                                      .near_fade_m = 0.05f};
+    virga_splash_settings settings = {
+        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .lighting = virga_default_lighting()};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
     splash_default_rows(settings.rules);
     return settings;
 }
@@ -72,19 +83,9 @@ static uint32_t power_of_two(uint32_t min)
     return power;
 }
 
-static const virga_setting_row def_rows[] = {
-    {"splash_def.max_splashes", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_splashes), 256, 1048576},
-    {"splash_def.max_droplets", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_droplets), 256, 4194304},
-    {"splash_def.max_spawns", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_spawns), 256, 1048576},
-    {"splash_def.max_ticks_per_step", VIRGA_NUMBER_U32, offsetof(virga_splash_def, max_ticks_per_step), 1, 64},
-    {"splash_def.tick_s", VIRGA_NUMBER_DOUBLE, offsetof(virga_splash_def, tick_s), 1e-3, 0.05},
-};
-
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_splash_def *def = given;
-    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
-        return VIRGA_ERROR_INVALID;
     def->max_splashes = power_of_two(def->max_splashes);
     def->max_droplets = (def->max_droplets + VIRGA_SPLASH_BLOCK - 1) / VIRGA_SPLASH_BLOCK * VIRGA_SPLASH_BLOCK;
     def->max_returned_droplets = virga_clamp_setting_u32(log, "splash_def.max_returned_droplets",
@@ -256,13 +257,6 @@ static const virga_effect_pool pools[] = {
     {"max_droplets", offsetof(virga_splash_def, max_droplets), VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
 };
 
-static virga_result init(void *object)
-{
-    virga_splash *splash = object;
-    splash->settings = virga_default_splash_settings();
-    return VIRGA_OK;
-}
-
 static virga_result create(void *object)
 {
     virga_splash *splash = object;
@@ -282,17 +276,25 @@ static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view 
     return virga_splash_prepare(object, cmd, view, time_s);
 }
 
-_Static_assert(sizeof(virga_splash_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room to change the lighting in");
+static virga_result check_settings(const void *object, void *settings, bool *changed)
+{
+    const virga_splash *splash = object;
+    return splash_check_rows(&splash->base.context->log, ((virga_splash_settings *)settings)->rules, changed);
+}
 
 VIRGA_EFFECT_FUNCTIONS(splash)
 VIRGA_EFFECT_DRAW_FUNCTIONS(splash)
+VIRGA_EFFECT_STATISTICS_FUNCTION(splash)
 
 const virga_effect_type splash_type = {
-    VIRGA_EFFECT_TYPE(splash, "splash"),
+    VIRGA_EFFECT_TYPE(splash, "splash", "splash_settings"),
+    VIRGA_TABLE(image),
     .lighting = offsetof(virga_splash_settings, lighting),
     .draws = splash_draws,
     .draw_count = SPLASH_DRAW_ROWS,
     .fit_device = fit_device,
+    .create = create,
+    .check_settings = check_settings,
     .prepare = prepare,
     .draw = splash_type_draw,
 };
@@ -325,49 +327,6 @@ void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint 
 {
     const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
     splash->base.context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
-}
-
-/* ---- settings */
-
-#define NUMBER(member, min, max)                                                                          \
-    {                                                                                                     \
-        "splash_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_splash_settings, member), min, max \
-    }
-
-static const virga_setting_row settings_rows[] = {
-    NUMBER(pile_max_s, 0.001, 0.2),
-    NUMBER(pile_max_m, 0.001, 0.2),
-    NUMBER(bounce, 0, 1),
-    NUMBER(wind_share, 0, 2),
-    NUMBER(droplet_range_m, 0, 1000),
-    NUMBER(dot_min_mm, 0.05, 5),
-    NUMBER(air_density, 0.3, 2),
-    NUMBER(gain, 0, 100),
-    NUMBER(light_gain, 0, 100),
-    NUMBER(min_width_px, 0.5, 4),
-    NUMBER(soft_m, 0, 1),
-    NUMBER(near_fade_m, 0, 5),
-};
-
-virga_result virga_splash_set(virga_splash *splash, const virga_splash_settings *settings)
-{
-    if (!splash)
-        return VIRGA_ERROR_INVALID;
-    const virga_log *log = &splash->base.context->log;
-    const virga_result result = virga_effect_check_set(&splash->base, "virga_splash_set", settings);
-    if (result)
-        return result;
-    virga_splash_settings next = *settings;
-    bool changed = false;
-    if ((uint32_t)next.mode > VIRGA_SPLASH_PHYSICAL || (uint32_t)next.style > VIRGA_SPLASH_STYLE_FILM)
-        return virga_wrong_argument(log, "splash_settings: there is no mode %d or style %d", (int)next.mode,
-                                    (int)next.style);
-    if (virga_settings_apply_rows(log, settings_rows, VIRGA_ROWS(settings_rows), &next, &changed) ||
-        splash_check_rows(log, next.rules, &changed) ||
-        virga_lighting_check(log, "splash_settings", &next.lighting, &changed) < 0)
-        return VIRGA_ERROR_INVALID;
-    splash->settings = next;
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
 /* ---- queries */
@@ -419,15 +378,4 @@ void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *drop
 double virga_splash_time(const virga_splash *splash)
 {
     return splash ? (double)splash->last_tick * splash->def.tick_s : 0;
-}
-
-void virga_splash_stats_get(virga_splash *splash, virga_splash_stats *stats)
-{
-    if (!stats)
-        return;
-    memset(stats, 0, sizeof *stats);
-    if (!splash)
-        return;
-    virga_effect_read_statistics(&splash->base);
-    *stats = splash->stats;
 }

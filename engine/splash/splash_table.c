@@ -135,44 +135,29 @@ void splash_default_rows(virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GR
 
 /* ---- checks */
 
-static void clamp_range(const virga_log *log, const char *name, float range[2], float max, bool *changed)
-{
-    for (int i = 0; i < 2; i++)
-        range[i] = virga_clamp_setting_float(log, name, range[i], i ? range[0] : 0, max, changed);
-}
+#define RULE(kind, member, ...) VIRGA_SETTING_ROW(splash_settings.rules, virga_splash_rule, kind, member, __VA_ARGS__)
+/* A range: its end is at least its start. */
+#define RANGE(member, max) \
+    RULE(FLOAT, member[0], 0, max), RULE(FLOAT, member[1], 0, max, .min_member = offsetof(virga_splash_rule, member[0]))
 
-static virga_result check_row(const virga_log *log, virga_splash_rule *row, bool *changed)
-{
-    if (virga_settings_check_finite(log, "splash_settings.rules.min_diameter_mm", &row->min_diameter_mm, 1) ||
-        virga_settings_check_finite(log, "splash_settings.rules.min_depth_mm", &row->min_depth_mm, 1) ||
-        virga_settings_check_finite(log, "splash_settings.rules.share", row->share, 2) ||
-        virga_settings_check_finite(log, "splash_settings.rules.count", row->count, 2) ||
-        virga_settings_check_finite(log, "splash_settings.rules.angle_deg", row->angle_deg, 2) ||
-        virga_settings_check_finite(log, "splash_settings.rules.speed_m_s", row->speed_m_s, 2) ||
-        virga_settings_check_finite(log, "splash_settings.rules.strength", &row->strength, 1) ||
-        virga_settings_check_finite(log, "splash_settings.rules.circle", &row->circle_radius, 1))
-        return VIRGA_ERROR_INVALID;
-    row->model = virga_clamp_setting_u32(log, "splash_settings.rules.model", row->model, 0, VIRGA_SPLASH_DISK, changed);
-    row->min_diameter_mm =
-        virga_clamp_setting_float(log, "splash_settings.rules.min_diameter_mm", row->min_diameter_mm, 0, 10, changed);
-    row->min_depth_mm =
-        virga_clamp_setting_float(log, "splash_settings.rules.min_depth_mm", row->min_depth_mm, 0, 100, changed);
-    clamp_range(log, "splash_settings.rules.share", row->share, 1, changed);
-    clamp_range(log, "splash_settings.rules.count", row->count, VIRGA_SPLASH_MAX_COUNT, changed);
-    clamp_range(log, "splash_settings.rules.angle_deg", row->angle_deg, 90, changed);
-    clamp_range(log, "splash_settings.rules.speed_m_s", row->speed_m_s, 10, changed);
-    row->strength = virga_clamp_setting_float(log, "splash_settings.rules.strength", row->strength, 0, 4, changed);
-    row->circle_radius =
-        virga_clamp_setting_float(log, "splash_settings.rules.circle", row->circle_radius, 0, 10, changed);
-    return VIRGA_OK;
-}
+static const virga_setting_row rule_rows[] = {
+    RULE(U32, model, 0, VIRGA_SPLASH_DISK),
+    RULE(FLOAT, min_diameter_mm, 0, 10),
+    RULE(FLOAT, min_depth_mm, 0, 100),
+    RANGE(share, 1),
+    RANGE(count, VIRGA_SPLASH_MAX_COUNT),
+    RANGE(angle_deg, 90),
+    RANGE(speed_m_s, 10),
+    RULE(FLOAT, strength, 0, 4),
+    RULE(FLOAT, circle_radius, 0, 10),
+};
 
 virga_result splash_check_rows(const virga_log *log,
                                virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES], bool *changed)
 {
     for (uint32_t i = 0; i < VIRGA_GROUND_MATERIALS; i++)
         for (uint32_t state = 0; state < VIRGA_GROUND_STATES; state++)
-            if (check_row(log, &rows[i][state], changed))
+            if (virga_settings_apply_rows(log, rule_rows, VIRGA_ROWS(rule_rows), &rows[i][state], changed))
                 return VIRGA_ERROR_INVALID;
     return VIRGA_OK;
 }

@@ -37,37 +37,41 @@
 
 /* ---- defaults */
 
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(water_def, virga_water_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(water_settings, virga_water_settings, kind, member, __VA_ARGS__)
+
+static const virga_setting_row def_rows[] = {
+    DEF(U32, max_particles, 64, 8388608, 65536),
+    DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_blocks, 64, 1048576, 32768),
+    DEF(U32, max_surfels, 256, 8388608, 262144),
+};
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(FLOAT, spacing_m, 1e-4, 10, 0.02),
+    SETTING(FLOAT, volume_m3, 0, 1000),
+    SETTING(FLOAT, kernel_spacings, 1, 4, 2),
+    SETTING(FLOAT, level, 0.05, 0.95, 0.5),
+};
+
 virga_water_def virga_default_water_def(void)
 {
-    return (virga_water_def){.size = sizeof(virga_water_def),
-                             .cookie = DEF_COOKIE,
-                             .max_particles = 65536,
-                             .max_cells = 262144,
-                             .max_blocks = 32768,
-                             .max_surfels = 262144};
+    virga_water_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
 }
 
 virga_water_settings virga_default_water_settings(void)
 {
-    return (virga_water_settings){.size = sizeof(virga_water_settings),
-                                  .cookie = SETTINGS_COOKIE,
-                                  .spacing_m = 0.02f,
-                                  .kernel_spacings = 2,
-                                  .level = 0.5f};
+    virga_water_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    return settings;
 }
-
-static const virga_setting_row def_rows[] = {
-    {"water_def.max_particles", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_particles), 64, 8388608},
-    {"water_def.max_cells", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_cells), 4096, 16777216},
-    {"water_def.max_blocks", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_blocks), 64, 1048576},
-    {"water_def.max_surfels", VIRGA_NUMBER_U32, offsetof(virga_water_def, max_surfels), 256, 8388608},
-};
 
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_water_def *def = given;
-    if (virga_settings_apply_rows(log, def_rows, VIRGA_ROWS(def_rows), def, NULL))
-        return VIRGA_ERROR_INVALID;
+    (void)log;
     /* Whole workgroups of the passes over cells. */
     def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
     return VIRGA_OK;
@@ -203,12 +207,6 @@ static const virga_effect_pool pools[] = {
     {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
 };
 
-static virga_result init(void *object)
-{
-    ((virga_water *)object)->settings = virga_default_water_settings();
-    return VIRGA_OK;
-}
-
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_water *water = object;
@@ -216,61 +214,12 @@ static void describe(const void *object, char *line, size_t size)
 }
 
 VIRGA_EFFECT_FUNCTIONS(water)
+VIRGA_EFFECT_STATISTICS_FUNCTION(water)
 
 const virga_effect_type water_type = {
-    .name = "water",
-    .size = sizeof(virga_water),
-    .def = {"water_def", sizeof(virga_water_def), DEF_COOKIE, offsetof(virga_water, def)},
-    .settings = {"water_settings", sizeof(virga_water_settings), SETTINGS_COOKIE, offsetof(virga_water, settings)},
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .rings = rings,
-    .ring_count = VIRGA_ROWS(rings),
-    .layouts = layouts,
-    .layout_count = VIRGA_ROWS(layouts),
-    .passes = passes,
-    .pass_count = VIRGA_ROWS(passes),
-    .pools = pools,
-    .pool_count = VIRGA_ROWS(pools),
-    .readback_name = "water.readback",
-    .readback_bytes = sizeof(water_readback),
-    .check_def = check_def,
+    VIRGA_EFFECT_TYPE(water, "water", "water_settings"),
     .fit_device = fit_device,
-    .count = count,
-    .init = init,
-    .describe = describe,
-    .read_statistics = water_read_statistics,
-    .set = water_type_set,
 };
-
-/* ---- settings */
-
-#define NUMBER(member, min, max)                                                                        \
-    {                                                                                                   \
-        "water_settings." #member, VIRGA_NUMBER_FLOAT, offsetof(virga_water_settings, member), min, max \
-    }
-
-static const virga_setting_row settings_rows[] = {
-    NUMBER(spacing_m, 1e-4, 10),
-    NUMBER(volume_m3, 0, 1000),
-    NUMBER(kernel_spacings, 1, 4),
-    NUMBER(level, 0.05, 0.95),
-};
-
-virga_result virga_water_set(virga_water *water, const virga_water_settings *settings)
-{
-    if (!water)
-        return VIRGA_ERROR_INVALID;
-    const virga_result result = virga_effect_check_set(&water->base, "virga_water_set", settings);
-    if (result)
-        return result;
-    virga_water_settings next = *settings;
-    bool changed = false;
-    if (virga_settings_apply_rows(&water->base.context->log, settings_rows, VIRGA_ROWS(settings_rows), &next, &changed))
-        return VIRGA_ERROR_INVALID;
-    water->settings = next;
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
-}
 
 /* ---- queries */
 
@@ -291,15 +240,4 @@ void virga_water_densities(const virga_water *water, virga_water_buffer *densiti
 {
     if (densities)
         *densities = water ? whole_buffer(water, water->densities) : (virga_water_buffer){0};
-}
-
-void virga_water_stats_get(virga_water *water, virga_water_stats *stats)
-{
-    if (!stats)
-        return;
-    memset(stats, 0, sizeof *stats);
-    if (!water)
-        return;
-    virga_effect_read_statistics(&water->base);
-    *stats = water->stats;
 }

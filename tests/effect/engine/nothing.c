@@ -1,7 +1,6 @@
 /* nothing.c - the whole of an effect: its tables, its defaults, its setting, its one pass. */
 #include "nothing.h"
 
-#include "core/settings.h"
 #include "gpu/context.h"
 #include "gpu/record.h"
 #include "gpu/timers.h"
@@ -44,8 +43,8 @@ static const virga_effect_layout layouts[] = {{AT(bindings), bindings, VIRGA_ROW
 
 static const virga_effect_pass passes[] = {{"nothing.add", AT(add), VIRGA_SPIRV_ROW(nothing_add_comp)}};
 
-static const virga_setting_row settings_rows[] = {
-    {"nothing_settings.weight", VIRGA_NUMBER_U32, offsetof(virga_nothing_settings, weight), 0, 100},
+static const virga_setting_row setting_rows[] = {
+    VIRGA_SETTING_ROW(nothing_settings, virga_nothing_settings, U32, weight, 0, 100, 1),
 };
 
 static void default_def(void *def)
@@ -55,13 +54,14 @@ static void default_def(void *def)
 
 virga_nothing_settings virga_default_nothing_settings(void)
 {
-    return (virga_nothing_settings){.size = sizeof(virga_nothing_settings), .cookie = SETTINGS_COOKIE, .weight = 1};
+    virga_nothing_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    return settings;
 }
 
-static virga_result init(void *object)
+static void default_settings(void *settings)
 {
-    ((virga_nothing *)object)->settings = virga_default_nothing_settings();
-    return VIRGA_OK;
+    *(virga_nothing_settings *)settings = virga_default_nothing_settings();
 }
 
 static void describe(const void *object, char *line, size_t size)
@@ -77,11 +77,6 @@ static void read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     (void)parts;
     nothing->stats.frame_index = frame;
     memcpy(&nothing->stats.sum, data, sizeof nothing->stats.sum);
-}
-
-static virga_result set(void *object, const void *settings)
-{
-    return virga_nothing_set(object, settings);
 }
 
 static virga_result step(void *object, VkCommandBuffer cmd, const virga_effect_step *step)
@@ -110,46 +105,31 @@ static virga_result step(void *object, VkCommandBuffer cmd, const virga_effect_s
 
 const virga_effect_type nothing_type = {
     .name = "nothing",
+    .log_name = "nothing_settings",
     .size = sizeof(virga_nothing),
     .def = {"nothing_def", sizeof(nothing_def), DEF_COOKIE, AT(def)},
     .settings = {"nothing_settings", sizeof(virga_nothing_settings), SETTINGS_COOKIE, AT(settings)},
-    .buffers = buffers,
-    .buffer_count = VIRGA_ROWS(buffers),
-    .layouts = layouts,
-    .layout_count = VIRGA_ROWS(layouts),
+    VIRGA_TABLE(buffer),
+    VIRGA_TABLE(layout),
     .passes = passes,
     .pass_count = VIRGA_ROWS(passes),
     .readback_name = "nothing.readback",
     .readback_bytes = sizeof(uint32_t),
-    .init = init,
+    .setting_rows = setting_rows,
+    .setting_count = VIRGA_ROWS(setting_rows),
     .describe = describe,
     .read_statistics = read_statistics,
     .default_def = default_def,
-    .set = set,
+    .default_settings = default_settings,
     .step = step,
 };
 
 virga_result virga_nothing_set(virga_nothing *nothing, const virga_nothing_settings *settings)
 {
-    if (!nothing)
-        return VIRGA_ERROR_INVALID;
-    const virga_result result = virga_effect_check_set(&nothing->base, "virga_nothing_set", settings);
-    if (result)
-        return result;
-    virga_nothing_settings next = *settings;
-    bool changed = false;
-    if (virga_settings_apply_rows(&nothing->base.context->log, settings_rows, VIRGA_ROWS(settings_rows), &next,
-                                  &changed))
-        return VIRGA_ERROR_INVALID;
-    nothing->settings = next;
-    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+    return nothing ? virga_effect_set(&nothing->base, "virga_nothing_set", settings) : VIRGA_ERROR_INVALID;
 }
 
-void virga_nothing_stats_get(virga_nothing *nothing, virga_nothing_stats *stats)
-{
-    virga_effect_read_statistics(&nothing->base);
-    *stats = nothing->stats;
-}
+VIRGA_EFFECT_STATISTICS_FUNCTION(nothing)
 
 virga_nothing *virga_scene_nothing(virga_scene *scene)
 {
