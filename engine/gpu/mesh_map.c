@@ -8,7 +8,6 @@
 #include "gpu/errors.h"
 #include "gpu/pipelines.h"
 #include "gpu/record.h"
-#include "gpu/resources.h"
 #include "gpu/retire.h"
 #include "shaders/gpu_mesh_map_frag.spv.h"
 #include "shaders/gpu_mesh_map_vert.spv.h"
@@ -20,10 +19,7 @@
 static void mesh_map_destroy(virga_context *context, virga_resource *resource)
 {
     virga_mesh_map *map = (virga_mesh_map *)resource;
-    for (uint32_t i = 0; i < VIRGA_MAP_MAX_LAYERS; i++)
-        VIRGA_DESTROY(context, Framebuffer, map->framebuffers[i]);
     VIRGA_DESTROY(context, PipelineLayout, map->layout);
-    VIRGA_DESTROY(context, RenderPass, map->pass);
     virga_free(&context->heap, map);
 }
 
@@ -33,91 +29,20 @@ void virga_mesh_map_retire(virga_context *context, virga_mesh_map **map)
         return;
     for (uint32_t i = 0; i < 2 * VIRGA_MAP_STRIDES; i++)
         VIRGA_RETIRE(context, (*map)->pipelines[i / VIRGA_MAP_STRIDES][i % VIRGA_MAP_STRIDES]);
-    VIRGA_RETIRE(context, (*map)->depth);
-    VIRGA_RETIRE(context, (*map)->surface);
+    virga_offscreen_retire(context, &(*map)->images);
     VIRGA_RETIRE(context, *map);
 }
 
-static virga_result create_images(virga_context *context, virga_mesh_map *map)
+static virga_result create_images(virga_context *context, uint32_t layers, virga_mesh_map *map)
 {
-    virga_result result = VIRGA_OK;
-    const VkExtent2D extent = {map->size, map->size};
-    TRY(virga_image_create(context, VK_FORMAT_D32_SFLOAT, extent, map->layers,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                           VK_IMAGE_ASPECT_DEPTH_BIT, map->name, &map->depth));
-    TRY(virga_image_create(context, VK_FORMAT_R32_UINT, extent, map->layers,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
-                           map->name, &map->surface));
-error:
-    return result;
-}
-
-static virga_result create_pass(virga_context *context, virga_mesh_map *map)
-{
-    virga_result result = VIRGA_OK;
-    const VkImageLayout read_only = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkAttachmentDescription attachments[2] = {{.format = VK_FORMAT_R32_UINT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                     .finalLayout = read_only},
-                                                    {.format = VK_FORMAT_D32_SFLOAT,
-                                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                     .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                     .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                     .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                     .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                                     .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                     .finalLayout = read_only}};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          .colorAttachmentCount = 1,
-                                          .pColorAttachments = &color,
-                                          .pDepthStencilAttachment = &depth};
-    /* Earlier reads of the maps complete before they are cleared, and later reads wait for them. */
-    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                       VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                       VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                 VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | draws, draws,
-         VK_ACCESS_SHADER_READ_BIT | writes, writes, 0},
-        {0, VK_SUBPASS_EXTERNAL, draws, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes, VK_ACCESS_SHADER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 2,
-                                         .pAttachments = attachments,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, &map->pass));
-    context->objects++;
-error:
-    return result;
-}
-
-static virga_result create_framebuffers(virga_context *context, virga_mesh_map *map)
-{
-    virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < map->layers; i++) {
-        const VkImageView views[2] = {map->surface->layer_views[i], map->depth->layer_views[i]};
-        const VkFramebufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                              .renderPass = map->pass,
-                                              .attachmentCount = 2,
-                                              .pAttachments = views,
-                                              .width = map->size,
-                                              .height = map->size,
-                                              .layers = 1};
-        VK_TRY(context, CreateFramebuffer(context->device, &info, NULL, &map->framebuffers[i]));
-        context->objects++;
-    }
-error:
-    return result;
+    const virga_offscreen_def def = {.name = map->name,
+                                     .extent = {map->size, map->size},
+                                     .layers = layers,
+                                     .colors = {VK_FORMAT_R32_UINT},
+                                     .depth = VK_FORMAT_D32_SFLOAT,
+                                     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     .readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT};
+    return virga_offscreen_create(context, &def, &map->images);
 }
 
 static virga_result create_pipelines(virga_context *context, virga_pipeline_group *group, virga_mesh_map *map)
@@ -133,7 +58,7 @@ static virga_result create_pipelines(virga_context *context, virga_pipeline_grou
     virga_graphics_def def = {.vertex = VIRGA_SPIRV(gpu_mesh_map_vert),
                               .fragment = VIRGA_SPIRV(gpu_mesh_map_frag),
                               .layout = map->layout,
-                              .render_pass = map->pass,
+                              .render_pass = map->images->pass,
                               .color_count = 1,
                               .depth_test = true,
                               .depth_write = true,
@@ -179,16 +104,12 @@ virga_result virga_mesh_map_create(virga_context *context, uint32_t size, uint32
         return virga_out_of_host_memory(context, name);
     made->resource.destroy = mesh_map_destroy;
     made->size = size ? size : 1;
-    made->layers = size ? layers : 1;
     made->name = name;
     for (uint32_t i = 0; i < VIRGA_MAP_STRIDES; i++)
         made->strides[i] = strides[i];
-    TRY(create_images(context, made));
-    if (size) {
-        TRY(create_pass(context, made));
-        TRY(create_framebuffers(context, made));
+    TRY(create_images(context, size ? layers : 1, made));
+    if (size)
         TRY(create_pipelines(context, group, made));
-    }
     *map = made;
     return VIRGA_OK;
 error:
@@ -202,8 +123,8 @@ void virga_mesh_map_first_layouts(virga_context *context, VkCommandBuffer cmd, c
     const virga_image_state after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                                      VK_ACCESS_SHADER_READ_BIT};
-    virga_image_barrier(context, cmd, map->depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
-    virga_image_barrier(context, cmd, map->surface->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+    virga_image_barrier(context, cmd, map->images->depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, before, after);
+    virga_image_barrier(context, cmd, map->images->colors[0]->image, VK_IMAGE_ASPECT_COLOR_BIT, before, after);
 }
 
 static virga_pipeline *pipeline_for(const virga_mesh_map *map, const virga_occluder *mesh)
@@ -292,22 +213,11 @@ static void draw_mesh(virga_context *context, VkCommandBuffer cmd, const virga_m
 void virga_mesh_map_draw(virga_context *context, VkCommandBuffer cmd, const virga_mesh_map *map, uint32_t layer,
                          const virga_map_view *view, const virga_occluder *meshes, uint32_t count)
 {
-    const VkClearValue clears[2] = {{.color = {.uint32 = {0}}}, {.depthStencil = {1, 0}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = map->pass,
-                                         .framebuffer = map->framebuffers[layer],
-                                         .renderArea = {{0, 0}, {map->size, map->size}},
-                                         .clearValueCount = 2,
-                                         .pClearValues = clears};
-    const VkViewport viewport = {0, 0, (float)map->size, (float)map->size, 0, 1};
-    const VkRect2D scissor = {{0, 0}, {map->size, map->size}};
     const virga_pipeline *bound = NULL;
-    context->vk.CmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &scissor);
+    virga_offscreen_begin(context, cmd, map->images, layer);
     for (uint32_t i = 0; i < count; i++)
         if (meshes[i].index_count && (!view->ground_only || meshes[i].ground) &&
             (!view->still_only || !meshes[i].is_dynamic))
             draw_mesh(context, cmd, map, view, &meshes[i], &bound);
-    context->vk.CmdEndRenderPass(cmd);
+    virga_offscreen_end(context, cmd);
 }

@@ -7,25 +7,32 @@
 #define VIRGA_GPU_MESH_MAP_H
 
 #include "core/log.h"
+#include "gpu/offscreen.h"
 #include "gpu/pipelines.h"
-#include "gpu/resources.h"
 
 #include <virga/mesh.h>
 
-#define VIRGA_MAP_MAX_LAYERS 16
-#define VIRGA_MAP_STRIDES    4
+#define VIRGA_MAP_STRIDES 4
 
 typedef struct virga_mesh_map {
     virga_resource resource; /* first */
-    uint32_t size, layers;
+    uint32_t size;
     uint32_t strides[VIRGA_MAP_STRIDES];
     const char *name;
-    virga_image_2d *depth, *surface; /* read-only layouts outside of their draws */
-    VkRenderPass pass;
-    VkFramebuffer framebuffers[VIRGA_MAP_MAX_LAYERS];
+    virga_offscreen *images; /* depth and the surface; in read-only layouts outside of their draws */
     VkPipelineLayout layout;
     virga_pipeline *pipelines[2][VIRGA_MAP_STRIDES]; /* for meshes without holes, and with */
 } virga_mesh_map;
+
+static inline const virga_image_2d *virga_mesh_map_depth(const virga_mesh_map *map)
+{
+    return map->images->depth;
+}
+
+static inline const virga_image_2d *virga_mesh_map_surface(const virga_mesh_map *map)
+{
+    return map->images->colors[0];
+}
 
 /* The view of a layer, relative to an origin near it. */
 typedef struct virga_map_view {

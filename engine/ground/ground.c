@@ -379,18 +379,18 @@ static void write_set(virga_ground *ground, uint32_t source)
             ? host_list(ground, info->returned_droplets, info->returned_droplets_offset, info->returned_droplets_size,
                         def->max_returned_droplets)
             : host_list(ground, info->impacts, info->impacts_offset, info->impacts_size, def->max_impacts);
-    bound[BIND_DEPTH] = sampled(ground, ground->height_map->depth);
-    bound[BIND_SURFACE] = sampled(ground, ground->height_map->surface);
+    bound[BIND_DEPTH] = sampled(ground, virga_mesh_map_depth(ground->height_map));
+    bound[BIND_SURFACE] = sampled(ground, virga_mesh_map_surface(ground->height_map));
     bound[BIND_WET_MAP] = written(ground->wet_map);
     bound[BIND_SPOT_MAP] = written(ground->spot_map);
-    bound[BIND_WAVES] = sampled(ground, ground->ripples->waves);
+    bound[BIND_WAVES] = sampled(ground, ground->ripples.waves);
     bound[BIND_MATERIALS] = virga_bound_or_blank(&info->materials.image, ground->blank_materials, context->nearest);
     bound[BIND_RULES] = info->splash_rules ? (virga_bound){.buffer = info->splash_rules,
                                                            .offset = info->splash_rules_offset,
                                                            .range = sizeof(virga_splash_rules_gpu)}
                                            : (virga_bound){.buffer = ground->no_rules->buffer};
-    bound[BIND_FAR_DEPTH] = sampled(ground, ground->far.height_map->depth);
-    bound[BIND_FAR_SURFACE] = sampled(ground, ground->far.height_map->surface);
+    bound[BIND_FAR_DEPTH] = sampled(ground, virga_mesh_map_depth(ground->far.height_map));
+    bound[BIND_FAR_SURFACE] = sampled(ground, virga_mesh_map_surface(ground->far.height_map));
     bound[BIND_FAR_MAP] = written(ground->far.map);
     ground->sets[source] = virga_bindings_write(context, ground->bindings, source, bound);
 }
@@ -423,7 +423,7 @@ void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
                                 .cells = ground->def.cells,
                                 .cell_m = ground->def.cell_m,
                                 .base_m = (float)ground->base_m};
-    maps->ripples = ground->ripples->map->layer_views[0];
+    maps->ripples = ground->ripples.map->colors[0]->layer_views[0];
     maps->ripple_texels = ground->def.ripple_texels;
     maps->ripple_texel_m = ground->def.ripple_texel_m;
     /* No reach in a window of two tiles. */

@@ -14,6 +14,7 @@
 #include "gpu/context.h"
 #include "gpu/effect.h"
 #include "gpu/mesh_map.h"
+#include "gpu/offscreen.h"
 #include "ground/ground.h"
 
 #include <virga/ground.h>
@@ -92,18 +93,16 @@ void ground_window_move(ground_window *window, const int32_t low[2], ground_move
 
 /* ---- ground_rings.c */
 typedef struct ground_ripples {
-    virga_resource resource; /* first */
-    virga_image_2d *map, *waves;
+    virga_offscreen *map;
+    virga_image_2d *waves;
     virga_buffer *upload; /* waves to upload; NULL once the upload is recorded */
-    VkRenderPass pass;
-    VkFramebuffer framebuffer;
     virga_pipeline *pipeline;
 } ground_ripples;
 
 virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
-                                   virga_pipeline_group *group, ground_ripples **ripples);
+                                   virga_pipeline_group *group, ground_ripples *ripples);
 VkDeviceSize ground_ripples_bytes(uint32_t texels);
-void ground_ripples_retire(virga_context *context, ground_ripples **ripples);
+void ground_ripples_retire(virga_context *context, ground_ripples *ripples);
 void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_ripples *ripples);
 
 /* Draws all active rings. The ground's set must be bound for graphics. Leaves the map in GENERAL. */
@@ -164,7 +163,7 @@ struct virga_ground {
     uint32_t tick_offset, list_offset; /* of the newest blocks */
     virga_image_2d *wet_map, *spot_map, *blank_materials;
     virga_mesh_map *height_map;
-    ground_ripples *ripples;
+    ground_ripples ripples;
     ground_far far;
     ground_standing standing[GROUND_STANDING];
     double ripple_low_m[2]; /* in world coordinates */

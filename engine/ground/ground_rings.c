@@ -14,72 +14,18 @@
 
 #define WAVE_VALUES ((size_t)VIRGA_RING_DEPTHS * VIRGA_RING_TIMES * VIRGA_RING_RADII)
 
-static void ripples_destroy(virga_context *context, virga_resource *resource)
+void ground_ripples_retire(virga_context *context, ground_ripples *ripples)
 {
-    ground_ripples *ripples = (ground_ripples *)resource;
-    VIRGA_DESTROY(context, Framebuffer, ripples->framebuffer);
-    VIRGA_DESTROY(context, RenderPass, ripples->pass);
-    virga_free(&context->heap, ripples);
-}
-
-void ground_ripples_retire(virga_context *context, ground_ripples **ripples)
-{
-    if (!*ripples)
-        return;
-    VIRGA_RETIRE(context, (*ripples)->map);
-    VIRGA_RETIRE(context, (*ripples)->waves);
-    VIRGA_RETIRE(context, (*ripples)->upload);
-    VIRGA_RETIRE(context, (*ripples)->pipeline);
-    VIRGA_RETIRE(context, *ripples);
+    virga_offscreen_retire(context, &ripples->map);
+    VIRGA_RETIRE(context, ripples->waves);
+    VIRGA_RETIRE(context, ripples->upload);
+    VIRGA_RETIRE(context, ripples->pipeline);
 }
 
 VkDeviceSize ground_ripples_bytes(uint32_t texels)
 {
     const VkDeviceSize map = (VkDeviceSize)texels * texels * 4, waves = WAVE_VALUES * 4 * sizeof(uint16_t);
     return map + 2 * waves; /* and their upload buffer */
-}
-
-static virga_result create_pass(virga_context *context, ground_ripples *ripples)
-{
-    virga_result result = VIRGA_OK;
-    const VkAttachmentDescription attachment = {.format = VK_FORMAT_R16G16_SFLOAT,
-                                                .samples = VK_SAMPLE_COUNT_1_BIT,
-                                                .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                                .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                                .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                                .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                                .finalLayout = VK_IMAGE_LAYOUT_GENERAL};
-    const VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass = {
-        .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS, .colorAttachmentCount = 1, .pColorAttachments = &color};
-    const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    const VkPipelineStageFlags draws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT;
-    const VkSubpassDependency dependencies[2] = {
-        {VK_SUBPASS_EXTERNAL, 0, readers | draws, draws, VK_ACCESS_SHADER_READ_BIT | writes, writes, 0},
-        {0, VK_SUBPASS_EXTERNAL, draws, readers, writes, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT, 0}};
-    const VkRenderPassCreateInfo info = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                         .attachmentCount = 1,
-                                         .pAttachments = &attachment,
-                                         .subpassCount = 1,
-                                         .pSubpasses = &subpass,
-                                         .dependencyCount = 2,
-                                         .pDependencies = dependencies};
-    VK_TRY(context, CreateRenderPass(context->device, &info, NULL, &ripples->pass));
-    context->objects++;
-    const VkFramebufferCreateInfo framebuffer = {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                                 .renderPass = ripples->pass,
-                                                 .attachmentCount = 1,
-                                                 .pAttachments = &ripples->map->layer_views[0],
-                                                 .width = ripples->map->extent.width,
-                                                 .height = ripples->map->extent.height,
-                                                 .layers = 1};
-    VK_TRY(context, CreateFramebuffer(context->device, &framebuffer, NULL, &ripples->framebuffer));
-    context->objects++;
-error:
-    return result;
 }
 
 /* An entry of the wave table as its image stores it: slope divided by radius, faded to zero near the end of the table.
@@ -136,32 +82,30 @@ error:
 }
 
 virga_result ground_ripples_create(virga_context *context, uint32_t texels, double texel_m, VkPipelineLayout layout,
-                                   virga_pipeline_group *group, ground_ripples **ripples)
+                                   virga_pipeline_group *group, ground_ripples *ripples)
 {
+    const virga_offscreen_def map = {.name = "ground.ripples",
+                                     .extent = {texels, texels},
+                                     .layers = 1,
+                                     .colors = {VK_FORMAT_R16G16_SFLOAT},
+                                     .color_usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                     .layout = VK_IMAGE_LAYOUT_GENERAL,
+                                     .readers = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                                                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT};
     virga_result result = VIRGA_OK;
-    ground_ripples *made = virga_alloc(&context->heap, sizeof *made);
-    if (!made)
-        return virga_out_of_host_memory(context, "ripples");
-    made->resource.destroy = ripples_destroy;
-    TRY(virga_image_create(context, VK_FORMAT_R16G16_SFLOAT, (VkExtent2D){texels, texels}, 1,
-                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                           VK_IMAGE_ASPECT_COLOR_BIT, "ground.ripples", &made->map));
-    TRY(create_waves(context, texel_m, made));
-    TRY(create_pass(context, made));
+    TRY(virga_offscreen_create(context, &map, &ripples->map));
+    TRY(create_waves(context, texel_m, ripples));
     const virga_graphics_def def = {.vertex = VIRGA_SPIRV(ground_ring_vert),
                                     .fragment = VIRGA_SPIRV(ground_ring_frag),
                                     .layout = layout,
-                                    .render_pass = made->pass,
+                                    .render_pass = ripples->map->pass,
                                     .color_count = 1,
                                     .blend_add = true,
                                     .group = group,
                                     .name = "ground.ripples"};
-    TRY(virga_graphics_pipeline_create(context, &def, &made->pipeline));
-    *ripples = made;
-    return VIRGA_OK;
+    TRY(virga_graphics_pipeline_create(context, &def, &ripples->pipeline));
 error:
-    ground_ripples_retire(context, &made);
     return result;
 }
 
@@ -182,19 +126,8 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
 
 void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples)
 {
-    const VkExtent2D extent = ripples->map->extent;
-    const VkClearValue clear = {.color = {.float32 = {0, 0, 0, 0}}};
-    const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-                                         .renderPass = ripples->pass,
-                                         .framebuffer = ripples->framebuffer,
-                                         .renderArea = {{0, 0}, extent},
-                                         .clearValueCount = 1,
-                                         .pClearValues = &clear};
-    const VkViewport viewport = {0, 0, (float)extent.width, (float)extent.height, 0, 1};
-    context->vk.CmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    context->vk.CmdSetViewport(cmd, 0, 1, &viewport);
-    context->vk.CmdSetScissor(cmd, 0, 1, &begin.renderArea);
+    virga_offscreen_begin(context, cmd, ripples->map, 0);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ripples->pipeline->pipeline);
     context->vk.CmdDraw(cmd, 6 * VIRGA_MAX_RINGS, 1, 0, 0);
-    context->vk.CmdEndRenderPass(cmd);
+    virga_offscreen_end(context, cmd);
 }

@@ -394,7 +394,7 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,
                                       &ground->sets[GROUND_DROPS], 2, offsets);
-    ground_ripples_draw(context, cmd, ground->ripples);
+    ground_ripples_draw(context, cmd, &ground->ripples);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -421,7 +421,7 @@ static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
     ground->base_m = (double)(float)floor(ground->info.camera_m[1]);
     virga_mesh_map_first_layouts(context, cmd, ground->height_map);
     virga_mesh_map_first_layouts(context, cmd, ground->far.height_map);
-    ground_ripples_upload(context, cmd, ground->ripples);
+    ground_ripples_upload(context, cmd, &ground->ripples);
     static const float first_near_m = 3;
     uint32_t bits;
     memcpy(&bits, &first_near_m, sizeof bits);

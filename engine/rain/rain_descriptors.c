@@ -76,9 +76,9 @@ VkDescriptorSet rain_write_set(virga_rain *rain, uint32_t index, const virga_ima
     bind_unused(rain, &bound[BIND_POINTS]);
     bind_unused(rain, &bound[BIND_HITS]);
     bind_unused(rain, &bound[BIND_HIT_PLACES]);
-    bound[BIND_MAP_DEPTH] = bound_image(nearest, host_map ? host_map->view : rain->map->depth->view,
+    bound[BIND_MAP_DEPTH] = bound_image(nearest, host_map ? host_map->view : virga_mesh_map_depth(rain->map)->view,
                                         host_map ? host_map->before.layout : read_only);
-    bound[BIND_MAP_SURFACE] = bound_image(nearest, rain->map->surface->view, read_only);
+    bound[BIND_MAP_SURFACE] = bound_image(nearest, virga_mesh_map_surface(rain->map)->view, read_only);
     bound[BIND_WIND] = bound_image(context->linear, wind ? wind->view : rain->blank_wind->view,
                                    wind ? wind->before.layout : read_only);
     bound[BIND_SCENE_DEPTH] = virga_bound_or_blank(scene_depth, rain->blank, nearest);

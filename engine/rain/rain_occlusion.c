@@ -282,7 +282,7 @@ void virga_rain_occlusion_map_get(const virga_rain *rain, virga_rain_occlusion_m
         return;
     const uint32_t slants = rain->def.occlusion_slants;
     *map = (virga_rain_occlusion_map){
-        .depth = rain->host_maps ? rain->host_map_image.view : rain->map->depth->view,
+        .depth = rain->host_maps ? rain->host_map_image.view : virga_mesh_map_depth(rain->map)->view,
         .layout = rain->host_maps ? rain->host_map_image.before.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
         .size = rain->host_maps ? rain->host_map_image.extent.width : rain->def.occlusion_size,
         .cascades = rain->def.occlusion_cascades,

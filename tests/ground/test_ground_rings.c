@@ -47,7 +47,8 @@ static void read_back(void)
     REQUIRE(virga_frame_begin(f.context, f.gpu.device.frame, f.gpu.device.completed) == VIRGA_OK);
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {256, 256, 1}};
-    vkCmdCopyImageToBuffer(cmd, f.ground->ripples->map->image, VK_IMAGE_LAYOUT_GENERAL, picture.buffer, 1, &copy);
+    const VkImage map = f.ground->ripples.map->colors[0]->image;
+    vkCmdCopyImageToBuffer(cmd, map, VK_IMAGE_LAYOUT_GENERAL, picture.buffer, 1, &copy);
     ground_fixture_copy(cmd, f.ground->rings->buffer, 0, records.buffer, 0, f.ground->rings->size);
     ground_fixture_submit(&f);
     host_buffer_invalidate(&f.gpu.device, &picture);
