@@ -232,6 +232,8 @@ bad 'seed below zero' render "$good" -o "$work/out" --seed -1
 bad 'seed of 33 bits' render "$good" -o "$work/out" --seed 4294967296
 bad 'nothing to measure' bench snow
 bad 'device that is not listed' info --device 99
+bad 'file without particles' info "$good"
+bad 'files of a device' info --device cpu "$good"
 sed 's/box.obj/none.obj/' "$good" >"$work/bad.yaml"
 bad 'missing mesh, checked' check "$work/bad.yaml"
 

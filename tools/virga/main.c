@@ -13,7 +13,8 @@ static const command commands[] = {
     {"render", "render a scene to layered EXR frames", render_run, render_help},
     {"view", "a scene in a window, with every setting on a panel", view_run, view_help},
     {"check", "validate a scene file", check_run, check_help},
-    {"info", "list Vulkan devices, and why each is or is not usable", info_run, info_help},
+    {"info", "list Vulkan devices and why each is or is not usable; what is in files of particles", info_run,
+     info_help},
     {"bench", "measure the passes against the machine's own limits", bench_run, bench_help},
 };
 

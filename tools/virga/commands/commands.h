@@ -17,6 +17,10 @@ int check_run(int argc, char **argv);
 void check_help(void);
 int info_run(int argc, char **argv);
 void info_help(void);
+
+/* Says what is in a file of particles; the exit code. */
+int info_particles(const char *path);
+
 int bench_run(int argc, char **argv);
 void bench_help(void);
 

@@ -1,4 +1,5 @@
-/* info.c - `virga info`: lists the devices, which one Virga would choose, and why not the others. */
+/* info.c - `virga info`: lists the devices, which one Virga would choose, and why not the others; or says what is in
+ * files of particles. */
 #include "commands/commands.h"
 #include "options.h"
 
@@ -12,9 +13,12 @@ static const option_row rows[] = {
 
 void info_help(void)
 {
-    printf("virga info [--device N|cpu|gpu|NAME]\n\n"
+    printf("virga info [--device N|cpu|gpu|NAME]\n"
+           "virga info FILE...\n\n"
            "Lists the Vulkan devices in the loader's order, marks the one that would be used, and says for\n"
-           "each other one why it can not be.\n\n");
+           "each other one why it can not be.\n\n"
+           "With files of simulated particles (PLY, legacy VTK, classic bgeo): how many, their attributes, where\n"
+           "they are and how far apart, in the units of the file.\n\n");
     options_print(rows, sizeof rows / sizeof rows[0]);
 }
 
@@ -28,6 +32,20 @@ static void print_features(void)
     printf("\n");
 }
 
+static int print_files(const options *parsed)
+{
+    if (options_value(parsed, "--device")) {
+        options_complain("info", "expected either --device or files, got both");
+        return EXIT_USAGE;
+    }
+    for (size_t i = 0; i < parsed->argument_count; i++) {
+        const int code = info_particles(parsed->arguments[i]);
+        if (code != EXIT_OK)
+            return code;
+    }
+    return EXIT_OK;
+}
+
 int info_run(int argc, char **argv)
 {
     options parsed;
@@ -37,10 +55,8 @@ int info_run(int argc, char **argv)
     uint32_t chosen = 0;
     if (!options_parse(&parsed, "info", rows, sizeof rows / sizeof rows[0], argc, argv))
         return EXIT_USAGE;
-    if (parsed.argument_count) {
-        options_complain("info", "takes no arguments, got '%s'", parsed.arguments[0]);
-        return EXIT_USAGE;
-    }
+    if (parsed.argument_count)
+        return print_files(&parsed);
     printf("virga %s\n", virga_version());
     print_features();
     if (!host_instance_create(&instance, false, error, sizeof error)) {
