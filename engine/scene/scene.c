@@ -11,6 +11,7 @@
 #include "ground/ground.h"
 #include "rain/rain.h"
 #include "splash/splash.h"
+#include "water/water.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,7 +24,8 @@ virga_scene_def virga_default_scene_def(void)
                              .cookie = SCENE_COOKIE,
                              .rain = virga_default_rain_def(),
                              .ground = virga_default_ground_def(),
-                             .splash = virga_default_splash_def()};
+                             .splash = virga_default_splash_def(),
+                             .water = virga_default_water_def()};
 }
 
 virga_result scene_merge_results(virga_result a, virga_result b)
@@ -202,6 +204,11 @@ virga_splash *virga_scene_splash(virga_scene *scene)
 virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index)
 {
     return scene_find(scene, &glass_type, index);
+}
+
+virga_water *virga_scene_water(virga_scene *scene)
+{
+    return scene_find(scene, &water_type, 0);
 }
 
 virga_result virga_scene_lighting_set(virga_scene *scene, const virga_lighting *lighting)

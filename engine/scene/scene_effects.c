@@ -1,7 +1,9 @@
 /* scene/scene_effects.c - the effects of a scene and the events between them. The only file that knows all effects.
  *
  *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, in the next step
- *       \-> hits -> panes */
+ *       \-> hits -> panes
+ *
+ *   the host's particles -> water */
 #include "scene/scene_internal.h"
 
 #include "core/settings.h"
@@ -11,6 +13,7 @@
 #include "ground/ground.h"
 #include "rain/rain.h"
 #include "splash/splash.h"
+#include "water/water.h"
 
 #include <string.h>
 
@@ -256,11 +259,31 @@ virga_result virga_scene_prepare_panes(virga_scene *scene, VkCommandBuffer cmd, 
     return result;
 }
 
+/* ---- water: the host has its particles */
+
+static uint32_t count_water(const virga_scene_def *def)
+{
+    return def->with_water;
+}
+
+static void define_water(const virga_scene_def *def, uint32_t index, void *effect_def)
+{
+    (void)index;
+    memcpy(effect_def, &def->water, sizeof def->water);
+}
+
+static virga_result step_water(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
+{
+    return virga_water_step(scene_find(scene, &water_type, index), cmd, &frame->water);
+}
+
 /* ---- the table */
 
-enum { DRAW_SPLASH, DRAW_GROUND, DRAW_RAIN, DRAW_PANES };
+enum { DRAW_SPLASH, DRAW_GROUND, DRAW_WATER, DRAW_RAIN, DRAW_PANES };
 
+/* Water is the first, as it is the one whose step has arguments of the host: if they are wrong nothing is recorded. */
 const scene_kind scene_kinds[] = {
+    {&water_type, DRAW_WATER, count_water, define_water, .step = step_water},
     {&rain_type, DRAW_RAIN, .define = define_rain, .step = step_rain},
     {&ground_type, DRAW_GROUND, count_ground, define_ground, .step = step_ground},
     {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash},

@@ -1,8 +1,8 @@
 /* virga/scene.h - all effects together, wired along their events, in the order that a frame needs.
  *
  * A host that wants all effects calls the functions of a scene. A host that wants a single effect needs only the header
- * of that effect. A scene holds rain and, optionally, the ground that it wets, the splashes that it makes there, and
- * panes with drops.
+ * of that effect. A scene holds rain and, optionally, the ground that it wets, the splashes that it makes there, panes
+ * with drops, and water from the particles of a simulation.
  */
 #ifndef VIRGA_SCENE_H
 #define VIRGA_SCENE_H
@@ -11,6 +11,7 @@
 #include <virga/ground.h>
 #include <virga/rain.h>
 #include <virga/splash.h>
+#include <virga/water.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,6 +46,11 @@ typedef struct virga_scene_def {
 
     /* [0; VIRGA_SCENE_MAX_PANES]. Default 0. */
     uint32_t pane_count;
+
+    /* Water from particles that each frame has. Default false. */
+    bool with_water;
+
+    virga_water_def water;
 } virga_scene_def;
 
 VIRGA_API virga_scene_def virga_default_scene_def(void);
@@ -54,8 +60,9 @@ VIRGA_API virga_scene_def virga_default_scene_def(void);
  * Returns 0 for a definition that virga_scene_create would refuse. Thread-safety: any thread. */
 VIRGA_API VkDeviceSize virga_scene_estimate(const virga_scene_def *def);
 
-/* Creates all effects of the definition: rain, ground, splash, panes. VIRGA_DEGRADED: effects were made smaller, in
- * proportion, to fit the context's memory_budget; see the log. Errors as virga_context_create; *scene is NULL then. */
+/* Creates all effects of the definition: water, rain, ground, splash, panes. VIRGA_DEGRADED: effects were made smaller,
+ * in proportion, to fit the context's memory_budget; see the log. Errors as virga_context_create; *scene is NULL
+ * then. */
 VIRGA_API virga_result virga_scene_create(virga_context *context, const virga_scene_def *def, virga_scene **scene);
 
 /* Destroys the scene and its effects, and sets *scene to NULL. Accepts NULL. */
@@ -73,6 +80,9 @@ VIRGA_API virga_splash *virga_scene_splash(virga_scene *scene);
 /* Returns a pane of the scene, for its shape, settings, buffers and statistics; NULL if there is none with that index.
  * Owned by the scene. */
 VIRGA_API virga_glass *virga_scene_glass(virga_scene *scene, uint32_t index);
+
+/* Returns the water of the scene, for its settings, buffers and statistics; NULL if it has none. Owned by the scene. */
+VIRGA_API virga_water *virga_scene_water(virga_scene *scene);
 
 /* Gives all effects the same light, in place of their own `lighting`; their other settings stay. It may be called at
  * any time and applies at once. Costs microseconds, so lamps may move every frame. Returns the first error
@@ -130,6 +140,10 @@ typedef struct virga_scene_frame {
     /* One per pane of the scene. May be NULL if it has none. */
     const virga_scene_pane *panes;
 
+    /* The particles of the scene's water, as virga_water_step takes them. They are read when the device executes the
+     * frame. All zero: there is no water in this frame. Not used in a scene without water. */
+    virga_water_step_info water;
+
     /* false: panes are prepared in virga_scene_record, which reads view->color if it is given. So it must hold a
      * picture by then; in a game that of the previous frame is fine. true: panes are stepped, but not prepared. Call
      * virga_scene_prepare_panes once the picture is there. Default false. */
@@ -139,8 +153,8 @@ typedef struct virga_scene_frame {
 /* Returns VIRGA_OK if the pipelines of all effects for stepping and preparing are built, see virga_rain_ready. */
 VIRGA_API virga_result virga_scene_ready(const virga_scene *scene);
 
-/* Records occlusion, rain, ground, splash, panes and prepare, in that order. Panes get rate, drop sizes, air density
- * and wind of the rain.
+/* Records water, occlusion, rain, ground, splash, panes and prepare, in that order. Panes get rate, drop sizes, air
+ * density and wind of the rain.
  *
  * VIRGA_NOT_READY, and nothing is recorded or stepped, until virga_scene_ready returns VIRGA_OK. Also for a view of no
  * pixels; then all else is done. Otherwise it returns the first error of the effects, else their last remark.
