@@ -15,13 +15,7 @@ bool bench_fail(bench *b, const char *what)
 
 static bool open_context(bench *b, const void *blob, size_t blob_size, virga_pipeline_build_mode when)
 {
-    virga_context_def def = virga_default_context_def();
-    def.instance = b->instance.instance;
-    def.physical_device = b->device.physical;
-    def.device = b->device.device;
-    def.queue_family = b->device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.wide_lines = b->device.wide_lines;
+    virga_context_def def = host_context_def(&b->device);
     def.pipeline_cache = blob;
     def.pipeline_cache_size = blob_size;
     def.pipeline_build_mode = when;

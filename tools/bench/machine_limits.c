@@ -15,10 +15,8 @@
 struct limits {
     uint32_t groups;
     host_buffer from, to;
-    VkDescriptorSetLayout set_layout;
-    VkDescriptorPool pool;
-    VkDescriptorSet set;
-    VkPipelineLayout layout, fill_layout;
+    host_bindings bindings;
+    VkPipelineLayout fill_layout;
     VkPipeline bare, fill;
 };
 
@@ -34,36 +32,22 @@ double bench_median(double *values, size_t count)
     return count ? values[count / 2] : 0;
 }
 
-static bool create_set(host_device *device, limits *l, char *error, size_t error_size)
-{
-    static const VkDescriptorType types[2] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    const host_set_shape shape = {types, 2, VK_SHADER_STAGE_COMPUTE_BIT};
-    if (!host_set_layout_create(device, &shape, &l->set_layout, error, error_size) ||
-        !host_set_pool_create(device, &shape, 1, &l->pool, error, error_size) ||
-        !host_sets_allocate(device, l->pool, l->set_layout, 1, &l->set, error, error_size))
-        return false;
-    host_set_write_buffer(device, l->set, 0, types[0], l->from.buffer);
-    host_set_write_buffer(device, l->set, 1, types[1], l->to.buffer);
-    return true;
-}
-
 static bool create_bare(host_device *device, limits *l, char *error, size_t error_size)
 {
-    return host_pipeline_layout_create(device, &l->set_layout, 1, 0, 0, &l->layout, error, error_size) &&
-           host_compute_create(device, HOST_CODE(bare_comp), l->layout, &l->bare, error, error_size);
+    static const VkDescriptorType types[2] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    const host_bindings_def def = {.shape = {types, 2, VK_SHADER_STAGE_COMPUTE_BIT}, .set_count = 1};
+    if (!host_bindings_create(device, &def, &l->bindings, error, error_size))
+        return false;
+    host_set_write_buffer(device, l->bindings.sets[0], 0, types[0], l->from.buffer);
+    host_set_write_buffer(device, l->bindings.sets[0], 1, types[1], l->to.buffer);
+    return host_compute_create(device, HOST_CODE(bare_comp), l->bindings.layout, &l->bare, error, error_size);
 }
 
 static bool create_fill(host_device *device, limits *l, const host_target *target, char *error, size_t error_size)
 {
-    if (!host_pipeline_layout_create(device, NULL, 0, 0, 0, &l->fill_layout, error, error_size))
-        return false;
-    const host_graphics_def def = {.vertex = HOST_CODE(fill_vert),
-                                   .fragment = HOST_CODE(fill_frag),
-                                   .layout = l->fill_layout,
-                                   .pass = target->layer_pass,
-                                   .colors = &host_blend_replace,
-                                   .color_count = 1};
-    return host_graphics_create(device, &def, &l->fill, error, error_size);
+    return host_pipeline_layout_create(device, NULL, 0, 0, 0, &l->fill_layout, error, error_size) &&
+           host_fullscreen_create(device, HOST_CODE(fill_vert), HOST_CODE(fill_frag), l->fill_layout,
+                                  target->layer_pass, &l->fill, error, error_size);
 }
 
 bool limits_create(host_device *device, const host_target *target, uint32_t drops, limits **made, char *error,
@@ -79,8 +63,7 @@ bool limits_create(host_device *device, const host_target *target, uint32_t drop
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (host_buffer_create(device, size, usage, HOST_BUFFER_DEVICE, "bench from", &l->from, error, error_size) &&
         host_buffer_create(device, size, usage, HOST_BUFFER_DEVICE, "bench to", &l->to, error, error_size) &&
-        create_set(device, l, error, error_size) && create_bare(device, l, error, error_size) &&
-        create_fill(device, l, target, error, error_size))
+        create_bare(device, l, error, error_size) && create_fill(device, l, target, error, error_size))
         return true;
     limits_destroy(device, made);
     return false;
@@ -93,14 +76,10 @@ void limits_destroy(host_device *device, limits **made)
         return;
     vkDestroyPipeline(device->device, l->bare, NULL);
     vkDestroyPipeline(device->device, l->fill, NULL);
-    vkDestroyPipelineLayout(device->device, l->layout, NULL);
     vkDestroyPipelineLayout(device->device, l->fill_layout, NULL);
-    vkDestroyDescriptorPool(device->device, l->pool, NULL);
-    vkDestroyDescriptorSetLayout(device->device, l->set_layout, NULL);
-    if (l->from.buffer)
-        host_buffer_destroy(device, &l->from);
-    if (l->to.buffer)
-        host_buffer_destroy(device, &l->to);
+    host_bindings_destroy(device, &l->bindings);
+    host_buffer_destroy(device, &l->from);
+    host_buffer_destroy(device, &l->to);
     free(l);
     *made = NULL;
 }
@@ -140,11 +119,16 @@ static void record_copy(VkCommandBuffer cmd, limits *l, const host_target *targe
     vkCmdCopyBuffer(cmd, l->from.buffer, l->to.buffer, 1, &copy);
 }
 
+static void bind_bare(VkCommandBuffer cmd, const limits *l)
+{
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bare);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bindings.layout, 0, 1, l->bindings.sets, 0, NULL);
+}
+
 static void record_bare(VkCommandBuffer cmd, limits *l, const host_target *target)
 {
     (void)target;
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bare);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->layout, 0, 1, &l->set, 0, NULL);
+    bind_bare(cmd, l);
     vkCmdDispatch(cmd, l->groups, 1, 1);
 }
 
@@ -152,8 +136,7 @@ static void record_dispatches(VkCommandBuffer cmd, limits *l, const host_target 
 {
     (void)target;
     const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->bare);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, l->layout, 0, 1, &l->set, 0, NULL);
+    bind_bare(cmd, l);
     for (int i = 0; i < EMPTY_DISPATCHES; i++) {
         vkCmdDispatch(cmd, 1, 1, 1);
         host_memory_barrier(cmd, compute, VK_ACCESS_SHADER_WRITE_BIT, compute,

@@ -2,8 +2,7 @@
  * images: stage_images.c. */
 #include "stage_internal.h"
 
-#include "descriptors.h"
-#include "passes.h"
+#include "camera.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,27 +32,17 @@ void stage_camera_set(const stage *s, stage_camera *camera)
     camera->clip_from_view[14] = (float)(NEAR_M * FAR_M / (NEAR_M - FAR_M));
 }
 
-static void multiply(const float a[16], const float b[16], float out[16])
-{
-    for (int column = 0; column < 4; column++)
-        for (int row = 0; row < 4; row++) {
-            out[4 * column + row] = 0;
-            for (int k = 0; k < 4; k++)
-                out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-        }
-}
-
 /* ---- uniforms */
 
 static void fill_camera(const stage *s, const stage_camera *camera, struct drive_frame_gpu *to)
 {
     const stage_camera *last = s->has_last ? &s->last : camera;
-    multiply(camera->clip_from_view, camera->view_from_world, to->clip_from_relative);
+    host_matrix_multiply(camera->clip_from_view, camera->view_from_world, to->clip_from_relative);
     float rotated[16], moved[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (int i = 0; i < 3; i++)
         moved[12 + i] = to->moved[i] = (float)(camera->position_m[i] - last->position_m[i]);
-    multiply(last->clip_from_view, last->view_from_world, rotated);
-    multiply(rotated, moved, to->last_from_relative);
+    host_matrix_multiply(last->clip_from_view, last->view_from_world, rotated);
+    host_matrix_multiply(rotated, moved, to->last_from_relative);
     for (int i = 0; i < 3; i++) {
         to->ray_x[i] = camera->view_from_world[4 * i] / camera->clip_from_view[0];
         to->ray_y[i] = camera->view_from_world[4 * i + 1] / camera->clip_from_view[5];
@@ -188,7 +177,7 @@ void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera
     if (!s->has_last)
         clear_behind(s, cmd);
     begin_pass(cmd, s->world_pass, s->world_framebuffer, s);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 0, 1, &s->frame_sets[slot(s)], 0,
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world.layout, 0, 1, &s->world.sets[slot(s)], 0,
                             NULL);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->sky_pipeline);
     vkCmdDraw(cmd, 3, 1, 0, 0);
@@ -228,9 +217,9 @@ static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_dra
         surface->traits[3] = primitive->ground ? (float)(1 + primitive->surface) : 0;
         if (glass)
             vkCmdSetBlendConstants(cmd, (const float[4]){through, through, through, 0});
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_layout, 1, 1, &sets[primitive->material],
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world.layout, 1, 1, &sets[primitive->material],
                                 0, NULL);
-        vkCmdPushConstants(cmd, s->world_layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+        vkCmdPushConstants(cmd, s->world.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                            sizeof *surface, surface);
         vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
     }
@@ -287,9 +276,9 @@ void stage_over_end(stage *s, VkCommandBuffer cmd)
 
 static void show(stage *s, VkCommandBuffer cmd, bool keep)
 {
-    begin_pass(cmd, s->show_pass, s->show_framebuffers[s->image], s);
+    begin_pass(cmd, s->show_pass, s->slices[s->image].framebuffer, s);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->show_pipeline);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->show_pipeline_layout, 0, 1, &s->show_set, 0, NULL);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->show.layout, 0, 1, s->show.sets, 0, NULL);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     vkCmdEndRenderPass(cmd);
     if (s->window || !keep)
@@ -335,18 +324,20 @@ const uint8_t *stage_picture(stage *s)
 void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment)
 {
     const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, general = VK_IMAGE_LAYOUT_GENERAL;
+    const VkSampler nearest = s->samplers[HOST_SAMPLE_NEAREST], linear = s->samplers[HOST_SAMPLE_LINEAR];
+    const VkSampler repeat = s->samplers[HOST_SAMPLE_TEXTURE];
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
-        const VkDescriptorSet set = s->frame_sets[i];
+        const VkDescriptorSet set = s->world.sets[i];
         host_set_write_buffer(s->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, s->numbers[i].buffer);
-        host_set_write_image(s->device, set, 1, s->repeat, environment->sky.view, read);
-        host_set_write_image(s->device, set, 2, s->smooth, environment->reflection.view, read);
-        host_set_write_image(s->device, set, 3, s->nearest, maps->wetness, general);
-        host_set_write_image(s->device, set, 4, s->nearest, maps->spots, general);
-        host_set_write_image(s->device, set, 5, s->smooth, maps->ripples, general);
-        host_set_write_image(s->device, set, 6, s->smooth, s->behind.view, read);
-        host_set_write_image(s->device, set, 7, s->nearest, maps->far_wetness, general);
+        host_set_write_image(s->device, set, 1, repeat, environment->sky.view, read);
+        host_set_write_image(s->device, set, 2, linear, environment->reflection.view, read);
+        host_set_write_image(s->device, set, 3, nearest, maps->wetness, general);
+        host_set_write_image(s->device, set, 4, nearest, maps->spots, general);
+        host_set_write_image(s->device, set, 5, linear, maps->ripples, general);
+        host_set_write_image(s->device, set, 6, linear, s->behind.view, read);
+        host_set_write_image(s->device, set, 7, nearest, maps->far_wetness, general);
     }
-    host_set_write_image(s->device, s->show_set, 0, s->nearest, s->color.view, read);
+    host_set_write_image(s->device, s->show.sets[0], 0, nearest, s->color.view, read);
 }
 
 bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size)
@@ -354,14 +345,16 @@ bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size)
     if (s->mesh_count == STAGE_MESHES || mesh->material_count > 64)
         return host_fail(error, error_size, "more than %d meshes, or 64 materials in one", STAGE_MESHES);
     VkDescriptorSet *sets = s->meshes[s->mesh_count].sets;
-    if (!host_sets_allocate(s->device, s->pool, s->material_layout, mesh->material_count, sets, error, error_size))
+    if (!host_sets_allocate(s->device, s->material_pool, s->material_layout, mesh->material_count, sets, error,
+                            error_size))
         return false;
     for (uint32_t i = 0; i < mesh->material_count; i++) {
         const host_material *material = &mesh->materials[i];
         const int32_t textures[2] = {material->base_texture, material->emissive_texture};
         for (uint32_t k = 0; k < 2; k++) {
             const VkImageView view = textures[k] >= 0 ? mesh->textures[textures[k]].view : s->white.view;
-            host_set_write_image(s->device, sets[i], k, s->repeat, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            host_set_write_image(s->device, sets[i], k, s->samplers[HOST_SAMPLE_TEXTURE], view,
+                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
     }
     s->meshes[s->mesh_count++].mesh = mesh;

@@ -12,8 +12,10 @@
 #include <virga/ground.h>
 #include <virga/light.h>
 
+#include "descriptors.h"
 #include "environment.h"
 #include "mesh.h"
+#include "passes.h"
 #include "shaders/drive_gpu.h"
 
 #define STAGE_IMAGES 8 /* of a swapchain, at most */
@@ -54,8 +56,7 @@ typedef struct stage {
     uint32_t width, height;      /* 0: minimised, nothing can be drawn */
     uint32_t image_count, image; /* of the swapchain; the one of this frame */
     VkImage images[STAGE_IMAGES];
-    VkImageView image_views[STAGE_IMAGES];
-    VkFramebuffer show_framebuffers[STAGE_IMAGES];
+    host_slice slices[STAGE_IMAGES]; /* of these, or one of the picture */
     VkSemaphore acquired[HOST_FRAMES], finished[STAGE_IMAGES];
     host_image picture; /* instead of a swapchain */
     host_buffer copy;   /* its bytes, after the last frame */
@@ -64,12 +65,11 @@ typedef struct stage {
     VkRenderPass world_pass, over_pass, show_pass;
     VkFramebuffer world_framebuffer, over_framebuffer;
 
-    VkDescriptorSetLayout frame_layout, material_layout, show_layout;
-    VkPipelineLayout world_layout, show_pipeline_layout;
+    host_bindings world, show;             /* a set for each frame in flight; one set */
+    VkDescriptorSetLayout material_layout; /* set 1 of `world` */
+    VkDescriptorPool material_pool;
     VkPipeline world_pipeline, glass_pipeline, sky_pipeline, show_pipeline;
-    VkDescriptorPool pool;
-    VkDescriptorSet frame_sets[HOST_FRAMES], show_set;
-    VkSampler smooth, nearest, repeat;
+    VkSampler samplers[HOST_SAMPLINGS];
     host_buffer numbers[HOST_FRAMES]; /* drive_frame_gpu */
     host_image white;
     struct {

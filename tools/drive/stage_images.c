@@ -5,8 +5,6 @@
 
 #include "stage_internal.h"
 
-#include "passes.h"
-
 #include <string.h>
 
 bool stage_images_choose(stage *s, char *error, size_t error_size)
@@ -25,8 +23,7 @@ bool stage_images_choose(stage *s, char *error, size_t error_size)
     return host_fail(error, error_size, "the window takes no sRGB format");
 }
 
-static bool create_swapchain(stage *s, VkExtent2D extent, const VkSurfaceCapabilitiesKHR *can, char *error,
-                             size_t error_size)
+static bool create_swapchain(stage *s, const VkSurfaceCapabilitiesKHR *can, char *error, size_t error_size)
 {
     const uint32_t max_count = can->maxImageCount ? can->maxImageCount : STAGE_IMAGES;
     const uint32_t wanted = can->minImageCount + 1;
@@ -36,7 +33,7 @@ static bool create_swapchain(stage *s, VkExtent2D extent, const VkSurfaceCapabil
         .minImageCount = wanted < max_count ? wanted : max_count,
         .imageFormat = s->show_format,
         .imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR,
-        .imageExtent = extent,
+        .imageExtent = {s->width, s->height},
         .imageArrayLayers = 1,
         .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
         .preTransform = can->currentTransform,
@@ -49,8 +46,6 @@ static bool create_swapchain(stage *s, VkExtent2D extent, const VkSurfaceCapabil
     HOST_TRY(vkGetSwapchainImagesKHR(s->device->device, s->swapchain, &s->image_count, s->images));
     for (uint32_t i = 0; i < s->image_count; i++) {
         VkSemaphoreCreateInfo semaphore = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-        if (!host_view_create(s->device, s->images[i], s->show_format, 0, 0, &s->image_views[i], error, error_size))
-            return false;
         HOST_TRY(vkCreateSemaphore(s->device->device, &semaphore, NULL, &s->finished[i]));
     }
     return true;
@@ -67,6 +62,19 @@ static bool create_framebuffer(stage *s, VkRenderPass pass, const VkImageView *v
                                VkFramebuffer *framebuffer, char *error, size_t error_size)
 {
     return host_framebuffer_create(s->device, pass, views, count, s->width, s->height, framebuffer, error, error_size);
+}
+
+/* What is shown: the images of the swapchain, or the picture. */
+static bool create_slices(stage *s, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->image_count; i++) {
+        const host_image of_window = {
+            .image = s->images[i], .format = s->show_format, .extent = {s->width, s->height, 1}};
+        if (!host_slice_create(s->device, s->show_pass, s->window ? &of_window : &s->picture, 0, 0, &s->slices[i],
+                               error, error_size))
+            return false;
+    }
+    return true;
 }
 
 static bool create_images(stage *s, char *error, size_t error_size)
@@ -91,11 +99,7 @@ static bool create_images(stage *s, char *error, size_t error_size)
             return false;
         s->image_count = 1;
     }
-    for (uint32_t i = 0; i < s->image_count; i++)
-        if (!create_framebuffer(s, s->show_pass, s->window ? &s->image_views[i] : &s->picture.view, 1,
-                                &s->show_framebuffers[i], error, error_size))
-            return false;
-    return true;
+    return create_slices(s, error, error_size);
 }
 
 void stage_images_destroy(stage *s)
@@ -104,16 +108,14 @@ void stage_images_destroy(stage *s)
     vkDestroyFramebuffer(device, s->world_framebuffer, NULL);
     vkDestroyFramebuffer(device, s->over_framebuffer, NULL);
     for (uint32_t i = 0; i < s->image_count; i++) {
-        vkDestroyFramebuffer(device, s->show_framebuffers[i], NULL);
-        vkDestroyImageView(device, s->image_views[i], NULL);
+        host_slice_destroy(s->device, &s->slices[i]);
         vkDestroySemaphore(device, s->finished[i], NULL);
     }
     if (s->swapchain)
         vkDestroySwapchainKHR(device, s->swapchain, NULL);
     s->swapchain = VK_NULL_HANDLE;
     s->world_framebuffer = s->over_framebuffer = VK_NULL_HANDLE;
-    memset(s->show_framebuffers, 0, sizeof s->show_framebuffers);
-    memset(s->image_views, 0, sizeof s->image_views);
+    memset(s->slices, 0, sizeof s->slices);
     memset(s->finished, 0, sizeof s->finished);
     s->image_count = 0;
     host_image_destroy(s->device, &s->color);
@@ -146,8 +148,7 @@ bool stage_images_again(stage *s, bool *resized, char *error, size_t error_size)
     if (!s->width)
         return true;
     *resized = true;
-    return (!s->window || create_swapchain(s, (VkExtent2D){s->width, s->height}, &can, error, error_size)) &&
-           create_images(s, error, error_size);
+    return (!s->window || create_swapchain(s, &can, error, error_size)) && create_images(s, error, error_size);
 }
 
 bool stage_images_fit(stage *s, bool *resized, char *error, size_t error_size)

@@ -22,6 +22,20 @@ bool host_sampler_create(host_device *device, host_sampling sampling, VkSampler 
     return true;
 }
 
+bool host_samplers_create(host_device *device, VkSampler samplers[HOST_SAMPLINGS], char *error, size_t error_size)
+{
+    for (int i = 0; i < HOST_SAMPLINGS; i++)
+        if (!host_sampler_create(device, (host_sampling)i, &samplers[i], error, error_size))
+            return false;
+    return true;
+}
+
+void host_samplers_destroy(const host_device *device, const VkSampler samplers[HOST_SAMPLINGS])
+{
+    for (int i = 0; i < HOST_SAMPLINGS; i++)
+        vkDestroySampler(device->device, samplers[i], NULL);
+}
+
 bool host_set_layout_create(host_device *device, const host_set_shape *shape, VkDescriptorSetLayout *layout,
                             char *error, size_t error_size)
 {
@@ -65,6 +79,43 @@ bool host_sets_allocate(host_device *device, VkDescriptorPool pool, VkDescriptor
     for (uint32_t i = 0; i < count; i++)
         HOST_TRY(vkAllocateDescriptorSets(device->device, &info, &sets[i]));
     return true;
+}
+
+bool host_pipeline_layout_create(host_device *device, const VkDescriptorSetLayout *sets, uint32_t set_count,
+                                 VkShaderStageFlags push_stages, uint32_t push_size, VkPipelineLayout *layout,
+                                 char *error, size_t error_size)
+{
+    const VkPushConstantRange push = {push_stages, 0, push_size};
+    const VkPipelineLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = set_count,
+        .pSetLayouts = sets,
+        .pushConstantRangeCount = push_size > 0,
+        .pPushConstantRanges = &push,
+    };
+    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, layout));
+    return true;
+}
+
+bool host_bindings_create(host_device *device, const host_bindings_def *def, host_bindings *bindings, char *error,
+                          size_t error_size)
+{
+    *bindings = (host_bindings){0};
+    if (!host_set_layout_create(device, &def->shape, &bindings->set_layout, error, error_size) ||
+        !host_set_pool_create(device, &def->shape, def->set_count, &bindings->pool, error, error_size) ||
+        !host_sets_allocate(device, bindings->pool, bindings->set_layout, def->set_count, bindings->sets, error,
+                            error_size))
+        return false;
+    const VkDescriptorSetLayout sets[] = {bindings->set_layout, def->next};
+    return host_pipeline_layout_create(device, sets, def->next ? 2 : 1, def->push_stages, def->push_bytes,
+                                       &bindings->layout, error, error_size);
+}
+
+void host_bindings_destroy(const host_device *device, const host_bindings *bindings)
+{
+    vkDestroyPipelineLayout(device->device, bindings->layout, NULL);
+    vkDestroyDescriptorPool(device->device, bindings->pool, NULL);
+    vkDestroyDescriptorSetLayout(device->device, bindings->set_layout, NULL);
 }
 
 void host_set_write_image(const host_device *device, VkDescriptorSet set, uint32_t binding, VkSampler sampler,

@@ -131,6 +131,18 @@ bool host_device_wrap(host_device *device, const host_instance *instance, const 
     return use_device(device, made, error, error_size);
 }
 
+virga_context_def host_context_def(const host_device *device)
+{
+    virga_context_def def = virga_default_context_def();
+    def.instance = device->instance->instance;
+    def.physical_device = device->physical;
+    def.device = device->device;
+    def.queue_family = device->queue_family;
+    def.get_instance_proc_addr = vkGetInstanceProcAddr;
+    def.wide_lines = device->wide_lines;
+    return def;
+}
+
 uint32_t host_device_destroy(host_device *device)
 {
     if (!device->device)

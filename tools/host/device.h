@@ -4,6 +4,8 @@
 
 #include "device_list.h"
 
+#include <virga/vulkan.h>
+
 #define HOST_FRAMES 2 /* command buffers in flight */
 
 typedef struct host_frame {
@@ -45,6 +47,9 @@ bool host_device_create(host_device *device, const host_instance *instance, cons
  * enabled. */
 bool host_device_wrap(host_device *device, const host_instance *instance, const host_device_info *info, VkDevice made,
                       char *error, size_t error_size);
+
+/* A definition of a context on this device. */
+virga_context_def host_context_def(const host_device *device);
 
 /* Waits for the device, destroys it, returns the number of buffers and images that were still alive (0 is right). */
 uint32_t host_device_destroy(host_device *device);

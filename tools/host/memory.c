@@ -262,9 +262,9 @@ void host_image_barrier(VkCommandBuffer cmd, const host_image *image, VkImageLay
     vkCmdPipelineBarrier(cmd, from_stage, to_stage, 0, 0, NULL, 0, NULL, 1, &barrier);
 }
 
-static uint32_t half_of(uint32_t size)
+uint32_t host_level_size(uint32_t size, uint32_t level)
 {
-    return size > 1 ? size / 2 : 1;
+    return size >> level ? size >> level : 1;
 }
 
 static void record_image_copy(VkCommandBuffer cmd, const host_buffer *staging, const host_image *image, uint32_t texel)
@@ -272,9 +272,11 @@ static void record_image_copy(VkCommandBuffer cmd, const host_buffer *staging, c
     host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                        VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
                        VK_ACCESS_TRANSFER_WRITE_BIT);
-    VkExtent3D extent = image->extent;
+    const VkExtent3D whole = image->extent;
     VkDeviceSize offset = 0;
     for (uint32_t level = 0; level < image->levels; level++) {
+        const VkExtent3D extent = {host_level_size(whole.width, level), host_level_size(whole.height, level),
+                                   host_level_size(whole.depth, level)};
         VkBufferImageCopy region = {
             .bufferOffset = offset,
             .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1},
@@ -282,7 +284,6 @@ static void record_image_copy(VkCommandBuffer cmd, const host_buffer *staging, c
         };
         vkCmdCopyBufferToImage(cmd, staging->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         offset += (VkDeviceSize)extent.width * extent.height * extent.depth * texel;
-        extent = (VkExtent3D){half_of(extent.width), half_of(extent.height), half_of(extent.depth)};
     }
     host_image_barrier(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,

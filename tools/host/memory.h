@@ -52,6 +52,9 @@ typedef struct host_image_def {
     const char *name;
 } host_image_def;
 
+/* Texels along a side of a mipmap level. */
+uint32_t host_level_size(uint32_t size, uint32_t level);
+
 bool host_image_create(host_device *device, const host_image_def *def, host_image *image, char *error,
                        size_t error_size);
 void host_image_destroy(host_device *device, host_image *image);

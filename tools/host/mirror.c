@@ -69,7 +69,7 @@ static bool create_haze_pass(host_device *device, host_mirror *mirror, char *err
 
 static bool create_framebuffers(host_device *device, host_mirror *mirror, char *error, size_t error_size)
 {
-    const VkImageView views[] = {mirror->levels.views[0], mirror->near.view, mirror->depth.view};
+    const VkImageView views[] = {mirror->levels.slices[0].view, mirror->near.view, mirror->depth.view};
     return host_framebuffer_create(device, mirror->pass, views, 3, mirror->width, mirror->height, &mirror->framebuffer,
                                    error, error_size) &&
            host_framebuffer_create(device, mirror->haze_pass, views, 1, mirror->width, mirror->height,

@@ -1,8 +1,6 @@
 /* mirror_levels.c - each level from the one before, by one triangle over it. */
 #include "mirror_levels.h"
 
-#include "descriptors.h"
-#include "passes.h"
 #include "pipeline.h"
 
 #include <string.h>
@@ -12,16 +10,11 @@
 
 #define MIN_SIDE 2
 
-static uint32_t level_side(uint32_t side, uint32_t level)
-{
-    return side >> level ? side >> level : 1;
-}
-
 uint32_t host_mirror_level_count(uint32_t width, uint32_t height)
 {
     const uint32_t shorter = width < height ? width : height;
     uint32_t count = 1;
-    while (count < HOST_MIRROR_LEVELS && level_side(shorter, count) >= MIN_SIDE)
+    while (count < HOST_MIRROR_LEVELS && host_level_size(shorter, count) >= MIN_SIDE)
         count++;
     return count;
 }
@@ -46,46 +39,26 @@ static bool create_pass(host_device *device, host_mirror_levels *levels, VkForma
     return host_pass_create(device, &def, &levels->pass, error, error_size);
 }
 
-static bool create_views(host_device *device, host_mirror_levels *levels, const host_image *color, char *error,
-                         size_t error_size)
+static bool create_slices(host_device *device, host_mirror_levels *levels, const host_image *color, char *error,
+                          size_t error_size)
 {
-    for (uint32_t i = 0; i < levels->count; i++) {
-        const uint32_t width = level_side(color->extent.width, i), height = level_side(color->extent.height, i);
-        if (!host_view_create(device, color->image, color->format, i, 0, &levels->views[i], error, error_size))
+    for (uint32_t i = 0; i < levels->count; i++)
+        if (!host_slice_create(device, levels->pass, color, i, 0, &levels->slices[i], error, error_size))
             return false;
-        if (i > 0 && !host_framebuffer_create(device, levels->pass, &levels->views[i], 1, width, height,
-                                              &levels->framebuffers[i], error, error_size))
-            return false;
-    }
     return true;
 }
 
 static bool create_sets(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
 {
     static const VkDescriptorType type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    const host_set_shape shape = {&type, 1, VK_SHADER_STAGE_FRAGMENT_BIT};
+    const host_bindings_def def = {.shape = {&type, 1, VK_SHADER_STAGE_FRAGMENT_BIT}, .set_count = levels->count};
     if (!host_sampler_create(device, HOST_SAMPLE_LINEAR, &levels->sampler, error, error_size) ||
-        !host_set_layout_create(device, &shape, &levels->set_layout, error, error_size) ||
-        !host_set_pool_create(device, &shape, HOST_MIRROR_LEVELS, &levels->pool, error, error_size) ||
-        !host_sets_allocate(device, levels->pool, levels->set_layout, levels->count, levels->sets, error, error_size))
+        !host_bindings_create(device, &def, &levels->bindings, error, error_size))
         return false;
     for (uint32_t i = 1; i < levels->count; i++)
-        host_set_write_image(device, levels->sets[i], 0, levels->sampler, levels->views[i - 1],
+        host_set_write_image(device, levels->bindings.sets[i], 0, levels->sampler, levels->slices[i - 1].view,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     return true;
-}
-
-static bool create_pipeline(host_device *device, host_mirror_levels *levels, char *error, size_t error_size)
-{
-    if (!host_pipeline_layout_create(device, &levels->set_layout, 1, 0, 0, &levels->layout, error, error_size))
-        return false;
-    const host_graphics_def def = {.vertex = HOST_CODE(mirror_level_vert),
-                                   .fragment = HOST_CODE(mirror_level_frag),
-                                   .layout = levels->layout,
-                                   .pass = levels->pass,
-                                   .colors = &host_blend_replace,
-                                   .color_count = 1};
-    return host_graphics_create(device, &def, &levels->pipeline, error, error_size);
 }
 
 bool host_mirror_levels_create(host_device *device, const host_image *color, host_mirror_levels *levels, char *error,
@@ -94,8 +67,9 @@ bool host_mirror_levels_create(host_device *device, const host_image *color, hos
     memset(levels, 0, sizeof *levels);
     levels->count = color->levels;
     if (create_pass(device, levels, color->format, error, error_size) &&
-        create_views(device, levels, color, error, error_size) && create_sets(device, levels, error, error_size) &&
-        create_pipeline(device, levels, error, error_size))
+        create_slices(device, levels, color, error, error_size) && create_sets(device, levels, error, error_size) &&
+        host_fullscreen_create(device, HOST_CODE(mirror_level_vert), HOST_CODE(mirror_level_frag),
+                               levels->bindings.layout, levels->pass, &levels->pipeline, error, error_size))
         return true;
     host_mirror_levels_destroy(device, levels);
     return false;
@@ -103,17 +77,12 @@ bool host_mirror_levels_create(host_device *device, const host_image *color, hos
 
 void host_mirror_levels_destroy(host_device *device, host_mirror_levels *levels)
 {
-    VkDevice vk = device->device;
-    vkDestroyPipeline(vk, levels->pipeline, NULL);
-    vkDestroyPipelineLayout(vk, levels->layout, NULL);
-    vkDestroyDescriptorPool(vk, levels->pool, NULL);
-    vkDestroyDescriptorSetLayout(vk, levels->set_layout, NULL);
-    vkDestroySampler(vk, levels->sampler, NULL);
-    for (uint32_t i = 0; i < HOST_MIRROR_LEVELS; i++) {
-        vkDestroyFramebuffer(vk, levels->framebuffers[i], NULL);
-        vkDestroyImageView(vk, levels->views[i], NULL);
-    }
-    vkDestroyRenderPass(vk, levels->pass, NULL);
+    vkDestroyPipeline(device->device, levels->pipeline, NULL);
+    host_bindings_destroy(device, &levels->bindings);
+    vkDestroySampler(device->device, levels->sampler, NULL);
+    for (uint32_t i = 0; i < levels->count; i++)
+        host_slice_destroy(device, &levels->slices[i]);
+    vkDestroyRenderPass(device->device, levels->pass, NULL);
     memset(levels, 0, sizeof *levels);
 }
 
@@ -123,9 +92,11 @@ void host_mirror_levels_record(const host_mirror_levels *levels, VkCommandBuffer
 {
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->pipeline);
     for (uint32_t i = 1; i < levels->count; i++) {
-        const uint32_t width = level_side(color->extent.width, i), height = level_side(color->extent.height, i);
-        host_pass_begin(cmd, levels->pass, levels->framebuffers[i], width, height, 1);
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->layout, 0, 1, &levels->sets[i], 0, NULL);
+        const uint32_t width = host_level_size(color->extent.width, i),
+                       height = host_level_size(color->extent.height, i);
+        host_pass_begin(cmd, levels->pass, levels->slices[i].framebuffer, width, height, 1);
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, levels->bindings.layout, 0, 1,
+                                &levels->bindings.sets[i], 0, NULL);
         vkCmdDraw(cmd, 3, 1, 0, 0);
         vkCmdEndRenderPass(cmd);
     }

@@ -2,20 +2,17 @@
 #ifndef VIRGA_HOST_MIRROR_LEVELS_H
 #define VIRGA_HOST_MIRROR_LEVELS_H
 
-#include "memory.h"
+#include "descriptors.h"
+#include "passes.h"
 
 #define HOST_MIRROR_LEVELS 8 /* at most, the picture itself among them */
 
 typedef struct host_mirror_levels {
-    uint32_t count;                                 /* levels of the picture; 1: nothing to make */
-    VkImageView views[HOST_MIRROR_LEVELS];          /* of one level each */
-    VkFramebuffer framebuffers[HOST_MIRROR_LEVELS]; /* from the second level on */
+    uint32_t count; /* levels of the picture; 1: nothing to make */
+    host_slice slices[HOST_MIRROR_LEVELS];
     VkRenderPass pass;
-    VkDescriptorSetLayout set_layout;
-    VkDescriptorPool pool;
-    VkDescriptorSet sets[HOST_MIRROR_LEVELS]; /* what a level is made of: the one before it */
+    host_bindings bindings; /* set i has level i - 1, of which level i is made */
     VkSampler sampler;
-    VkPipelineLayout layout;
     VkPipeline pipeline;
 } host_mirror_levels;
 

@@ -72,6 +72,22 @@ bool host_framebuffer_create(host_device *device, VkRenderPass pass, const VkIma
     return true;
 }
 
+bool host_slice_create(host_device *device, VkRenderPass pass, const host_image *image, uint32_t level, uint32_t layer,
+                       host_slice *slice, char *error, size_t error_size)
+{
+    const uint32_t width = host_level_size(image->extent.width, level);
+    const uint32_t height = host_level_size(image->extent.height, level);
+    return host_view_create(device, image->image, image->format, level, layer, &slice->view, error, error_size) &&
+           host_framebuffer_create(device, pass, &slice->view, 1, width, height, &slice->framebuffer, error,
+                                   error_size);
+}
+
+void host_slice_destroy(const host_device *device, const host_slice *slice)
+{
+    vkDestroyFramebuffer(device->device, slice->framebuffer, NULL);
+    vkDestroyImageView(device->device, slice->view, NULL);
+}
+
 void host_pass_begin(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width, uint32_t height,
                      uint32_t color_count)
 {

@@ -2,7 +2,7 @@
 #ifndef VIRGA_HOST_PASSES_H
 #define VIRGA_HOST_PASSES_H
 
-#include "device.h"
+#include "memory.h"
 
 /* What comes before is done when what comes after begins. */
 typedef struct host_order {
@@ -34,6 +34,16 @@ bool host_pass_create(host_device *device, const host_pass_def *def, VkRenderPas
 bool host_framebuffer_create(host_device *device, VkRenderPass pass, const VkImageView *views, uint32_t count,
                              uint32_t width, uint32_t height, VkFramebuffer *framebuffer, char *error,
                              size_t error_size);
+
+/* One level of one layer of an image, to draw into. */
+typedef struct host_slice {
+    VkImageView view;
+    VkFramebuffer framebuffer;
+} host_slice;
+
+bool host_slice_create(host_device *device, VkRenderPass pass, const host_image *image, uint32_t level, uint32_t layer,
+                       host_slice *slice, char *error, size_t error_size);
+void host_slice_destroy(const host_device *device, const host_slice *slice);
 
 /* Begins a pass over all of a framebuffer, viewport and scissor set. What it clears is 0, and depth 1. */
 void host_pass_begin(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width, uint32_t height,

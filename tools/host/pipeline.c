@@ -1,6 +1,10 @@
 /* pipeline.c - see pipeline.h. */
 #include "pipeline.h"
 
+#include "mesh.h"
+
+#include <stddef.h>
+
 #define ALL_CHANNELS \
     (VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT)
 
@@ -13,21 +17,12 @@ const VkPipelineColorBlendAttachmentState host_blend_over = {.blendEnable = VK_T
                                                              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
                                                              .colorWriteMask = ALL_CHANNELS};
 
-bool host_pipeline_layout_create(host_device *device, const VkDescriptorSetLayout *sets, uint32_t set_count,
-                                 VkShaderStageFlags push_stages, uint32_t push_size, VkPipelineLayout *layout,
-                                 char *error, size_t error_size)
-{
-    const VkPushConstantRange push = {push_stages, 0, push_size};
-    const VkPipelineLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = set_count,
-        .pSetLayouts = sets,
-        .pushConstantRangeCount = push_size > 0,
-        .pPushConstantRanges = &push,
-    };
-    HOST_TRY(vkCreatePipelineLayout(device->device, &info, NULL, layout));
-    return true;
-}
+static const VkVertexInputBindingDescription vertices = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+static const VkVertexInputAttributeDescription attributes[] = {
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, position)},
+    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, normal)},
+};
 
 /* A stage with a module of its own, which the caller destroys; none for no shader. */
 static bool make_stage(host_device *device, host_code code, VkShaderStageFlagBits which,
@@ -45,13 +40,14 @@ static bool make_stage(host_device *device, host_code code, VkShaderStageFlagBit
 static VkResult create(host_device *device, const host_graphics_def *def, const VkPipelineShaderStageCreateInfo *stages,
                        VkPipeline *pipeline)
 {
-    static const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineVertexInputStateCreateInfo input = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = def->binding ? 1 : 0,
-        .pVertexBindingDescriptions = def->binding,
-        .vertexAttributeDescriptionCount = def->binding ? def->attribute_count : 0,
-        .pVertexAttributeDescriptions = def->attributes};
+    static const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                            VK_DYNAMIC_STATE_BLEND_CONSTANTS};
+    const VkPipelineVertexInputStateCreateInfo input = {.sType =
+                                                            VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+                                                        .vertexBindingDescriptionCount = def->attribute_count ? 1 : 0,
+                                                        .pVertexBindingDescriptions = &vertices,
+                                                        .vertexAttributeDescriptionCount = def->attribute_count,
+                                                        .pVertexAttributeDescriptions = attributes};
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
@@ -75,7 +71,7 @@ static VkResult create(host_device *device, const host_graphics_def *def, const 
                                                        .attachmentCount = def->color_count,
                                                        .pAttachments = def->colors};
     const VkPipelineDynamicStateCreateInfo dynamic = {.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                      .dynamicStateCount = 2,
+                                                      .dynamicStateCount = def->blend_constants ? 3 : 2,
                                                       .pDynamicStates = states};
     const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                                .stageCount = def->fragment.size ? 2 : 1,
@@ -104,6 +100,18 @@ bool host_graphics_create(host_device *device, const host_graphics_def *def, VkP
         vkDestroyShaderModule(device->device, stages[i].module, NULL);
     HOST_TRY(made);
     return good;
+}
+
+bool host_fullscreen_create(host_device *device, host_code vertex, host_code fragment, VkPipelineLayout layout,
+                            VkRenderPass pass, VkPipeline *pipeline, char *error, size_t error_size)
+{
+    const host_graphics_def def = {.vertex = vertex,
+                                   .fragment = fragment,
+                                   .layout = layout,
+                                   .pass = pass,
+                                   .colors = &host_blend_replace,
+                                   .color_count = 1};
+    return host_graphics_create(device, &def, pipeline, error, error_size);
 }
 
 bool host_compute_create(host_device *device, host_code code, VkPipelineLayout layout, VkPipeline *pipeline,

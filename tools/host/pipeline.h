@@ -15,28 +15,26 @@ typedef struct host_code {
 typedef struct host_graphics_def {
     host_code vertex, fragment; /* without a fragment shader depth alone is written */
     VkPipelineLayout layout;
-    VkRenderPass pass;                                   /* its first subpass */
-    const VkVertexInputBindingDescription *binding;      /* NULL: no vertex buffer */
-    const VkVertexInputAttributeDescription *attributes; /* of that one */
-    uint32_t attribute_count;
+    VkRenderPass pass;        /* its first subpass */
+    uint32_t attribute_count; /* of host_vertex: position at location 0, uv at 2, normal at 1. 0: no vertex buffer */
     VkCullModeFlags cull;
     VkFrontFace front;
     bool depth_test, depth_write;
     VkCompareOp compare; /* (depth_test) */
     const VkPipelineColorBlendAttachmentState *colors;
     uint32_t color_count;
+    bool blend_constants; /* set while recording */
 } host_graphics_def;
 
 /* What replaces what is there, and what is laid over it premultiplied. */
 extern const VkPipelineColorBlendAttachmentState host_blend_replace, host_blend_over;
 
-/* With push constants of `push_size` bytes from the start, seen by those stages; 0: none. */
-bool host_pipeline_layout_create(host_device *device, const VkDescriptorSetLayout *sets, uint32_t set_count,
-                                 VkShaderStageFlags push_stages, uint32_t push_size, VkPipelineLayout *layout,
-                                 char *error, size_t error_size);
-
 bool host_graphics_create(host_device *device, const host_graphics_def *def, VkPipeline *pipeline, char *error,
                           size_t error_size);
+
+/* Triangles without a vertex buffer, into one color attachment, without depth, blending or culling. */
+bool host_fullscreen_create(host_device *device, host_code vertex, host_code fragment, VkPipelineLayout layout,
+                            VkRenderPass pass, VkPipeline *pipeline, char *error, size_t error_size);
 
 bool host_compute_create(host_device *device, host_code code, VkPipelineLayout layout, VkPipeline *pipeline,
                          char *error, size_t error_size);

@@ -1,4 +1,4 @@
-/* renderer_internal.h - what renderer.c and renderer_pipelines.c share. */
+/* renderer_internal.h - what the files of the renderer share. */
 #ifndef VIRGA_HOST_RENDERER_INTERNAL_H
 #define VIRGA_HOST_RENDERER_INTERNAL_H
 
@@ -18,9 +18,23 @@ typedef enum host_pipeline {
     HOST_PIPELINE_COUNT,
 } host_pipeline;
 
-/* Sets of a frame: its numbers, sky, reflection, skylight, the ground's wetness, spots and ripples, the mirror, the
- * ground beyond the window, distances of the mirror. Sets of a material: its two textures. */
-extern const host_set_shape host_frame_shape, host_material_shape;
+/* Bindings of set 0, as the shaders have them. */
+enum {
+    FRAME_AT_UNIFORMS,
+    FRAME_AT_SKY,
+    FRAME_AT_REFLECTION,
+    FRAME_AT_SKYLIGHT,
+    FRAME_AT_WETNESS, /* of the ground, as the two below */
+    FRAME_AT_SPOTS,
+    FRAME_AT_RIPPLES,
+    FRAME_AT_MIRROR,
+    FRAME_AT_FAR_WETNESS, /* of the ground beyond the simulated window */
+    FRAME_AT_MIRROR_NEAR, /* distances in the mirror */
+    FRAME_BINDINGS,
+};
+
+/* Set 1: the two textures of a material. */
+extern const host_set_shape host_material_shape;
 
 typedef struct host_entry { /* a mesh that was added */
     const host_mesh *mesh;
@@ -31,13 +45,11 @@ typedef struct host_entry { /* a mesh that was added */
 
 struct host_renderer {
     host_device *device;
-    VkSampler mesh_sampler, sky_sampler, volume_sampler, point_sampler;
-    VkDescriptorSetLayout frame_layout, material_layout;
-    VkPipelineLayout layout;
+    VkSampler samplers[HOST_SAMPLINGS];
+    VkDescriptorSetLayout material_layout;
+    host_bindings bindings;
     VkPipeline pipelines[HOST_PIPELINE_COUNT][2]; /* [1]: two-sided */
     VkPipeline mirror_pipelines[HOST_PIPELINE_COUNT][2];
-    VkDescriptorPool frame_pool;
-    VkDescriptorSet frame_set;
     host_buffer frame_buffer;
     host_image white, blank_spots;
     virga_ground_maps ground; /* cells 0: none */
@@ -54,10 +66,14 @@ struct host_renderer {
     uint32_t next_id;
 };
 
-/* Set layouts, pipeline layout and all pipelines. */
+/* renderer_frame.c: the uniforms of a plate. */
+void host_renderer_fill_frame(const host_renderer *renderer, const host_target *target, const host_camera *camera,
+                              const host_camera *previous, struct host_frame_gpu *frame);
+
+/* renderer_pipelines.c: set layouts, pipeline layout and all pipelines of the plate. */
 bool host_renderer_build_pipelines(host_renderer *renderer, VkRenderPass pass, char *error, size_t error_size);
 
-/* The pipelines of the mirror, which was created before. */
+/* The pipelines of the mirror, which exists already. */
 bool host_renderer_build_mirror(host_renderer *renderer, char *error, size_t error_size);
 
 #endif

@@ -1,5 +1,4 @@
 /* renderer_pipelines.c - layouts and pipelines of the plate. */
-#include <stddef.h>
 #include <string.h>
 
 #include "pipeline.h"
@@ -16,20 +15,23 @@
 
 #define IMAGE VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
-static const VkDescriptorType types[] = {
+static const VkDescriptorType types[FRAME_BINDINGS] = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE, IMAGE};
 
-const host_set_shape host_frame_shape = {types, 10, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
 const host_set_shape host_material_shape = {types + 1, 2, VK_SHADER_STAGE_FRAGMENT_BIT};
 
-static bool create_layouts(host_renderer *r, char *error, size_t error_size)
+static bool create_bindings(host_renderer *r, char *error, size_t error_size)
 {
-    if (!host_set_layout_create(r->device, &host_frame_shape, &r->frame_layout, error, error_size) ||
-        !host_set_layout_create(r->device, &host_material_shape, &r->material_layout, error, error_size))
+    if (!host_set_layout_create(r->device, &host_material_shape, &r->material_layout, error, error_size))
         return false;
-    const VkDescriptorSetLayout sets[] = {r->frame_layout, r->material_layout};
-    return host_pipeline_layout_create(r->device, sets, 2, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                       sizeof(struct host_surface_gpu), &r->layout, error, error_size);
+    const host_bindings_def def = {
+        .shape = {types, FRAME_BINDINGS, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT},
+        .set_count = 1,
+        .push_stages = VK_SHADER_STAGE_FRAGMENT_BIT,
+        .push_bytes = sizeof(struct host_surface_gpu),
+        .next = r->material_layout,
+    };
+    return host_bindings_create(r->device, &def, &r->bindings, error, error_size);
 }
 
 /* ---- one pipeline ------------------------------------------------------------------------------------------- */
@@ -83,22 +85,14 @@ static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState s
 static bool create_pipeline(host_renderer *r, const pipeline_set *set, host_pipeline kind, bool two_sided, char *error,
                             size_t error_size)
 {
-    const VkVertexInputBindingDescription binding = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, position)},
-        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, normal)},
-        {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
-    };
     VkPipelineColorBlendAttachmentState colors[HOST_PLATE_COLORS];
     fill_blend(kind, colors);
     const host_graphics_def def = {
         .vertex = code_of(recipes[kind].vertex, set->mirror),
         .fragment = code_of(recipes[kind].fragment, set->mirror),
-        .layout = r->layout,
+        .layout = r->bindings.layout,
         .pass = set->pass,
-        .binding = kind == HOST_PIPELINE_SKY ? NULL : &binding,
-        .attributes = attributes,
-        .attribute_count = 3,
+        .attribute_count = kind == HOST_PIPELINE_SKY ? 0 : 3,
         .cull = two_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
         .front = set->mirror ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .depth_test = true,
@@ -127,7 +121,7 @@ static bool build(host_renderer *r, pipeline_set *set, char *error, size_t error
 bool host_renderer_build_pipelines(host_renderer *r, VkRenderPass pass, char *error, size_t error_size)
 {
     pipeline_set set = {.pass = pass, .colors = HOST_PLATE_COLORS, .pipelines = r->pipelines};
-    return create_layouts(r, error, error_size) && build(r, &set, error, error_size);
+    return create_bindings(r, error, error_size) && build(r, &set, error, error_size);
 }
 
 bool host_renderer_build_mirror(host_renderer *r, char *error, size_t error_size)

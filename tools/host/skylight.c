@@ -2,12 +2,8 @@
 #include "skylight.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
-#include "descriptors.h"
-#include "mesh.h"
-#include "passes.h"
 #include "pipeline.h"
 
 #include "skylight_comp.spv.h"
@@ -58,9 +54,7 @@ static bool create_images(host_device *device, host_skylight *s, char *error, si
         !host_image_create(device, &volume, &s->volume, error, error_size))
         return false;
     for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
-        if (!host_view_create(device, s->maps.image, s->maps.format, 0, i, &s->layers[i], error, error_size) ||
-            !host_framebuffer_create(device, s->pass, &s->layers[i], 1, MAP_SIZE, MAP_SIZE, &s->framebuffers[i], error,
-                                     error_size))
+        if (!host_slice_create(device, s->pass, &s->maps, 0, i, &s->slices[i], error, error_size))
             return false;
     return true;
 }
@@ -71,15 +65,14 @@ static const VkDescriptorType gather_kinds[3] = {
 
 static bool create_set(host_device *device, host_skylight *s, char *error, size_t error_size)
 {
-    const host_set_shape shape = {gather_kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT};
-    if (!host_set_layout_create(device, &shape, &s->set_layout, error, error_size) ||
-        !host_set_pool_create(device, &shape, 1, &s->pool, error, error_size) ||
-        !host_sets_allocate(device, s->pool, s->set_layout, 1, &s->set, error, error_size) ||
+    const host_bindings_def def = {.shape = {gather_kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT}, .set_count = 1};
+    if (!host_bindings_create(device, &def, &s->bindings, error, error_size) ||
         !host_sampler_create(device, HOST_SAMPLE_NEAREST, &s->sampler, error, error_size)) /* depth must not be mixed */
         return false;
-    host_set_write_buffer(device, s->set, 0, gather_kinds[0], s->numbers.buffer);
-    host_set_write_image(device, s->set, 1, s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
-    host_set_write_image(device, s->set, 2, VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL);
+    const VkDescriptorSet set = s->bindings.sets[0];
+    host_set_write_buffer(device, set, 0, gather_kinds[0], s->numbers.buffer);
+    host_set_write_image(device, set, 1, s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    host_set_write_image(device, set, 2, VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL);
     return true;
 }
 
@@ -89,17 +82,10 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
 static bool create_draw(host_device *device, host_skylight *s, host_code fragment, VkPipeline *pipeline, char *error,
                         size_t error_size)
 {
-    const VkVertexInputBindingDescription binding = {0, sizeof(host_vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, position)},
-        {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(host_vertex, uv)},
-    };
     const host_graphics_def def = {.vertex = HOST_CODE(skylight_vert),
                                    .fragment = fragment,
                                    .layout = s->draw_layout,
                                    .pass = s->pass,
-                                   .binding = &binding,
-                                   .attributes = attributes,
                                    .attribute_count = 2,
                                    .depth_test = true,
                                    .depth_write = true,
@@ -107,20 +93,15 @@ static bool create_draw(host_device *device, host_skylight *s, host_code fragmen
     return host_graphics_create(device, &def, pipeline, error, error_size);
 }
 
-static bool create_layouts(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
-                           size_t error_size)
+static bool create_pipelines(host_device *device, VkDescriptorSetLayout material_layout, host_skylight *s, char *error,
+                             size_t error_size)
 {
     const VkShaderStageFlags drawing = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     return host_pipeline_layout_create(device, &material_layout, 1, drawing, sizeof(struct host_skylight_draw_gpu),
                                        &s->draw_layout, error, error_size) &&
-           host_pipeline_layout_create(device, &s->set_layout, 1, 0, 0, &s->gather_layout, error, error_size);
-}
-
-static bool create_pipelines(host_device *device, host_skylight *s, char *error, size_t error_size)
-{
-    return create_draw(device, s, (host_code){0}, &s->opaque, error, error_size) &&
+           create_draw(device, s, (host_code){0}, &s->opaque, error, error_size) &&
            create_draw(device, s, HOST_CODE(skylight_frag), &s->cutout, error, error_size) &&
-           host_compute_create(device, HOST_CODE(skylight_comp), s->gather_layout, &s->gather, error, error_size);
+           host_compute_create(device, HOST_CODE(skylight_comp), s->bindings.layout, &s->gather, error, error_size);
 }
 
 /* Directions of equal solid angle over the upper hemisphere, on a spiral of the golden angle. */
@@ -143,8 +124,7 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
         create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
         host_buffer_create(device, sizeof s->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
-        create_set(device, s, error, error_size) && create_layouts(device, material_layout, s, error, error_size) &&
-        create_pipelines(device, s, error, error_size);
+        create_set(device, s, error, error_size) && create_pipelines(device, material_layout, s, error, error_size);
     if (!ok)
         host_skylight_destroy(device, s);
     return ok;
@@ -156,15 +136,11 @@ void host_skylight_destroy(host_device *device, host_skylight *s)
     vkDestroyPipeline(vk, s->gather, NULL);
     vkDestroyPipeline(vk, s->cutout, NULL);
     vkDestroyPipeline(vk, s->opaque, NULL);
-    vkDestroyPipelineLayout(vk, s->gather_layout, NULL);
     vkDestroyPipelineLayout(vk, s->draw_layout, NULL);
-    vkDestroyDescriptorPool(vk, s->pool, NULL);
-    vkDestroyDescriptorSetLayout(vk, s->set_layout, NULL);
+    host_bindings_destroy(device, &s->bindings);
     vkDestroySampler(vk, s->sampler, NULL);
-    for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
-        vkDestroyFramebuffer(vk, s->framebuffers[i], NULL);
-        vkDestroyImageView(vk, s->layers[i], NULL);
-    }
+    for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
+        host_slice_destroy(device, &s->slices[i]);
     vkDestroyRenderPass(vk, s->pass, NULL);
     host_buffer_destroy(device, &s->numbers);
     host_image_destroy(device, &s->maps);
@@ -257,7 +233,7 @@ void host_skylight_begin(host_skylight *s, VkCommandBuffer cmd)
 
 void host_skylight_begin_map(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction)
 {
-    host_pass_begin(cmd, s->pass, s->framebuffers[direction], MAP_SIZE, MAP_SIZE, 0);
+    host_pass_begin(cmd, s->pass, s->slices[direction].framebuffer, MAP_SIZE, MAP_SIZE, 0);
 }
 
 void host_skylight_push(const host_skylight *s, VkCommandBuffer cmd, uint32_t direction, float alpha, float cutoff)
@@ -283,7 +259,7 @@ void host_skylight_gather(host_skylight *s, VkCommandBuffer cmd)
                        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_SHADER_WRITE_BIT);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->gather);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->gather_layout, 0, 1, &s->set, 0, NULL);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, s->bindings.layout, 0, 1, s->bindings.sets, 0, NULL);
     vkCmdDispatch(cmd, HOST_SKYLIGHT_SIDE / 8, HOST_SKYLIGHT_HEIGHT / 4, HOST_SKYLIGHT_SIDE / 4);
     host_image_barrier(cmd, &s->volume, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,

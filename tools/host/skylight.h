@@ -7,21 +7,19 @@
 #ifndef VIRGA_HOST_SKYLIGHT_H
 #define VIRGA_HOST_SKYLIGHT_H
 
-#include "memory.h"
+#include "descriptors.h"
+#include "passes.h"
 #include "shaders/frame_gpu.h"
 
 typedef struct host_skylight {
-    host_image maps;   /* depth, one layer a direction */
-    host_image volume; /* xyz: mean direction, 1 up if all the sky is seen; w: its share */
-    VkImageView layers[HOST_SKYLIGHT_DIRECTIONS];
-    VkFramebuffer framebuffers[HOST_SKYLIGHT_DIRECTIONS];
+    host_image maps;                             /* depth, one layer a direction */
+    host_image volume;                           /* xyz: mean direction, 1 up if all the sky is seen; w: its share */
+    host_slice slices[HOST_SKYLIGHT_DIRECTIONS]; /* of the maps */
     VkRenderPass pass;
     host_buffer numbers; /* host_skylight_gpu */
     VkSampler sampler;
-    VkDescriptorSetLayout set_layout;
-    VkDescriptorPool pool;
-    VkDescriptorSet set;
-    VkPipelineLayout draw_layout, gather_layout;
+    host_bindings bindings; /* of the pass that gathers */
+    VkPipelineLayout draw_layout;
     VkPipeline opaque, cutout, gather;
 
     bool ready; /* the volume was filled, for: */

@@ -76,15 +76,15 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
 
 /* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
  * as well, its store at the end would be a write that hazards with those reads; only Vulkan 1.3 can store nothing. */
-static bool create_color_pass(host_device *device, const VkAttachmentDescription *attachment, VkRenderPass *pass,
-                              char *error, size_t error_size)
+static bool create_color_pass(host_device *device, const VkAttachmentDescription *attachments, uint32_t count,
+                              VkRenderPass *pass, char *error, size_t error_size)
 {
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
     const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
     const host_pass_def def = {
-        .attachments = attachment,
-        .color_count = 1,
+        .attachments = attachments,
+        .color_count = count,
         /* Passes are compatible only with the same dependencies: they are those that any of them needs. */
         .before = {copying | drawing, writes | VK_ACCESS_TRANSFER_WRITE_BIT, drawing,
                    VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | writes},
@@ -101,16 +101,7 @@ static bool create_moving_pass(host_device *device, host_target *target, char *e
     attachments[0].finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     attachments[1].initialLayout = attachments[1].finalLayout;
-    const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkPipelineStageFlags copying = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    const VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-    const host_pass_def def = {
-        .attachments = attachments,
-        .color_count = 2,
-        .before = {copying | drawing, writes, drawing, VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | writes},
-        .after = {drawing, writes, copying, VK_ACCESS_TRANSFER_READ_BIT},
-    };
-    return host_pass_create(device, &def, &target->moving_pass, error, error_size);
+    return create_color_pass(device, attachments, 2, &target->moving_pass, error, error_size);
 }
 
 static bool create_layer_passes(host_device *device, host_target *target, char *error, size_t error_size)
@@ -120,8 +111,8 @@ static bool create_layer_passes(host_device *device, host_target *target, char *
     behind.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     behind.initialLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     behind.finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    return create_color_pass(device, &layer, &target->layer_pass, error, error_size) &&
-           create_color_pass(device, &behind, &target->behind_pass, error, error_size);
+    return create_color_pass(device, &layer, 1, &target->layer_pass, error, error_size) &&
+           create_color_pass(device, &behind, 1, &target->behind_pass, error, error_size);
 }
 
 static bool create_framebuffer(host_device *device, const host_target *target, VkRenderPass pass,

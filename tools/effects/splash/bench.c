@@ -185,13 +185,7 @@ static bool measure_tables(bench *b, const bench_splash_choice *choice)
  * a hundred splashes. */
 static bool open_untimed(bench *b, virga_context **context)
 {
-    virga_context_def def = virga_default_context_def();
-    def.instance = b->instance.instance;
-    def.physical_device = b->device.physical;
-    def.device = b->device.device;
-    def.queue_family = b->device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.wide_lines = b->device.wide_lines;
+    virga_context_def def = host_context_def(&b->device);
     def.timings = false;
     return virga_context_create(&def, context) == VIRGA_OK || splash_bench_fail(b, "the device was refused");
 }
@@ -248,8 +242,5 @@ static const option_row option_rows[] = {
 const tool_bench splash_bench = {
     .help = "step, prepare and draw of 100 to 10^6 live splashes on four kinds of ground, beside the\n"
             "paper's\n",
-    .rows = option_rows,
-    .row_count = sizeof option_rows / sizeof option_rows[0],
-    .check = check,
-    .run = run_bench,
+    TOOL_BENCH(check, run_bench),
 };

@@ -35,13 +35,7 @@ bool shot_open_device(shot *s, char *error, size_t error_size)
      * three times the time of the linear filter for other pixels. Sub-frames (--samples) replace it. */
     if (s->info.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
         s->device.anisotropy = 0;
-    virga_context_def def = virga_default_context_def();
-    def.instance = s->instance.instance;
-    def.physical_device = s->device.physical;
-    def.device = s->device.device;
-    def.queue_family = s->device.queue_family;
-    def.get_instance_proc_addr = vkGetInstanceProcAddr;
-    def.wide_lines = s->device.wide_lines;
+    virga_context_def def = host_context_def(&s->device);
     def.frames_in_flight = HOST_FRAMES + 1;
     def.log = note_log;
     def.log_user = s;

@@ -33,16 +33,15 @@ static bool create_sets(view_picture *p, char *error, size_t error_size)
         types[i] = i == VIEW_AT_UNIFORMS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
                    : i < VIEW_AT_BUFFERS ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const host_set_shape shape = {types, VIEW_BINDINGS, seen};
+    const host_bindings_def def = {.shape = {types, VIEW_BINDINGS, seen},
+                                   .set_count = HOST_FRAMES,
+                                   .push_stages = VK_SHADER_STAGE_VERTEX_BIT,
+                                   .push_bytes = 2 * sizeof(float)};
     for (uint32_t i = 0; i < HOST_FRAMES; i++)
         if (!host_buffer_create(p->device, sizeof(view_uniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 HOST_BUFFER_UPLOAD, "view", &p->uniforms[i], error, error_size))
             return false;
-    return host_set_layout_create(p->device, &shape, &p->set_layout, error, error_size) &&
-           host_set_pool_create(p->device, &shape, HOST_FRAMES, &p->pool, error, error_size) &&
-           host_sets_allocate(p->device, p->pool, p->set_layout, HOST_FRAMES, p->sets, error, error_size) &&
-           host_pipeline_layout_create(p->device, &p->set_layout, 1, VK_SHADER_STAGE_VERTEX_BIT, 8, &p->layout, error,
-                                       error_size);
+    return host_bindings_create(p->device, &def, &p->bindings, error, error_size);
 }
 
 static bool create_samplers(view_picture *p, char *error, size_t error_size)
@@ -73,28 +72,17 @@ static bool create_blanks(view_picture *p, char *error, size_t error_size)
                                    &p->blank_buffer, error, error_size);
 }
 
-/* Triangles without vertex buffers, into one color, as they are. */
-static bool build(const view_picture *p, VkRenderPass pass, host_code vertex, host_code fragment, VkPipeline *pipeline,
-                  char *error, size_t error_size)
-{
-    const host_graphics_def def = {.vertex = vertex,
-                                   .fragment = fragment,
-                                   .layout = p->layout,
-                                   .pass = pass,
-                                   .colors = &host_blend_replace,
-                                   .color_count = 1};
-    return host_graphics_create(p->device, &def, pipeline, error, error_size);
-}
-
 /* Modes with shaders of their own. */
 static bool build_views(view_picture *p, VkRenderPass pass, char *error, size_t error_size)
 {
     for (uint32_t i = 0; view_mode(i); i++) {
         const tool_view *view = view_mode(i)->view;
-        if (view && !build(p, pass, HOST_CODE(view_view_vert), view->fragment, &p->views[i], error, error_size))
+        if (view && !host_fullscreen_create(p->device, HOST_CODE(view_view_vert), view->fragment, p->bindings.layout,
+                                            pass, &p->views[i], error, error_size))
             return false;
         if (view && view->quad_count &&
-            !build(p, pass, view->quad_vertex, view->quad_fragment, &p->quads[i], error, error_size))
+            !host_fullscreen_create(p->device, view->quad_vertex, view->quad_fragment, p->bindings.layout, pass,
+                                    &p->quads[i], error, error_size))
             return false;
     }
     return true;
@@ -107,8 +95,8 @@ bool view_picture_create(host_device *device, const view_window *window, view_pi
     p->device = device;
     return create_samplers(p, error, error_size) && create_blanks(p, error, error_size) &&
            create_sets(p, error, error_size) &&
-           build(p, window->pass, HOST_CODE(view_view_vert), HOST_CODE(view_view_frag), &p->picture, error,
-                 error_size) &&
+           host_fullscreen_create(device, HOST_CODE(view_view_vert), HOST_CODE(view_view_frag), p->bindings.layout,
+                                  window->pass, &p->picture, error, error_size) &&
            build_views(p, window->pass, error, error_size);
 }
 
@@ -122,9 +110,7 @@ void view_picture_destroy(view_picture *p)
         vkDestroyPipeline(device, p->views[i], NULL);
     }
     vkDestroyPipeline(device, p->picture, NULL);
-    vkDestroyPipelineLayout(device, p->layout, NULL);
-    vkDestroyDescriptorPool(device, p->pool, NULL);
-    vkDestroyDescriptorSetLayout(device, p->set_layout, NULL);
+    host_bindings_destroy(p->device, &p->bindings);
     vkDestroySampler(device, p->nearest, NULL);
     vkDestroySampler(device, p->linear, NULL);
     vkDestroyImageView(device, p->blank_array.view, NULL);
@@ -259,7 +245,7 @@ void view_picture_prepare(view_picture *p, VkCommandBuffer cmd, shot *s, const h
     fill(s, camera, shown, &uniforms->view);
     if (mode->view && mode->view->fill)
         mode->view->fill(s, s->states[mode->effect_index], &data);
-    write_set(p, s, &data, p->sets[slot], &p->uniforms[slot]);
+    write_set(p, s, &data, p->bindings.sets[slot], &p->uniforms[slot]);
     make_readable(cmd, s);
     host_memory_barrier(
         cmd,
@@ -275,13 +261,14 @@ void view_picture_draw(const view_picture *p, VkCommandBuffer cmd, const shot *s
     const uint32_t slot = (uint32_t)(p->device->frame % HOST_FRAMES);
     const view_mode_row *mode = view_mode(shown->mode);
     const float size[2] = {(float)window->width, (float)window->height};
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->layout, 0, 1, &p->sets[slot], 0, NULL);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->bindings.layout, 0, 1, &p->bindings.sets[slot], 0,
+                            NULL);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, mode->view ? p->views[shown->mode] : p->picture);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     if (!mode->view || !mode->view->quad_count)
         return;
     const uint32_t quads = mode->view->quad_count(s->states[mode->effect_index], shown->item);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, p->quads[shown->mode]);
-    vkCmdPushConstants(cmd, p->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof size, size);
+    vkCmdPushConstants(cmd, p->bindings.layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof size, size);
     vkCmdDraw(cmd, 6 * quads, 1, 0, 0);
 }

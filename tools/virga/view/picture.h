@@ -8,12 +8,9 @@
 typedef struct view_picture {
     host_device *device;
     VkSampler nearest, linear;
-    VkDescriptorSetLayout set_layout;
-    VkPipelineLayout layout;
+    host_bindings bindings; /* a set for each frame in flight */
     VkPipeline picture;
     VkPipeline views[VIEW_MAX_MODES], quads[VIEW_MAX_MODES]; /* of modes that have a shader of their own */
-    VkDescriptorPool pool;
-    VkDescriptorSet sets[HOST_FRAMES];
     host_buffer uniforms[HOST_FRAMES];
     host_image blank, blank_array;
     host_buffer blank_buffer;

@@ -96,14 +96,11 @@ static bool create_pass(view_window *w, char *error, size_t error_size)
 
 static void drop_images(view_window *w)
 {
-    const VkDevice device = w->device->device;
     for (uint32_t i = 0; i < w->image_count; i++) {
-        vkDestroyFramebuffer(device, w->framebuffers[i], NULL);
-        vkDestroyImageView(device, w->views[i], NULL);
-        vkDestroySemaphore(device, w->drawn[i], NULL);
+        host_slice_destroy(w->device, &w->slices[i]);
+        vkDestroySemaphore(w->device->device, w->drawn[i], NULL);
     }
-    memset(w->framebuffers, 0, sizeof w->framebuffers);
-    memset(w->views, 0, sizeof w->views);
+    memset(w->slices, 0, sizeof w->slices);
     memset(w->drawn, 0, sizeof w->drawn);
     w->image_count = 0;
     host_buffer_destroy(w->device, &w->copy);
@@ -111,9 +108,8 @@ static void drop_images(view_window *w)
 
 static bool create_image(view_window *w, uint32_t i, char *error, size_t error_size)
 {
-    if (!host_view_create(w->device, w->images[i], w->format.format, 0, 0, &w->views[i], error, error_size) ||
-        !host_framebuffer_create(w->device, w->pass, &w->views[i], 1, w->width, w->height, &w->framebuffers[i], error,
-                                 error_size))
+    const host_image image = {.image = w->images[i], .format = w->format.format, .extent = {w->width, w->height, 1}};
+    if (!host_slice_create(w->device, w->pass, &image, 0, 0, &w->slices[i], error, error_size))
         return false;
     const VkSemaphoreCreateInfo semaphore = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     HOST_TRY(vkCreateSemaphore(w->device->device, &semaphore, NULL, &w->drawn[i]));
@@ -248,7 +244,7 @@ bool view_window_acquire(view_window *w, bool *ready, char *error, size_t error_
 
 void view_window_begin(const view_window *w, VkCommandBuffer cmd)
 {
-    host_pass_begin(cmd, w->pass, w->framebuffers[w->image], w->width, w->height, 1);
+    host_pass_begin(cmd, w->pass, w->slices[w->image].framebuffer, w->width, w->height, 1);
 }
 
 void view_window_end(const view_window *w, VkCommandBuffer cmd)

@@ -19,8 +19,7 @@ typedef struct view_window {
     VkRenderPass pass;         /* clears nothing, leaves the image ready to present */
     uint32_t image_count, image;
     VkImage images[VIEW_MAX_IMAGES];
-    VkImageView views[VIEW_MAX_IMAGES];
-    VkFramebuffer framebuffers[VIEW_MAX_IMAGES];
+    host_slice slices[VIEW_MAX_IMAGES];
     VkSemaphore acquired[HOST_FRAMES], drawn[VIEW_MAX_IMAGES];
     bool stale;       /* the swapchain no longer fits */
     bool copyable;    /* its images can be copied */

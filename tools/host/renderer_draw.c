@@ -1,0 +1,227 @@
+/* renderer_draw.c - records a plate: the maps of the skylight, the mirror, and the scene. */
+#include <math.h>
+#include <string.h>
+
+#include "renderer_internal.h"
+
+#define MIN_ROUGHNESS 0.04f /* below, a point light's highlight falls between pixels */
+
+/* ---- meshes ------------------------------------------------------------------------------------------------- */
+
+/* Writes the frame's numbers in line with the commands, so that any number of plates may be in one command buffer. */
+static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame)
+{
+    host_buffer_update(cmd, &r->frame_buffer, frame, sizeof *frame,
+                       VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                       VK_ACCESS_UNIFORM_READ_BIT);
+}
+
+static void fill_surface(const host_primitive *primitive, const host_material *material, uint32_t id,
+                         struct host_surface_gpu *out)
+{
+    float bits = 0.0f;
+    bits += material->base_texture >= 0 ? HOST_HAS_BASE_TEXTURE : 0;
+    bits += material->emissive_texture >= 0 ? HOST_HAS_EMISSIVE_TEXTURE : 0;
+    bits += material->alpha == HOST_ALPHA_GLASS ? HOST_IS_GLASS : 0;
+    bits += primitive->ground ? HOST_GROUND * (1 + primitive->surface) : 0;
+    memcpy(out->base_color, material->base_color, sizeof out->base_color);
+    memcpy(out->emissive, material->emissive, 3 * sizeof(float));
+    out->emissive[3] = fmaxf(material->roughness, MIN_ROUGHNESS);
+    out->traits[0] = material->metallic;
+    out->traits[1] = material->cutoff;
+    out->traits[2] = (float)id;
+    out->traits[3] = bits;
+}
+
+/* Whether a pipeline draws a material. */
+static bool is_drawn_by(const host_material *material, host_pipeline kind)
+{
+    switch (kind) {
+    case HOST_PIPELINE_DEPTH: return material->alpha == HOST_ALPHA_OPAQUE;
+    case HOST_PIPELINE_CUTOUT: return material->alpha == HOST_ALPHA_MASK;
+    case HOST_PIPELINE_SHADE: return material->alpha != HOST_ALPHA_GLASS;
+    case HOST_PIPELINE_GLASS: return material->alpha == HOST_ALPHA_GLASS;
+    default: return false;
+    }
+}
+
+typedef const VkPipeline (*pipelines)[2]; /* the plate's, or the mirror's */
+
+static void draw_entry(const host_renderer *r, VkCommandBuffer cmd, const host_entry *entry, pipelines from,
+                       host_pipeline kind)
+{
+    const host_mesh *mesh = entry->mesh;
+    const VkDeviceSize offset = 0;
+    vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
+    vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+    int bound = -1;
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const host_primitive *primitive = &mesh->primitives[i];
+        const host_material *material = &mesh->materials[primitive->material];
+        if (!is_drawn_by(material, kind))
+            continue;
+        if (bound != material->two_sided) {
+            bound = material->two_sided;
+            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[kind][bound]);
+        }
+        struct host_surface_gpu surface;
+        fill_surface(primitive, material, entry->first_id + i, &surface);
+        vkCmdPushConstants(cmd, r->bindings.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof surface, &surface);
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 1, 1,
+                                &entry->sets[primitive->material], 0, NULL);
+        vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+    }
+}
+
+static void draw_entries(const host_renderer *r, VkCommandBuffer cmd, pipelines from, host_pipeline kind)
+{
+    const bool mirrored = from == (pipelines)r->mirror_pipelines;
+    for (uint32_t i = 0; i < r->entry_count; i++)
+        if (!mirrored || !r->entries[i].mesh->apart)
+            draw_entry(r, cmd, &r->entries[i], from, kind);
+}
+
+static void draw_scene(const host_renderer *r, VkCommandBuffer cmd, pipelines from)
+{
+    draw_entries(r, cmd, from, HOST_PIPELINE_DEPTH);
+    draw_entries(r, cmd, from, HOST_PIPELINE_CUTOUT);
+    draw_entries(r, cmd, from, HOST_PIPELINE_SHADE);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, from[HOST_PIPELINE_SKY][1]);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    draw_entries(r, cmd, from, HOST_PIPELINE_GLASS);
+}
+
+/* ---- skylight ----------------------------------------------------------------------------------------------- */
+
+static void find_bounds(const host_renderer *r, float low[3], float high[3])
+{
+    for (int c = 0; c < 3; c++) {
+        low[c] = r->entry_count ? r->entries[0].mesh->low[c] : -1.0f;
+        high[c] = r->entry_count ? r->entries[0].mesh->high[c] : 1.0f;
+        for (uint32_t i = 1; i < r->entry_count && !r->entries[i].mesh->apart; i++) {
+            low[c] = fminf(low[c], r->entries[i].mesh->low[c]);
+            high[c] = fmaxf(high[c], r->entries[i].mesh->high[c]);
+        }
+    }
+}
+
+/* Everything but glass, into the map of one direction of the sky. */
+static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direction, bool cutouts)
+{
+    const host_skylight *s = &r->skylight;
+    const VkDeviceSize offset = 0;
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, cutouts ? s->cutout : s->opaque);
+    host_skylight_push(s, cmd, direction, 1.0f, 0.0f);
+    for (uint32_t e = 0; e < r->entry_count; e++) {
+        const host_entry *entry = &r->entries[e];
+        const host_mesh *mesh = entry->mesh;
+        if (mesh->apart)
+            continue;
+        vkCmdBindVertexBuffers(cmd, 0, 1, &mesh->vertices.buffer, &offset);
+        vkCmdBindIndexBuffer(cmd, mesh->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+        for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+            const host_primitive *primitive = &mesh->primitives[i];
+            const host_material *material = &mesh->materials[primitive->material];
+            if (!is_drawn_by(material, cutouts ? HOST_PIPELINE_CUTOUT : HOST_PIPELINE_DEPTH))
+                continue;
+            if (cutouts) {
+                host_skylight_push(s, cmd, direction, material->base_color[3], material->cutoff);
+                vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->draw_layout, 0, 1,
+                                        &entry->sets[primitive->material], 0, NULL);
+            }
+            vkCmdDrawIndexed(cmd, primitive->index_count, 1, primitive->first_index, 0, 0);
+        }
+    }
+}
+
+static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
+{
+    float low[3], high[3];
+    find_bounds(r, low, high);
+    if (!host_skylight_place(&r->skylight, camera->position_m, low, high))
+        return;
+    host_label_begin(r->device, cmd, "skylight");
+    host_skylight_begin(&r->skylight, cmd);
+    for (uint32_t i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++) {
+        host_skylight_begin_map(&r->skylight, cmd, i);
+        draw_map(r, cmd, i, false);
+        draw_map(r, cmd, i, true);
+        host_skylight_end_map(&r->skylight, cmd);
+    }
+    host_skylight_gather(&r->skylight, cmd);
+    host_label_end(r->device, cmd);
+}
+
+/* ---- the plate ---------------------------------------------------------------------------------------------- */
+
+/* The world from under the plane, as shaders/scene.vert and mirror_jitter.glsl have it. */
+static virga_view view_of_mirror(const host_renderer *r, const host_camera *camera)
+{
+    virga_view view = virga_default_view();
+    const float sides[2] = {(float)r->mirror.width, (float)r->mirror.height};
+    const float plate[2] = {(float)camera->width, (float)camera->height}, small = 1.0f / HOST_MIRROR_MARGIN;
+    host_camera_view(camera, camera, 0, &view);
+    view.position_m[1] = 2 * r->mirror_m - camera->position_m[1];
+    view.open_position_m[1] = view.position_m[1];
+    for (int row = 0; row < 3; row++)
+        view.view_from_world[4 + row] = view.open_view_from_world[4 + row] = -camera->view_from_world[4 + row];
+    for (int axis = 0; axis < 2; axis++) {
+        const float jitter = camera->jitter_px[axis] * (2.0f / sides[axis] - 2.0f * small / plate[axis]);
+        view.clip_from_view[axis * 5] *= small;
+        view.clip_from_view[8 + axis] = view.clip_from_view[8 + axis] * small - jitter; /* times -w */
+        view.viewport[2 + axis] = sides[axis];
+    }
+    memcpy(view.open_clip_from_view, view.clip_from_view, sizeof view.clip_from_view);
+    view.depth = (virga_image){
+        .image = r->mirror.depth.image,
+        .view = r->mirror.depth.view,
+        .format = r->mirror.depth.format,
+        .extent = {r->mirror.width, r->mirror.height, 1},
+        .before = {VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                   VK_ACCESS_SHADER_READ_BIT},
+    };
+    return view;
+}
+
+static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, const host_camera *camera)
+{
+    const double plane[4] = {0, 1, 0, r->mirror_m};
+    const virga_view view = view_of_mirror(r, camera);
+    host_mirror_begin_haze(&r->mirror, cmd);
+    r->draw_haze(r->haze_user, cmd, &view, plane);
+    vkCmdEndRenderPass(cmd);
+}
+
+/* Begun even where it is not worth drawing: what the plate's shaders may sample has to be in its layout. */
+static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
+                          const host_camera *camera)
+{
+    if (!r->mirror.width)
+        return;
+    host_label_begin(r->device, cmd, "mirror");
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    host_mirror_begin(&r->mirror, cmd);
+    if (frame->mirror[2] > 0.0f)
+        draw_scene(r, cmd, (pipelines)r->mirror_pipelines);
+    vkCmdEndRenderPass(cmd);
+    if (frame->mirror[2] > 0.0f && r->draw_haze)
+        record_mirror_haze(r, cmd, camera);
+    host_mirror_copy_down(&r->mirror, cmd);
+    host_label_end(r->device, cmd);
+}
+
+void host_renderer_plate(host_renderer *r, VkCommandBuffer cmd, const host_target *target, const host_camera *camera,
+                         const host_camera *previous)
+{
+    struct host_frame_gpu frame;
+    update_skylight(r, cmd, camera);
+    host_renderer_fill_frame(r, target, camera, previous, &frame);
+    record_frame(r, cmd, &frame);
+    record_mirror(r, cmd, &frame, camera);
+    host_label_begin(r->device, cmd, "plate");
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, r->bindings.layout, 0, 1, r->bindings.sets, 0, NULL);
+    host_target_begin_plate(target, cmd);
+    draw_scene(r, cmd, (pipelines)r->pipelines);
+    host_target_end_plate(target, cmd);
+    host_label_end(r->device, cmd);
+}

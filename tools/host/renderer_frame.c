@@ -1,0 +1,116 @@
+/* renderer_frame.c - the uniforms of a plate: camera, lights, sky, wet ground, mirror. */
+#include <math.h>
+#include <string.h>
+
+#include "renderer_internal.h"
+
+/* Clip from a point relative to the camera: the rotation of the view and the projection. */
+static void clip_from_relative(const host_camera *camera, const float clip_from_view[16], float out[16])
+{
+    float rotation[16];
+    memcpy(rotation, camera->view_from_world, sizeof rotation);
+    rotation[12] = rotation[13] = rotation[14] = 0.0f;
+    host_matrix_multiply(clip_from_view, rotation, out);
+}
+
+/* Directions of pixels, from the rows of the view rotation and the projection's scale and jitter. */
+static void fill_rays(const host_camera *camera, struct host_frame_gpu *frame)
+{
+    const float *view = camera->view_from_world, *p = camera->clip_from_view;
+    for (int i = 0; i < 3; i++) {
+        float right = view[i * 4], up = view[i * 4 + 1], back = view[i * 4 + 2];
+        frame->ray_x[i] = right / p[0];
+        frame->ray_y[i] = up / p[5];
+        frame->ray_z[i] = right * p[8] / p[0] + up * p[9] / p[5] - back;
+    }
+}
+
+static void fill_light(const virga_light *light, const host_camera *camera, struct host_light_gpu *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; i++) {
+        out->position[i] = (float)(light->position_m[i] - camera->position_m[i]);
+        out->intensity[i] = light->intensity[i];
+    }
+    out->position[3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
+    out->cone[1] = 1.0f;
+    const float *d = light->direction;
+    float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    if (!(length > 0.0f))
+        return;
+    for (int i = 0; i < 3; i++)
+        out->direction[i] = d[i] / length;
+    out->cone[0] = 1.0f / fmaxf(light->cos_inner - light->cos_outer, 1e-4f);
+    out->cone[1] = -light->cos_outer * out->cone[0];
+}
+
+/* Harmonics with the factors of the basis and of the cosine lobe over pi in them (Ramamoorthi and Hanrahan 2001). */
+static void fill_irradiance(const float sh[9][3], host_vec4 out[9])
+{
+    static const float factor[9] = {0.28209479f, 0.32573501f, 0.32573501f, 0.32573501f, 0.27313711f,
+                                    0.27313711f, 0.07884789f, 0.27313711f, 0.13656855f};
+    for (int k = 0; k < 9; k++)
+        for (int c = 0; c < 3; c++)
+            out[k][c] = factor[k] * sh[k][c];
+}
+
+static void fill_ground(const virga_ground_maps *maps, const host_camera *camera, struct host_frame_gpu *frame)
+{
+    if (!maps->cells)
+        return;
+    for (int axis = 0; axis < 2; axis++) {
+        const double cell = floor(maps->low_m[axis] / (double)maps->cell_m + 0.5);
+        frame->ground_low[axis * 2] = (float)(maps->low_m[axis] - camera->position_m[axis * 2]);
+        frame->ground_wrap[axis] = (float)(cell - floor(cell / maps->cells) * maps->cells);
+    }
+    frame->ground_low[1] = (float)((double)maps->base_m - camera->position_m[1]);
+    frame->ground_low[3] = 1.0f / maps->cell_m;
+    frame->ground_wrap[2] = (float)maps->cells;
+    frame->ground_wrap[3] = maps->reach_m / maps->cell_m;
+    if (maps->far_wetness) {
+        frame->ground_far[1] = 1.0f / maps->far_cell_m;
+        frame->ground_far[3] = (float)maps->far_cells;
+    }
+    for (int axis = 0; axis < 2; axis++)
+        frame->ground_far[axis * 2] = (float)(maps->far_low_m[axis] - camera->position_m[axis * 2]);
+    const float side_m = (float)maps->ripple_texels * maps->ripple_texel_m;
+    for (int axis = 0; axis < 2; axis++)
+        frame->ripples[axis] = (float)(maps->ripple_low_m[axis] - camera->position_m[axis * 2]);
+    frame->ripples[2] = 1.0f / side_m;
+    frame->ripples[3] = side_m;
+}
+
+/* Worth drawing where there is a ground, and the picture's lower edge looks down at it. */
+static void fill_mirror(const host_renderer *r, const host_camera *camera, struct host_frame_gpu *frame)
+{
+    const float lowest = frame->ray_z[1] - fabsf(frame->ray_x[1]) - fabsf(frame->ray_y[1]);
+    frame->mirror[0] = (float)(r->mirror_m - camera->position_m[1]);
+    frame->mirror[1] = 1.0f / HOST_MIRROR_MARGIN;
+    frame->mirror[2] = r->mirror.width && r->ground.cells && frame->mirror[0] < 0.0f && lowest < 0.0f;
+}
+
+void host_renderer_fill_frame(const host_renderer *r, const host_target *target, const host_camera *camera,
+                              const host_camera *previous, struct host_frame_gpu *frame)
+{
+    memset(frame, 0, sizeof *frame);
+    clip_from_relative(camera, camera->clip_from_view, frame->clip_from_relative);
+    clip_from_relative(previous, previous->clip_from_view_plain, frame->previous_from_relative);
+    for (int i = 0; i < 3; i++) {
+        frame->camera[i] = (float)camera->position_m[i];
+        frame->moved[i] = (float)(camera->position_m[i] - previous->position_m[i]);
+    }
+    frame->moved[3] = (float)r->light_count;
+    frame->screen[0] = (float)target->width;
+    frame->screen[1] = (float)target->height;
+    frame->screen[2] = camera->jitter_px[0];
+    frame->screen[3] = camera->jitter_px[1];
+    fill_rays(camera, frame);
+    frame->environment[0] = r->environment->rotation / 6.28318531f;
+    host_skylight_frame(&r->skylight, camera->position_m, frame);
+    frame->sampling[0] = 1.0f / (float)(camera->samples ? camera->samples : 1);
+    fill_irradiance(r->environment->sh, frame->irradiance);
+    fill_ground(&r->ground, camera, frame);
+    fill_mirror(r, camera, frame);
+    for (uint32_t i = 0; i < r->light_count; i++)
+        fill_light(&r->lights[i], camera, &frame->lights[i]);
+}
