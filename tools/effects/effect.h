@@ -36,6 +36,12 @@ typedef struct tool_layer {
     const char *view_title, *view_help;
 } tool_layer;
 
+/* The fields of a layer of premultiplied color, NAME.R to NAME.A. */
+#define TOOL_COLOR_LAYER(layer, draw_function, draw_order, title, text)                                        \
+    .name = layer, .channels = {layer ".R", layer ".G", layer ".B", layer ".A"}, .type = EXR_SAMPLE_HALF,      \
+    .help = text ", premultiplied", .draw = draw_function, .order = draw_order, .view_title = "Layer: " title, \
+    .view_help = text ", over squares"
+
 /* A cache of points, a file per frame: NAME.%04u.ply. */
 typedef struct tool_points {
     const ply_property *properties;
@@ -99,6 +105,11 @@ typedef struct tool_view {
     bool debug_map;   /* needs shot_options.debug_maps */
 } tool_view;
 
+/* The fields that all views have. `shader` is the name of its fragment shader's array, without _spv. */
+#define TOOL_VIEW(view_name, view_title, view_kind, view_mode, shader, text)                    \
+    .name = view_name, .title = view_title, .help = text, .kind = view_kind, .mode = view_mode, \
+    .fragment = {shader##_spv, sizeof shader##_spv}
+
 /* A graph of a count. */
 typedef struct tool_count {
     const char *what;
@@ -128,6 +139,11 @@ typedef struct tool_bench {
     bool (*check)(const options *parsed); /* checks its options before a device is opened; may be NULL */
     bool (*run)(struct bench *b, const options *parsed);
 } tool_bench;
+
+/* The fields of a bench with options: a table `option_rows`, and these functions. */
+#define TOOL_BENCH(check_function, run_function)                                                           \
+    .rows = option_rows, .row_count = sizeof option_rows / sizeof option_rows[0], .check = check_function, \
+    .run = run_function
 
 /* ---- the effect */
 
@@ -219,6 +235,23 @@ typedef struct tool_effect {
     /* Fills a table, by index. False after the last. */
     bool (*fill_budget)(const void *state, uint32_t index, tool_budget *budget);
 } tool_effect;
+
+/* The fields that are the same for all effects, for one that names its parts like the others: NAME_state, NAME_bench,
+ * a table `layers`, and the functions print, define, open_state and close_state. */
+#define TOOL_EFFECT(effect, effect_title)                                                                           \
+    .name = #effect, .title = effect_title, .print = print, .state_size = sizeof(effect##_state), .define = define, \
+    .open = open_state, .close = close_state, .layers = layers, .layer_count = sizeof layers / sizeof layers[0],    \
+    .bench = &effect##_bench
+
+/* A table and its number of rows: TOOL_ROWS(view, rain_views) sets .views and .view_count. */
+#define TOOL_ROWS(row, table) .row##s = table, .row##_count = sizeof table / sizeof table[0]
+
+/* Defines scene_NAME_of, which returns the effect's settings in a scene. */
+#define TOOL_SECTION_OF(effect)                                   \
+    scene_##effect *scene_##effect##_of(const scene_file *scene)  \
+    {                                                             \
+        return scene_file_section(scene, &effect##_effect.scene); \
+    }
 
 /* rain_effect, ground_effect, ... */
 #define EFFECT(name) extern const tool_effect name##_effect;

@@ -381,14 +381,7 @@ static virga_result draw_refraction(void *state, VkCommandBuffer cmd, const virg
 }
 
 static const tool_layer layers[] = {
-    {.name = "glass",
-     .channels = {"glass.R", "glass.G", "glass.B", "glass.A"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "drops on panes and what they show, premultiplied",
-     .draw = draw_drops,
-     .order = 30,
-     .view_title = "Layer: panes",
-     .view_help = "drops on panes and what they show, over squares"},
+    {TOOL_COLOR_LAYER("glass", draw_drops, 30, "panes", "drops on panes and what they show")},
     /* 32-bit floats: half floats have steps of half a pixel from 512 on. */
     {.name = "refraction",
      .channels = {"refraction.X", "refraction.Y"},
@@ -458,40 +451,26 @@ static void print(const scene_file *scene)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-scene_glass *scene_glass_of(const scene_file *scene)
-{
-    return scene_file_section(scene, &glass_effect.scene);
-}
+TOOL_SECTION_OF(glass)
 
 const tool_effect glass_effect = {
-    .name = "glass",
+    TOOL_EFFECT(glass, "Panes"),
     .scene = {.group = SCENE_GROUP(scene_glass, glass_section), .check = check_panes},
     .is_used = is_used,
     .missing = "panes; expected a list of them, glass",
     .check = glass_check,
     .check_files = glass_check_files,
-    .print = print,
-    .state_size = sizeof(glass_state),
-    .define = define,
-    .open = open_state,
-    .close = close_state,
     .apply = glass_apply,
     .fill_frame = fill_frame,
-    .layers = layers,
-    .layer_count = sizeof layers / sizeof layers[0],
     .shows_behind = true,
     .before_plate = before_plate,
     .prepare = prepare,
     .points = &glass_points,
     .write_stats = write_stats,
-    .bench = &glass_bench,
-    .title = "Panes",
     .print_entry = glass_print_entry,
     .lists_restart = true,
     .main_setting = glass_main_setting,
-    .views = glass_views,
-    .view_count = GLASS_VIEWS,
-    .counts = glass_counts,
-    .count_count = GLASS_COUNTS,
+    TOOL_ROWS(view, glass_views),
+    TOOL_ROWS(count, glass_counts),
     .fill_budget = glass_fill_budget,
 };

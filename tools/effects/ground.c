@@ -336,16 +336,11 @@ static bool before_plate(shot *s, void *state, VkCommandBuffer cmd, double camer
 }
 
 static const tool_layer layers[] = {
-    {.name = "wetness",
-     .channels = {"wetness.Y"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "of the ground, 0 to 1",
-     .plate = HOST_WATER,
-     .value = 0},
-    {.name = "waterdepth",
-     .channels = {"waterdepth.Y"},
-     .type = EXR_SAMPLE_FLOAT,
-     .help = "metres of water on the ground",
+    {"wetness", {"wetness.Y"}, EXR_SAMPLE_HALF, "of the ground, 0 to 1", .plate = HOST_WATER, .value = 0},
+    {"waterdepth",
+     {"waterdepth.Y"},
+     EXR_SAMPLE_FLOAT,
+     "metres of water on the ground",
      .plate = HOST_WATER,
      .value = 1},
 };
@@ -395,34 +390,21 @@ static void write_totals(shot *s, void *state, jsonl *stats)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-scene_ground *scene_ground_of(const scene_file *scene)
-{
-    return scene_file_section(scene, &ground_effect.scene);
-}
+TOOL_SECTION_OF(ground)
 
 const tool_effect ground_effect = {
-    .name = "ground",
+    TOOL_EFFECT(ground, "Ground"),
     .scene = {.group = SCENE_GROUP(scene_ground, ground_section), .check = check_material_map},
     .is_used = is_used,
     .missing = "ground; expected ground.on: true",
     .check = check,
     .check_files = check_files,
-    .print = print,
-    .state_size = sizeof(ground_state),
-    .define = define,
     .mark_mesh = mark_mesh,
-    .open = open_state,
     .resize = resize,
-    .close = close_state,
     .apply = apply,
     .fill_frame = fill_frame,
-    .layers = layers,
-    .layer_count = sizeof layers / sizeof layers[0],
     .before_plate = before_plate,
     .write_totals = write_totals,
-    .bench = &ground_bench,
-    .title = "Ground",
-    .views = ground_views,
-    .view_count = GROUND_VIEWS,
+    TOOL_ROWS(view, ground_views),
     .fill_budget = ground_fill_budget,
 };

@@ -25,4 +25,14 @@
     {"age", PLY_FLOAT, POINT_COLUMN(type, age_s, 0)}
 /* clang-format on */
 
+/* A column of a further member. */
+#define POINT_UINT(type, member)                  \
+    {                                             \
+#member, PLY_UINT, offsetof(type, member) \
+    }
+#define POINT_FLOAT(type, member)                  \
+    {                                              \
+#member, PLY_FLOAT, offsetof(type, member) \
+    }
+
 #endif

@@ -276,14 +276,7 @@ static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *t
 }
 
 static const tool_layer layers[] = {
-    {.name = "rain",
-     .channels = {"rain.R", "rain.G", "rain.B", "rain.A"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "the falling drops alone, premultiplied",
-     .draw = draw,
-     .order = 20,
-     .view_title = "Layer: rain",
-     .view_help = "the falling drops alone, over squares"},
+    {TOOL_COLOR_LAYER("rain", draw, 20, "rain", "the falling drops alone")},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
@@ -294,7 +287,7 @@ typedef struct drop {
     float weight;
 } drop;
 
-static const ply_property drop_columns[] = {POINT_COLUMNS(drop), {"weight", PLY_FLOAT, offsetof(drop, weight)}};
+static const ply_property drop_columns[] = {POINT_COLUMNS(drop), POINT_FLOAT(drop, weight)};
 
 static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error, size_t error_size)
 {
@@ -406,39 +399,25 @@ static void print_state(const scene_file *scene, char *text, size_t size)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-scene_rain *scene_rain_of(const scene_file *scene)
-{
-    return scene_file_section(scene, &rain_effect.scene);
-}
+TOOL_SECTION_OF(rain)
 
 const tool_effect rain_effect = {
-    .name = "rain",
+    TOOL_EFFECT(rain, "Rain"),
     .scene = {.group = SCENE_GROUP(scene_rain, rain_section), .check = check_rain},
     .seed_key = "rain.seed",
     .seed = seed,
-    .print = print,
-    .state_size = sizeof(rain_state),
-    .define = define,
-    .open = open_state,
     .attach = attach,
-    .close = close_state,
     .apply = apply,
-    .layers = layers,
-    .layer_count = sizeof layers / sizeof layers[0],
     .prepare = prepare,
     .points = &points,
     .write_stats = write_stats,
-    .bench = &rain_bench,
-    .title = "Rain",
     .main_setting = main_setting,
     .is_animated = is_animated,
     .stop_animation = stop_animation,
     .animation_hint = "The scene's keys say rate and wind at every time.",
     .print_state = print_state,
-    .views = rain_views,
-    .view_count = RAIN_VIEWS,
-    .counts = rain_counts,
-    .count_count = RAIN_COUNTS,
+    TOOL_ROWS(view, rain_views),
+    TOOL_ROWS(count, rain_counts),
     .water_text = "rained, where drops landed",
     .water_nl = rain_water_nl,
 };

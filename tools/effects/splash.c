@@ -150,14 +150,7 @@ static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *t
 }
 
 static const tool_layer layers[] = {
-    {.name = "splash",
-     .channels = {"splash.R", "splash.G", "splash.B", "splash.A"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "the splashes alone, premultiplied",
-     .draw = draw,
-     .order = 10,
-     .view_title = "Layer: splashes",
-     .view_help = "the splashes alone, over squares"},
+    {TOOL_COLOR_LAYER("splash", draw, 10, "splashes", "the splashes alone")},
 };
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
@@ -171,14 +164,8 @@ typedef struct droplet {
 } droplet;
 
 static const ply_property droplet_columns[] = {
-    POINT_COLUMNS(droplet),
-    {"model", PLY_UINT, offsetof(droplet, model)},
-    {"material", PLY_UINT, offsetof(droplet, material)},
-    {"state", PLY_UINT, offsetof(droplet, state)},
-    {"parent", PLY_UINT, offsetof(droplet, parent)},
-    {"index", PLY_UINT, offsetof(droplet, index)},
-    {"water_ul", PLY_FLOAT, offsetof(droplet, water_ul)},
-};
+    POINT_COLUMNS(droplet),      POINT_UINT(droplet, model), POINT_UINT(droplet, material), POINT_UINT(droplet, state),
+    POINT_UINT(droplet, parent), POINT_UINT(droplet, index), POINT_FLOAT(droplet, water_ul)};
 
 static bool record_droplets(shot *s, void *state, VkCommandBuffer cmd, char *error, size_t error_size)
 {
@@ -311,33 +298,20 @@ static uint64_t water_nl(const void *state)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-scene_splash *scene_splash_of(const scene_file *scene)
-{
-    return scene_file_section(scene, &splash_effect.scene);
-}
+TOOL_SECTION_OF(splash)
 
 extern const tool_bench splash_bench; /* splash/bench.c */
 
 const tool_effect splash_effect = {
-    .name = "splash",
+    TOOL_EFFECT(splash, "Splashes"),
     .scene = {.group = SCENE_GROUP(scene_splash, splash_section), .check = check_splash},
     .is_used = is_used,
     .missing = "splashes; expected splash.on: true",
-    .print = print,
-    .state_size = sizeof(splash_state),
-    .define = define,
-    .open = open_state,
-    .close = close_state,
     .apply = apply,
-    .layers = layers,
-    .layer_count = sizeof layers / sizeof layers[0],
     .prepare = prepare,
     .points = &points,
     .write_stats = write_stats,
-    .bench = &splash_bench,
-    .title = "Splashes",
-    .counts = counts,
-    .count_count = sizeof counts / sizeof counts[0],
+    TOOL_ROWS(count, counts),
     .water_text = "in the air as splashes",
     .water_nl = water_nl,
 };

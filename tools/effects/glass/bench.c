@@ -253,8 +253,5 @@ static bool run(bench *b, const options *parsed)
 const tool_bench glass_bench = {
     .help = "motion, metaballs, height map, plate and draw of 3000 to 100000 metaballs on a pane with\n"
             "two wipers\n",
-    .rows = option_rows,
-    .row_count = sizeof option_rows / sizeof option_rows[0],
-    .check = check,
-    .run = run,
+    TOOL_BENCH(check, run),
 };

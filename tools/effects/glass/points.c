@@ -13,13 +13,8 @@ typedef struct drop_row {
     float water_ul;
 } drop_row;
 
-static const ply_property columns[] = {
-    POINT_COLUMNS(drop_row),
-    {"kind", PLY_UINT, offsetof(drop_row, kind)},
-    {"flags", PLY_UINT, offsetof(drop_row, flags)},
-    {"pane", PLY_UINT, offsetof(drop_row, pane)},
-    {"water_ul", PLY_FLOAT, offsetof(drop_row, water_ul)},
-};
+static const ply_property columns[] = {POINT_COLUMNS(drop_row), POINT_UINT(drop_row, kind), POINT_UINT(drop_row, flags),
+                                       POINT_UINT(drop_row, pane), POINT_FLOAT(drop_row, water_ul)};
 
 /* Radius of the base of a spherical cap, by its contact angle and water. */
 static double base_radius(const virga_glass_settings *settings, double water_m3)

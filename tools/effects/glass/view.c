@@ -140,29 +140,14 @@ static uint32_t count_drop_slots(const void *state, uint32_t item)
 }
 
 const tool_view glass_views[GLASS_VIEWS] = {
-    {.name = "pane",
-     .title = "Pane: affinity, drops",
-     .help = "unevenness of the glass (grey), drops of the mesh, particles",
-     .kind = TOOL_VIEW_FLAT,
-     .mode = GLASS_VIEW_AFFINITY,
-     .fragment = {glass_view_frag_spv, sizeof glass_view_frag_spv},
+    {TOOL_VIEW("pane", "Pane: affinity, drops", TOOL_VIEW_FLAT, GLASS_VIEW_AFFINITY, glass_view_frag,
+               "unevenness of the glass (grey), drops of the mesh, particles"),
      .quad_vertex = {glass_view_drops_vert_spv, sizeof glass_view_drops_vert_spv},
-     .quad_fragment = {glass_view_drops_frag_spv, sizeof glass_view_drops_frag_spv},
-     .quad_count = count_drop_slots,
-     .fill = fill_view,
-     .item_count = count_panes,
-     .print_item = print_pane,
-     .legend = affinity_legend},
-    {.name = "height",
-     .title = "Pane: height of water",
-     .help = "the height map: red is 1.5 mm and more",
-     .kind = TOOL_VIEW_FLAT,
-     .mode = GLASS_VIEW_HEIGHT,
-     .fragment = {glass_view_frag_spv, sizeof glass_view_frag_spv},
-     .fill = fill_view,
-     .item_count = count_panes,
-     .print_item = print_pane,
-     .debug_map = true},
+     .quad_fragment = {glass_view_drops_frag_spv, sizeof glass_view_drops_frag_spv}, .quad_count = count_drop_slots,
+     .fill = fill_view, .item_count = count_panes, .print_item = print_pane, .legend = affinity_legend},
+    {TOOL_VIEW("height", "Pane: height of water", TOOL_VIEW_FLAT, GLASS_VIEW_HEIGHT, glass_view_frag,
+               "the height map: red is 1.5 mm and more"),
+     .fill = fill_view, .item_count = count_panes, .print_item = print_pane, .debug_map = true},
 };
 
 /* ---- numbers */

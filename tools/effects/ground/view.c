@@ -95,45 +95,19 @@ static void fill_material(shot *s, void *state, tool_view_data *data)
         ;
 }
 
-#define FRAGMENT                                          \
-    {                                                     \
-        ground_view_frag_spv, sizeof ground_view_frag_spv \
-    }
-
 const tool_view ground_views[GROUND_VIEWS] = {
-    {.name = "wetness",
-     .title = "Wetness",
-     .help = "of the ground, from dry (red) to full pores (blue)",
-     .kind = TOOL_VIEW_PLATE,
-     .mode = GROUND_VIEW_WETNESS,
-     .fragment = FRAGMENT,
+    {TOOL_VIEW("wetness", "Wetness", TOOL_VIEW_PLATE, GROUND_VIEW_WETNESS, ground_view_frag,
+               "of the ground, from dry (red) to full pores (blue)"),
      .item_count = count_grounds},
-    {.name = "depth_mm",
-     .title = "Depth of water",
-     .help = "on the ground, from 0 (blue) to 10 mm (red)",
-     .kind = TOOL_VIEW_PLATE,
-     .mode = GROUND_VIEW_DEPTH,
-     .fragment = FRAGMENT,
+    {TOOL_VIEW("depth_mm", "Depth of water", TOOL_VIEW_PLATE, GROUND_VIEW_DEPTH, ground_view_frag,
+               "on the ground, from 0 (blue) to 10 mm (red)"),
      .item_count = count_grounds},
-    {.name = "state",
-     .title = "Cells by state",
-     .help = "what a drop that falls there finds",
-     .kind = TOOL_VIEW_PICTURE,
-     .mode = GROUND_VIEW_STATE,
-     .fragment = FRAGMENT,
-     .fill = fill_state,
-     .item_count = count_grounds,
-     .legend = state_legend},
-    {.name = "material",
-     .title = "Cells by material",
-     .help = "what the ground is made of",
-     .kind = TOOL_VIEW_PICTURE,
-     .mode = GROUND_VIEW_MATERIAL,
-     .fragment = FRAGMENT,
-     .fill = fill_material,
-     .item_count = count_grounds,
-     .legend = material_legend,
-     .wide_legend = true},
+    {TOOL_VIEW("state", "Cells by state", TOOL_VIEW_PICTURE, GROUND_VIEW_STATE, ground_view_frag,
+               "what a drop that falls there finds"),
+     .fill = fill_state, .item_count = count_grounds, .legend = state_legend},
+    {TOOL_VIEW("material", "Cells by material", TOOL_VIEW_PICTURE, GROUND_VIEW_MATERIAL, ground_view_frag,
+               "what the ground is made of"),
+     .fill = fill_material, .item_count = count_grounds, .legend = material_legend, .wide_legend = true},
 };
 
 /* ---- the budget of water */

@@ -218,8 +218,5 @@ static bool run(bench *b, const options *parsed)
 const tool_bench rain_bench = {
     .help = "step, impacts, occlusion, prepare and draw at 10^3 to 10^6 drops, in three picture sizes\n"
             "and with the shutter open for 1/96 s (the library's default) and 1/48 s (film)\n",
-    .rows = option_rows,
-    .row_count = sizeof option_rows / sizeof option_rows[0],
-    .check = check,
-    .run = run,
+    TOOL_BENCH(check, run),
 };

@@ -38,14 +38,9 @@ static void fill_view(shot *s, void *state, tool_view_data *data)
 }
 
 const tool_view rain_views[RAIN_VIEWS] = {
-    {.name = "occlusion",
-     .title = "Occlusion maps",
-     .help = "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)",
-     .kind = TOOL_VIEW_FLAT,
-     .fragment = {rain_view_frag_spv, sizeof rain_view_frag_spv},
-     .fill = fill_view,
-     .item_count = count_maps,
-     .print_item = print_map},
+    {TOOL_VIEW("occlusion", "Occlusion maps", TOOL_VIEW_FLAT, 0, rain_view_frag,
+               "what rain falls on, seen along its fall: from 4 m under the camera (blue) to 12 m above it (red)"),
+     .fill = fill_view, .item_count = count_maps, .print_item = print_map},
 };
 
 static virga_rain_stats stats_of(const void *state)

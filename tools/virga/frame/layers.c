@@ -9,33 +9,21 @@
 
 /* Before and behind the layers that effects draw. */
 static const tool_layer first[] = {
-    {.name = "beauty",
-     .channels = {"R", "G", "B", "A"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "the plate with all color layers over it",
-     .plate = HOST_COLOR},
-    {.name = "depth",
-     .channels = {"Z"},
-     .type = EXR_SAMPLE_FLOAT,
-     .help = "metres from the camera",
-     .plate = HOST_DEPTH},
+    {"beauty", {"R", "G", "B", "A"}, EXR_SAMPLE_HALF, "the plate with all color layers over it", .plate = HOST_COLOR},
+    {"depth", {"Z"}, EXR_SAMPLE_FLOAT, "metres from the camera", .plate = HOST_DEPTH},
 };
 static const tool_layer second[] = {
-    {.name = "velocity",
-     .channels = {"velocity.X", "velocity.Y"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "of the plate, px a frame right and down; see --water-velocity",
+    {"velocity",
+     {"velocity.X", "velocity.Y"},
+     EXR_SAMPLE_HALF,
+     "of the plate, px a frame right and down; see --water-velocity",
      .plate = HOST_VELOCITY},
-    {.name = "normal",
-     .channels = {"normal.X", "normal.Y", "normal.Z"},
-     .type = EXR_SAMPLE_HALF,
-     .help = "of the plate, in the world",
+    {"normal",
+     {"normal.X", "normal.Y", "normal.Z"},
+     EXR_SAMPLE_HALF,
+     "of the plate, in the world",
      .plate = HOST_NORMAL},
-    {.name = "id",
-     .channels = {"id.Y"},
-     .type = EXR_SAMPLE_UINT,
-     .help = "of the plate's objects; the sky is 0",
-     .plate = HOST_ID},
+    {"id", {"id.Y"}, EXR_SAMPLE_UINT, "of the plate's objects; the sky is 0", .plate = HOST_ID},
 };
 
 static frame_layer_row rows[FRAME_MAX_LAYERS];

@@ -5,24 +5,17 @@
 #include <string.h>
 
 static const view_mode_row first[] = {
-    {.name = "picture",
-     .title = "Picture",
-     .help = "the scene with all layers over it, as previews show it",
-     .shader = VIEW_PICTURE},
-    {.name = "plate", .title = "Scene without rain", .help = "the opaque scene alone", .shader = VIEW_PLATE},
+    {"picture", "Picture", "the scene with all layers over it, as previews show it", .shader = VIEW_PICTURE},
+    {"plate", "Scene without rain", "the opaque scene alone", .shader = VIEW_PLATE},
 };
 
 static const view_mode_row second[] = {
-    {.name = "depth",
-     .title = "Depth",
-     .help = "near is bright; every step to half the brightness is farther by a factor",
+    {"depth", "Depth", "near is bright; every step to half the brightness is farther by a factor",
      .shader = VIEW_DEPTH},
-    {.name = "normal", .title = "Normals", .help = "red X, green Y, blue Z of the world", .shader = VIEW_NORMAL},
-    {.name = "velocity",
-     .title = "Velocity",
-     .help = "hue is the direction, brightness the way; full at 20 pixels a frame",
+    {"normal", "Normals", "red X, green Y, blue Z of the world", .shader = VIEW_NORMAL},
+    {"velocity", "Velocity", "hue is the direction, brightness the way; full at 20 pixels a frame",
      .shader = VIEW_VELOCITY},
-    {.name = "id", .title = "Objects", .help = "a color for each part of a mesh", .shader = VIEW_ID},
+    {"id", "Objects", "a color for each part of a mesh", .shader = VIEW_ID},
 };
 
 static view_mode_row rows[VIEW_MAX_MODES];
