@@ -12,7 +12,6 @@
 #include <openexr.h>
 
 #include <pthread.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,17 +40,6 @@ typedef struct worker {
     bool started;
 } worker;
 
-__attribute__((format(printf, 3, 4))) static bool refuse(char *error, size_t error_size, const char *format, ...)
-{
-    if (error && error_size) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error, error_size, format, arguments);
-        va_end(arguments);
-    }
-    return false;
-}
-
 exr_attribute exr_attribute_uint(const char *name, uint32_t value, char digits[EXR_UINT_DIGITS])
 {
     if (value <= INT32_MAX)
@@ -65,10 +53,10 @@ exr_attribute exr_attribute_uint(const char *name, uint32_t value, char digits[E
 static bool check_name(const char *path, const char *what, const char *name, char *error, size_t error_size)
 {
     if (!name || !*name)
-        return refuse(error, error_size, "cannot write %s: %s has no name", path, what);
+        return file_fail(error, error_size, "cannot write %s: %s has no name", path, what);
     if (strlen(name) > EXR_MAX_NAME)
-        return refuse(error, error_size, "cannot write %s: %s '%s' has a name of %zu bytes, at most %d are allowed",
-                      path, what, name, strlen(name), EXR_MAX_NAME);
+        return file_fail(error, error_size, "cannot write %s: %s '%s' has a name of %zu bytes, at most %d are allowed",
+                         path, what, name, strlen(name), EXR_MAX_NAME);
     return true;
 }
 
@@ -92,14 +80,14 @@ static bool check_attributes(const char *path, const exr_frame *frame, char *err
         if (!check_name(path, "attribute", attribute->name, error, error_size))
             return false;
         if (reserved(attribute->name))
-            return refuse(error, error_size, "cannot write %s: attribute '%s' is set by the format", path,
-                          attribute->name);
+            return file_fail(error, error_size, "cannot write %s: attribute '%s' is set by the format", path,
+                             attribute->name);
         if (attribute->kind == EXR_ATTRIBUTE_STRING && !attribute->string)
-            return refuse(error, error_size, "cannot write %s: attribute '%s' has no text", path, attribute->name);
+            return file_fail(error, error_size, "cannot write %s: attribute '%s' has no text", path, attribute->name);
         for (uint32_t j = 0; j < i; j++)
             if (!strcmp(attribute->name, frame->attributes[j].name))
-                return refuse(error, error_size, "cannot write %s: attribute '%s' is given twice", path,
-                              attribute->name);
+                return file_fail(error, error_size, "cannot write %s: attribute '%s' is given twice", path,
+                                 attribute->name);
     }
     return true;
 }
@@ -107,16 +95,16 @@ static bool check_attributes(const char *path, const exr_frame *frame, char *err
 static bool check_frame(const char *path, const exr_frame *frame, char *error, size_t error_size)
 {
     if (!frame->width || !frame->height || frame->width > EXR_MAX_SIDE || frame->height > EXR_MAX_SIDE)
-        return refuse(error, error_size, "cannot write %s: %u x %u pixels, expected 1 to %d on each side", path,
-                      frame->width, frame->height, EXR_MAX_SIDE);
+        return file_fail(error, error_size, "cannot write %s: %u x %u pixels, expected 1 to %d on each side", path,
+                         frame->width, frame->height, EXR_MAX_SIDE);
     if (!frame->channel_count)
-        return refuse(error, error_size, "cannot write %s: the frame has no channels", path);
+        return file_fail(error, error_size, "cannot write %s: the frame has no channels", path);
     for (uint32_t i = 0; i < frame->channel_count; i++) {
         const exr_channel *channel = &frame->channels[i];
         if (!check_name(path, "channel", channel->name, error, error_size))
             return false;
         if (!channel->data)
-            return refuse(error, error_size, "cannot write %s: channel '%s' has no samples", path, channel->name);
+            return file_fail(error, error_size, "cannot write %s: channel '%s' has no samples", path, channel->name);
     }
     return check_attributes(path, frame, error, error_size);
 }
@@ -132,7 +120,7 @@ static const exr_channel **sort_channels(const char *path, const exr_frame *fram
 {
     const exr_channel **order = malloc(frame->channel_count * sizeof *order);
     if (!order) {
-        refuse(error, error_size, "cannot write %s: no memory", path);
+        file_fail(error, error_size, "cannot write %s: no memory", path);
         return NULL;
     }
     for (uint32_t i = 0; i < frame->channel_count; i++)
@@ -140,7 +128,7 @@ static const exr_channel **sort_channels(const char *path, const exr_frame *fram
     qsort(order, frame->channel_count, sizeof *order, by_name);
     for (uint32_t i = 1; i < frame->channel_count; i++) {
         if (!strcmp(order[i - 1]->name, order[i]->name)) {
-            refuse(error, error_size, "cannot write %s: channel '%s' is given twice", path, order[i]->name);
+            file_fail(error, error_size, "cannot write %s: channel '%s' is given twice", path, order[i]->name);
             free(order);
             return NULL;
         }
@@ -416,5 +404,5 @@ bool exr_write(const char *path, const exr_frame *frame, char *error, size_t err
     if (result == EXR_ERR_SUCCESS || output.failure)
         return file_finish(&output, error, error_size);
     file_abandon(&output);
-    return refuse(error, error_size, "cannot write %s: %s", path, exr_get_default_error_message(result));
+    return file_fail(error, error_size, "cannot write %s: %s", path, exr_get_default_error_message(result));
 }

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,12 +13,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+bool file_fail(char *error, size_t error_size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (error && error_size)
+        vsnprintf(error, error_size, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
 bool file_error(char *error, size_t error_size, const char *what, const char *path, int code)
 {
     char reason[128] = "";
-    if (error && error_size)
-        snprintf(error, error_size, "%s %s: %s", what, path, strerror_r(code, reason, sizeof reason));
-    return false;
+    return file_fail(error, error_size, "%s %s: %s", what, path, strerror_r(code, reason, sizeof reason));
 }
 
 /* The name does not grow with the target's, so a target name of full length still has a temporary one. */
@@ -99,38 +108,29 @@ static bool fail(file_writer *file, int code)
     return false;
 }
 
-bool file_write(file_writer *file, const void *data, size_t size)
+/* `at` is NULL where the file continues: a pipe has no offsets. */
+static bool write_all(file_writer *file, const char *data, size_t size, const uint64_t *at)
 {
-    const char *from = data;
-    if (file->failure)
-        return false;
-    while (size) {
-        ssize_t done = write(file->descriptor, from, size);
-        if (done < 0 && errno == EINTR)
+    for (size_t done = 0; done < size;) {
+        const ssize_t count = at ? pwrite(file->descriptor, data + done, size - done, (off_t)(*at + done))
+                                 : write(file->descriptor, data + done, size - done);
+        if (count < 0 && errno == EINTR)
             continue;
-        if (done <= 0)
-            return fail(file, done < 0 ? errno : ENOSPC);
-        from += done;
-        size -= (size_t)done;
-        file->offset += (uint64_t)done;
+        if (count <= 0)
+            return fail(file, count < 0 ? errno : ENOSPC);
+        done += (size_t)count;
     }
     return true;
 }
 
+bool file_write(file_writer *file, const void *data, size_t size)
+{
+    return !file->failure && write_all(file, data, size, NULL);
+}
+
 bool file_write_at(file_writer *file, const void *data, size_t size, uint64_t offset)
 {
-    const char *from = data;
-    while (size) {
-        ssize_t done = pwrite(file->descriptor, from, size, (off_t)offset);
-        if (done < 0 && errno == EINTR)
-            continue;
-        if (done <= 0)
-            return fail(file, done < 0 ? errno : ENOSPC);
-        from += done;
-        size -= (size_t)done;
-        offset += (uint64_t)done;
-    }
-    return true;
+    return write_all(file, data, size, &offset);
 }
 
 bool file_finish(file_writer *file, char *error, size_t error_size)

@@ -17,11 +17,13 @@ typedef struct file_writer {
     char *path;      /* the final name */
     char *temporary; /* the name while it is written; NULL where the file is written directly */
     int descriptor;
-    int failure;     /* errno of the first write that failed; 0: none */
-    uint64_t offset; /* where file_write continues */
+    int failure; /* errno of the first write that failed; 0: none */
 } file_writer;
 
-/* Writes "`what` `path`: reason of `code`" and returns false, so that callers can `return file_error(...)`. */
+/* Writes one line into `error` (may be NULL) and returns false, so that callers can `return file_fail(...)`. */
+bool file_fail(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Writes "`what` `path`: reason of `code`" and returns false. */
 bool file_error(char *error, size_t error_size, const char *what, const char *path, int code);
 
 /* Starts a file. After success call file_finish or file_abandon once; after failure, neither. */

@@ -4,7 +4,6 @@
 #include "file.h"
 
 #include <ctype.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,17 +12,6 @@
 #define MAX_FILE ((size_t)16 << 30) /* bytes */
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows are copied as they are: little-endian machines only");
-
-__attribute__((format(printf, 3, 4))) static bool refuse(char *error, size_t error_size, const char *format, ...)
-{
-    if (error && error_size) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error, error_size, format, arguments);
-        va_end(arguments);
-    }
-    return false;
-}
 
 /* ---- writing ---- */
 
@@ -42,18 +30,19 @@ static bool check_properties(const char *path, const ply_property *properties, u
                              char *error, size_t error_size)
 {
     if (!count || count > PLY_MAX_PROPERTIES)
-        return refuse(error, error_size, "cannot write %s: %u properties, expected 1 to %d", path, count,
-                      PLY_MAX_PROPERTIES);
+        return file_fail(error, error_size, "cannot write %s: %u properties, expected 1 to %d", path, count,
+                         PLY_MAX_PROPERTIES);
     for (uint32_t i = 0; i < count; i++) {
         const char *name = properties[i].name;
         if (!is_name(name))
-            return refuse(error, error_size, "cannot write %s: property name '%s' is not 1 to %d letters, digits or _",
-                          path, name ? name : "", PLY_MAX_NAME);
+            return file_fail(error, error_size,
+                             "cannot write %s: property name '%s' is not 1 to %d letters, digits or _", path,
+                             name ? name : "", PLY_MAX_NAME);
         if (stride < 4 || properties[i].offset > stride - 4)
-            return refuse(error, error_size, "cannot write %s: property '%s' lies outside its row", path, name);
+            return file_fail(error, error_size, "cannot write %s: property '%s' lies outside its row", path, name);
         for (uint32_t j = 0; j < i; j++)
             if (!strcmp(name, properties[j].name))
-                return refuse(error, error_size, "cannot write %s: property '%s' is given twice", path, name);
+                return file_fail(error, error_size, "cannot write %s: property '%s' is given twice", path, name);
     }
     return true;
 }
@@ -105,7 +94,7 @@ bool ply_write(const char *path, const ply_property *properties, uint32_t proper
         return false;
     char *header = make_header(properties, property_count, count, comments, &size);
     if (!header)
-        return refuse(error, error_size, "cannot write %s: no memory", path);
+        return file_fail(error, error_size, "cannot write %s: no memory", path);
     bool ok = file_start(&file, path, error, error_size);
     if (ok) {
         file_write(&file, header, size);
@@ -130,10 +119,10 @@ typedef struct header {
 static bool next_line(header *header)
 {
     if (header->next >= header->end)
-        return refuse(header->error, header->error_size, "cannot read %s: the header has no end", header->path);
+        return file_fail(header->error, header->error_size, "cannot read %s: the header has no end", header->path);
     char *stop = memchr(header->next, '\n', (size_t)(header->end - header->next));
     if (!stop)
-        return refuse(header->error, header->error_size, "cannot read %s: the header has no end", header->path);
+        return file_fail(header->error, header->error_size, "cannot read %s: the header has no end", header->path);
     header->line = header->next;
     header->next = stop + 1;
     *stop = 0;
@@ -144,8 +133,8 @@ static bool next_line(header *header)
 
 static bool wrong_line(const header *header, const char *expected)
 {
-    return refuse(header->error, header->error_size, "cannot read %s: header line '%.60s', expected %s", header->path,
-                  header->line, expected);
+    return file_fail(header->error, header->error_size, "cannot read %s: header line '%.60s', expected %s",
+                     header->path, header->line, expected);
 }
 
 static bool read_property(header *header, ply_points *points)
@@ -201,12 +190,12 @@ static bool read_values(const header *header, ply_points *points)
     size_t row = (size_t)points->property_count * 4;
     size_t there = (size_t)(header->end - header->next);
     if (points->count > there / row)
-        return refuse(header->error, header->error_size,
-                      "cannot read %s: %zu bytes of points, expected %llu rows of %zu", header->path, there,
-                      (unsigned long long)points->count, row);
+        return file_fail(header->error, header->error_size,
+                         "cannot read %s: %zu bytes of points, expected %llu rows of %zu", header->path, there,
+                         (unsigned long long)points->count, row);
     points->values = malloc(points->count ? (size_t)points->count * row : row);
     if (!points->values)
-        return refuse(header->error, header->error_size, "cannot read %s: no memory", header->path);
+        return file_fail(header->error, header->error_size, "cannot read %s: no memory", header->path);
     memcpy(points->values, header->next, (size_t)points->count * row);
     return true;
 }

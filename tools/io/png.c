@@ -28,9 +28,7 @@
 
 static bool refuse(char *error, size_t error_size, const char *verb, const char *path, const char *reason)
 {
-    if (error && error_size)
-        snprintf(error, error_size, "cannot %s %s: %s", verb, path, reason);
-    return false;
+    return file_fail(error, error_size, "cannot %s %s: %s", verb, path, reason);
 }
 
 static void append_bytes(void *user, void *data, int size)
@@ -109,12 +107,13 @@ static bool is_png(const uint8_t *data, size_t size)
  * chunk gets a name that nobody reads. */
 static void call_grey(uint8_t *png, size_t size)
 {
+    static const uint8_t unread[4] = {'s', 'k', 'i', 'p'};
     png[COLOR] = GREY;
     for (size_t at = CHUNKS; size - at >= 12;) {
         uint8_t *chunk = png + at;
         const size_t length = (size_t)chunk[0] << 24 | (size_t)chunk[1] << 16 | (size_t)chunk[2] << 8 | chunk[3];
         if (!memcmp(chunk + 4, "tRNS", 4))
-            memcpy(chunk + 4, "skip", 4);
+            memcpy(chunk + 4, unread, sizeof unread);
         if (length > size - at - 12)
             return;
         at += length + 12;

@@ -4,15 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
 #include "scene_load.h"
 #include "scene_schema.h"
 
 /* ---- finding them --------------------------------------------------------------------------------------------- */
-
-typedef struct found {
-    scene_list *lists;
-    size_t count, room;
-} found;
 
 /* Only the scene file can give names. */
 static bool has_names(const scene_row *list)
@@ -23,21 +19,12 @@ static bool has_names(const scene_row *list)
     return !list->group;
 }
 
-static bool add_list(const scene_item *item, void *user)
+static bool fill_list(const scene_item *item, void *entry)
 {
-    found *out = user;
     const scene_row *row = item->row;
+    scene_list *list = entry;
     if (row->type != SCENE_TYPE_LIST || has_names(row))
-        return true;
-    if (out->count == out->room) {
-        const size_t room = out->room ? 2 * out->room : 16;
-        scene_list *grown = realloc(out->lists, room * sizeof *grown);
-        if (!grown)
-            return false;
-        out->lists = grown;
-        out->room = room;
-    }
-    scene_list *list = &out->lists[out->count++];
+        return false;
     *list = (scene_list){.count = scene_list_length(row, item->owner),
                          .min_entries = row->min_count,
                          .max_entries = row->max_count,
@@ -50,13 +37,7 @@ static bool add_list(const scene_item *item, void *user)
 
 scene_list *scene_lists(scene_file *scene, size_t *count)
 {
-    found out = {0};
-    const bool good = scene_walk(scene, SCENE_ORDER_ROWS, add_list, &out);
-    *count = out.count;
-    if (good)
-        return out.lists;
-    free(out.lists);
-    return NULL;
+    return scene_collect(scene, sizeof(scene_list), fill_list, count);
 }
 
 scene_list *scene_lists_find(scene_list *lists, size_t count, const char *path)
@@ -75,10 +56,10 @@ static bool find_one(scene_file *scene, const char *path, scene_list *list, char
     if (one)
         *list = *one;
     free(lists);
-    return one || scene_settings_fail(error, error_size,
-                                      lists ? "%.80s: the scene has no list of this name that could grow or shrink"
-                                            : "%.80s: no more memory",
-                                      path);
+    return one || file_fail(error, error_size,
+                            lists ? "%.80s: the scene has no list of this name that could grow or shrink"
+                                  : "%.80s: no more memory",
+                            path);
 }
 
 /* ---- growing and shrinking ------------------------------------------------------------------------------------ */
@@ -167,12 +148,12 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
     if (!find_one(scene, path, &list, error, error_size))
         return false;
     if (list.count >= list.max_entries)
-        return scene_settings_fail(error, error_size, "%s: a scene has %u at most", path, list.max_entries);
+        return file_fail(error, error_size, "%s: a scene has %u at most", path, list.max_entries);
     const scene_group *group = list.row->group;
     char **entries = scene_list_entries(list.row, list.owner);
     char *grown = realloc(*entries, (list.count + (size_t)1) * group->size);
     if (!grown)
-        return scene_settings_fail(error, error_size, "%s: no more memory", path);
+        return file_fail(error, error_size, "%s: no more memory", path);
     *entries = grown;
     char *last = grown + (size_t)list.count * group->size;
     memset(last, 0, group->size);
@@ -185,7 +166,7 @@ bool scene_list_add(scene_file *scene, const char *path, char *error, size_t err
         return true;
     scene_list_set_length(list.row, list.owner, list.count);
     scene_free_group(group, last);
-    return scene_settings_fail(error, error_size, "%s: no more memory", path);
+    return file_fail(error, error_size, "%s: no more memory", path);
 }
 
 bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t error_size)
@@ -194,7 +175,7 @@ bool scene_list_drop(scene_file *scene, const char *path, char *error, size_t er
     if (!find_one(scene, path, &list, error, error_size))
         return false;
     if (list.count <= list.min_entries)
-        return scene_settings_fail(error, error_size, "%s: a scene has %u at least", path, list.min_entries);
+        return file_fail(error, error_size, "%s: a scene has %u at least", path, list.min_entries);
     const scene_group *group = list.row->group;
     scene_free_group(group, *scene_list_entries(list.row, list.owner) + (list.count - (size_t)1) * group->size);
     scene_list_set_length(list.row, list.owner, list.count - 1);

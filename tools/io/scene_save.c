@@ -62,7 +62,7 @@ static bool write_document(scene_document *document, const char *source, const c
         return false;
     if (!yaml_emitter_initialize(&emitter)) {
         file_abandon(&file);
-        return scene_settings_fail(error, error_size, "no more memory");
+        return file_fail(error, error_size, "no more memory");
     }
     file_write(&file, head, (size_t)length);
     yaml_emitter_set_output(&emitter, write_bytes, &file);
@@ -75,7 +75,7 @@ static bool write_document(scene_document *document, const char *source, const c
     if (dumped)
         return file_finish(&file, error, error_size);
     file_abandon(&file);
-    return scene_settings_fail(error, error_size, "cannot write %s", path);
+    return file_fail(error, error_size, "cannot write %s", path);
 }
 
 /* `scene` is what comes out, checked. */

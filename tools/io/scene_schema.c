@@ -154,3 +154,35 @@ bool scene_walk(scene_file *scene, scene_order order, bool (*visit)(const scene_
     const walk w = {order, visit, user};
     return walk_group(&w, &scene->format->root, (char *)scene, "", "");
 }
+
+typedef struct collected {
+    bool (*fill)(const scene_item *item, void *entry);
+    char *entries;
+    size_t size, count, capacity;
+} collected;
+
+static bool collect_one(const scene_item *item, void *user)
+{
+    collected *out = user;
+    if (out->count == out->capacity) {
+        const size_t capacity = out->capacity ? 2 * out->capacity : 256;
+        char *grown = realloc(out->entries, capacity * out->size);
+        if (!grown)
+            return false;
+        out->entries = grown;
+        out->capacity = capacity;
+    }
+    out->count += out->fill(item, out->entries + out->count * out->size);
+    return true;
+}
+
+void *scene_collect(scene_file *scene, size_t size, bool (*fill)(const scene_item *item, void *entry), size_t *count)
+{
+    collected out = {.fill = fill, .size = size};
+    const bool good = scene_walk(scene, SCENE_ORDER_ROWS, collect_one, &out);
+    *count = out.count;
+    if (good)
+        return out.entries;
+    free(out.entries);
+    return NULL;
+}

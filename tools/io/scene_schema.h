@@ -103,6 +103,9 @@ typedef enum scene_order {
  * Leaves out what is in optional groups that were left out. */
 bool scene_walk(scene_file *scene, scene_order order, bool (*visit)(const scene_item *item, void *user), void *user);
 
+/* An array for free(), NULL without memory, with `size` bytes for each row that `fill` returns true for. */
+void *scene_collect(scene_file *scene, size_t size, bool (*fill)(const scene_item *item, void *entry), size_t *count);
+
 /* (list) */
 uint32_t scene_list_length(const scene_row *list, const void *owner);
 void scene_list_set_length(const scene_row *list, void *owner, uint32_t length);

@@ -2,42 +2,15 @@
 #include "scene_settings.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
 #include "scene_schema.h"
 #include "suggest.h"
 
-bool scene_settings_fail(char *error, size_t error_size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, error_size, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
 /* ---- the list ------------------------------------------------------------------------------------------------- */
-
-typedef struct list {
-    scene_setting *settings;
-    size_t count, room;
-} list;
-
-static scene_setting *append(list *out)
-{
-    if (out->count == out->room) {
-        const size_t room = out->room ? 2 * out->room : 256;
-        scene_setting *grown = realloc(out->settings, room * sizeof *grown);
-        if (!grown)
-            return NULL;
-        out->settings = grown;
-        out->room = room;
-    }
-    return &out->settings[out->count++];
-}
 
 static scene_setting_kind kind_of(const scene_row *row)
 {
@@ -51,13 +24,11 @@ static scene_setting_kind kind_of(const scene_row *row)
     }
 }
 
-static bool add_setting(const scene_item *item, void *user)
+static bool fill_setting(const scene_item *item, void *entry)
 {
     const scene_row *row = item->row;
+    scene_setting *setting = entry;
     if (row->type == SCENE_TYPE_GROUP || row->type == SCENE_TYPE_LIST)
-        return true;
-    scene_setting *setting = append(user);
-    if (!setting)
         return false;
     *setting = (scene_setting){.kind = kind_of(row),
                                .count = row->components ? row->components : 1,
@@ -79,13 +50,7 @@ static bool add_setting(const scene_item *item, void *user)
 
 scene_setting *scene_settings_list(scene_file *scene, size_t *count)
 {
-    list out = {0};
-    const bool good = scene_walk(scene, SCENE_ORDER_ROWS, add_setting, &out);
-    *count = out.count;
-    if (good)
-        return out.settings;
-    free(out.settings);
-    return NULL;
+    return scene_collect(scene, sizeof(scene_setting), fill_setting, count);
 }
 
 scene_setting *scene_settings_find(scene_setting *settings, size_t count, const char *path)
@@ -189,8 +154,8 @@ static bool read_number(const scene_setting *setting, const char **text, double 
     const bool whole = setting->kind == SCENE_SETTING_WHOLE;
     if (!length || end != *text + length || !isfinite(*value) || *value < setting->low || *value > setting->high ||
         (whole && *value != floor(*value)))
-        return scene_settings_fail(error, error_size, "%s: expected a %snumber from %.10g to %.10g, got '%.40s'",
-                                   setting->path, whole ? "whole " : "", setting->low, setting->high, *text);
+        return file_fail(error, error_size, "%s: expected a %snumber from %.10g to %.10g, got '%.40s'", setting->path,
+                         whole ? "whole " : "", setting->low, setting->high, *text);
     *text = end;
     return true;
 }
@@ -211,8 +176,8 @@ static bool parse_numbers(scene_setting *setting, const char *text, char *error,
         at += vector && good;
     }
     if (!good || at[strspn(at, " ")])
-        return scene_settings_fail(error, error_size, "%s: expected %u numbers as in [1, 2, 3], got '%.60s'",
-                                   setting->path, setting->count, text);
+        return file_fail(error, error_size, "%s: expected %u numbers as in [1, 2, 3], got '%.60s'", setting->path,
+                         setting->count, text);
     for (uint32_t i = 0; i < setting->count; i++) {
         if (setting->kind == SCENE_SETTING_NUMBER)
             ((double *)setting->value)[i] = values[i];
@@ -234,7 +199,7 @@ static bool parse_choice(scene_setting *setting, const char *text, char *error, 
             return true;
         }
     }
-    return scene_settings_fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
+    return file_fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
 }
 
 /* An optional value: memory of malloc behind a pointer, or NULL. */
@@ -250,16 +215,14 @@ static bool parse_optional(scene_setting *setting, const char *text, char *error
         return true;
     }
     if (number && (!read_number(setting, &at, &read, error, error_size) || *at))
-        return *at ? scene_settings_fail(error, error_size, "%s: expected a number or null, got '%.40s'", setting->path,
-                                         text)
+        return *at ? file_fail(error, error_size, "%s: expected a number or null, got '%.40s'", setting->path, text)
                    : false;
     if (!number && !on && strcmp(text, "false"))
-        return scene_settings_fail(error, error_size, "%s: expected true, false or null, got '%.40s'", setting->path,
-                                   text);
+        return file_fail(error, error_size, "%s: expected true, false or null, got '%.40s'", setting->path, text);
     if (!*value)
         *value = calloc(1, sizeof(double));
     if (!*value)
-        return scene_settings_fail(error, error_size, "%s: no more memory", setting->path);
+        return file_fail(error, error_size, "%s: no more memory", setting->path);
     if (number)
         *(double *)*value = read;
     else
@@ -278,12 +241,11 @@ bool scene_setting_parse(scene_setting *setting, const char *text, char *error, 
     case SCENE_SETTING_TEXT: break;
     case SCENE_SETTING_SWITCH:
         if (strcmp(text, "true") && strcmp(text, "false"))
-            return scene_settings_fail(error, error_size, "%s: expected true or false, got '%.40s'", setting->path,
-                                       text);
+            return file_fail(error, error_size, "%s: expected true or false, got '%.40s'", setting->path, text);
         *(bool *)setting->value = text[0] == 't';
         return true;
     }
-    return scene_settings_fail(error, error_size, "%s: is a name that only the scene file can change", setting->path);
+    return file_fail(error, error_size, "%s: is a name that only the scene file can change", setting->path);
 }
 
 bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t count)
@@ -326,8 +288,8 @@ static bool unknown(const char *path, const scene_setting *settings, size_t coun
         names[i] = settings[i].path;
     if (names)
         near = suggest_nearest(path, names, count);
-    scene_settings_fail(error, error_size, "%.80s: the scene has no such setting%s%s%s", path,
-                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+    file_fail(error, error_size, "%.80s: the scene has no such setting%s%s%s", path, near ? "; did you mean " : "",
+              near ? near : "", near ? "?" : "");
     free(names);
     return false;
 }
@@ -337,12 +299,11 @@ bool scene_settings_assign(scene_file *scene, const char *assignment, bool *rest
     char path[96];
     const char *equals = strchr(assignment, '=');
     if (!equals || equals == assignment || (size_t)(equals - assignment) >= sizeof path)
-        return scene_settings_fail(error, error_size, "expected key=value, such as rain.rate_mm_h=50, got '%.60s'",
-                                   assignment);
+        return file_fail(error, error_size, "expected key=value, such as rain.rate_mm_h=50, got '%.60s'", assignment);
     snprintf(path, sizeof path, "%.*s", (int)(equals - assignment), assignment);
     size_t count, found = 0;
     scene_setting *settings = scene_settings_list(scene, &count);
-    bool good = settings || scene_settings_fail(error, error_size, "no more memory");
+    bool good = settings || file_fail(error, error_size, "no more memory");
     for (size_t i = 0; good && i < count; i++) {
         if (!path_matches(settings[i].path, path))
             continue;

@@ -38,9 +38,6 @@ typedef struct scene_setting {
     const struct scene_keyword *keywords; /* (choice) see scene_setting_word */
 } scene_setting;
 
-/* Writes one line about what is wrong, and returns false. */
-bool scene_settings_fail(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
 /* All settings of a scene, in the order of the schema: an array to free(), NULL without memory. It points into the
  * scene; those of lists count as they are now, so make it anew where a list has changed. */
 scene_setting *scene_settings_list(scene_file *scene, size_t *count);
