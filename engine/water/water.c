@@ -23,6 +23,7 @@
 #include "shaders/water_surface_density_comp.spv.h"
 #include "shaders/water_surface_edge_write_comp.spv.h"
 #include "shaders/water_surface_field_comp.spv.h"
+#include "shaders/water_surface_kernel_comp.spv.h"
 #include "shaders/water_surface_surfel_count_comp.spv.h"
 #include "shaders/water_surface_surfel_scan_comp.spv.h"
 #include "shaders/water_surface_surfel_write_comp.spv.h"
@@ -52,6 +53,9 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, volume_m3, 0, 1000),
     SETTING(FLOAT, kernel_spacings, 1, 4, 2),
     SETTING(FLOAT, level, 0.05, 0.95, 0.5),
+    SETTING(ENUM, kernel, 0, VIRGA_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC),
+    SETTING(FLOAT, smoothing, 0, 1, 0.9),
+    SETTING(FLOAT, stretch, 1, 4, 2),
 };
 
 virga_water_def virga_default_water_def(void)
@@ -139,6 +143,9 @@ static const virga_effect_buffer buffers[] = {
     {"water.fields", AT(fields), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_POINTS},
     {"water.block_starts", AT(block_starts), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_BLOCKS},
     {"water.densities", AT(densities), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
+    {"water.shifts", AT(shifts), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"water.shapes", AT(shapes), VIRGA_USE_TEXELS, DEVICE, .entry = 2 * 16, .count = COUNT_PARTICLES},
+    {"water.centers", AT(centers), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
      .first = VIRGA_FIRST_FILL},
 };
@@ -156,7 +163,7 @@ static const virga_binding_kind grid_bindings[] = {
     PARTICLE_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
 };
 
-static const virga_binding_kind bindings[] = {
+static const virga_binding_kind kernel_bindings[] = {
     {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
     [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
@@ -165,6 +172,24 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},                            /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shifts)},                                /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                               /* 12 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 13 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shifts)},                                 /* 14 */
+};
+
+static const virga_binding_kind bindings[] = {
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
+    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                               /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},                            /* 7 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_insides)},                         /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(blocks)},                                /* 10 */
@@ -172,14 +197,15 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(fields)},                                /* 12 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_starts)},                          /* 13 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 15 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 17 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 18 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(centers)},                                /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shapes)},                                 /* 18 */
 };
 
 static const virga_effect_layout layouts[] = {
     [WATER_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_water, grid_bindings, 1),
+    [WATER_LAYOUT_KERNELS] = {AT(kernel_bindings), kernel_bindings, VIRGA_ROWS(kernel_bindings), 1, 0},
     [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
 };
 
@@ -187,17 +213,23 @@ static const virga_effect_layout layouts[] = {
     {                                                                                                          \
         "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), .layout = WATER_LAYOUT_SURFACE \
     }
+/* One form for each virga_water_kernel. */
+#define KERNEL_PASS(pass, row)                                                                               \
+    {                                                                                                        \
+        "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), WATER_KERNELS, .layout = row \
+    }
 static const virga_effect_pass passes[] = {
     PARTICLE_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
-    PASS(density),
+    KERNEL_PASS(density, WATER_LAYOUT_KERNELS),
+    KERNEL_PASS(kernel, WATER_LAYOUT_KERNELS),
     PASS(block_mark),
     PASS(block_scan),
     PASS(block_compact),
-    PASS(field),
+    KERNEL_PASS(field, WATER_LAYOUT_SURFACE),
     PASS(surfel_count),
     PASS(surfel_scan),
     PASS(edge_write),
-    PASS(surfel_write),
+    KERNEL_PASS(surfel_write, WATER_LAYOUT_SURFACE),
 };
 
 static const virga_effect_pool pools[] = {

@@ -19,10 +19,12 @@ typedef struct water_readback {
     virga_water_state_gpu state;
 } water_readback;
 
-enum { WATER_LAYOUT_GRID, WATER_LAYOUT_SURFACE };
+enum { WATER_LAYOUT_GRID, WATER_LAYOUT_KERNELS, WATER_LAYOUT_SURFACE };
 
-/* Bindings of the surface's passes that the effect binds itself. */
+/* Bindings of the kernels' and the surface's passes that the effect binds itself. */
 enum { WATER_BIND_PARTICLES = 2 };
+
+#define WATER_KERNELS 2 /* virga_water_kernel */
 
 struct virga_water {
     virga_effect base; /* first */
@@ -32,12 +34,12 @@ struct virga_water {
 
     particle_grid grid;
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
-        *surfels;
+        *shifts, *shapes, *centers, *surfels;
     virga_ring step_ring;
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
-    virga_bindings *bindings;
-    virga_pipeline *density, *block_mark, *block_scan, *block_compact, *field;
-    virga_pipeline *surfel_count, *surfel_scan, *edge_write, *surfel_write;
+    virga_bindings *kernel_bindings, *bindings;
+    virga_pipeline *density[WATER_KERNELS], *kernel[WATER_KERNELS], *field[WATER_KERNELS], *surfel_write[WATER_KERNELS];
+    virga_pipeline *block_mark, *block_scan, *block_compact, *surfel_count, *surfel_scan, *edge_write;
     virga_water_stats stats;
 };
 

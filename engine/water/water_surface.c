@@ -63,6 +63,24 @@ static double surface_reach(double level, double d, double h)
     return reach < 0.6 * d ? 0.6 * d : reach;
 }
 
+/* Radius of the kernel whose ball at the density of the surface is largest, for a particle all alone (m).
+ *
+ * With the radius k, its density is level at the distance r for 315 v / (64 pi k^3) (1 - (r / k)^2)^3 = level, so
+ * (r / k)^2 = 1 - c k with c = (64 pi level / (315 v))^(1/3): r is largest for k = 2 / (3 c). At the level 0.5 the ball
+ * then has 0.75 of the particle's volume; no radius gives more. */
+static double lonely_radius(double level, double volume, double h)
+{
+    const double k = 2 / (3 * cbrt(64 * PI * level / (315 * volume)));
+    return k < h ? k : h;
+}
+
+/* 1 / sum of the weights 1 - (r / h)^3 of neighbours in water at rest: 4 pi times the integral of the weight r^2 is
+ * 2/3 pi h^3, for one particle in d^3. */
+static double crowd(double d, double h)
+{
+    return d * d * d / (2 * PI / 3 * h * h * h);
+}
+
 static void fill_step(const virga_water *water, uint32_t particles, virga_water_step_gpu *out)
 {
     const virga_water_settings *settings = &water->settings;
@@ -83,7 +101,11 @@ static void fill_step(const virga_water *water, uint32_t particles, virga_water_
                                   .full = fmaxf(FULL_DENSITY, settings->level + FULL_ABOVE_LEVEL),
                                   .reach = (float)(surface_reach((double)settings->level, d, h) / h),
                                   .point_m = (float)point_m,
-                                  .surfel_m = (float)(1.2 * point_m)};
+                                  .surfel_m = (float)(1.2 * point_m),
+                                  .smoothing = settings->smoothing,
+                                  .stretch2 = settings->stretch * settings->stretch,
+                                  .lonely_m = (float)lonely_radius((double)settings->level, volume, h),
+                                  .crowd = (float)crowd(d, h)};
 }
 
 /* Dispatches with a workgroup for each entry of a list whose length an earlier pass wrote into the state. */
@@ -99,16 +121,24 @@ static void over_cells(const virga_water *water, VkCommandBuffer cmd, const virg
 
 static void record_densities(virga_water *water, VkCommandBuffer cmd)
 {
-    over_cells(water, cmd, water->density, offsetof(virga_particle_grid_gpu, sorted_groups));
+    over_cells(water, cmd, water->density[water->settings.kernel], offsetof(virga_particle_grid_gpu, sorted_groups));
+}
+
+static void record_blocks(virga_water *water, VkCommandBuffer cmd)
+{
+    over_cells(water, cmd, water->block_mark, offsetof(virga_particle_grid_gpu, cell_groups));
+    virga_dispatch_and_barrier(water->base.context, cmd, water->block_scan, 1);
+    over_cells(water, cmd, water->block_compact, offsetof(virga_particle_grid_gpu, word_groups));
+}
+
+static void record_kernels(virga_water *water, VkCommandBuffer cmd)
+{
+    over_cells(water, cmd, water->kernel[water->settings.kernel], offsetof(virga_particle_grid_gpu, sorted_groups));
 }
 
 static void record_fields(virga_water *water, VkCommandBuffer cmd)
 {
-    virga_context *context = water->base.context;
-    over_cells(water, cmd, water->block_mark, offsetof(virga_particle_grid_gpu, cell_groups));
-    virga_dispatch_and_barrier(context, cmd, water->block_scan, 1);
-    over_cells(water, cmd, water->block_compact, offsetof(virga_particle_grid_gpu, word_groups));
-    over(water, cmd, water->field, offsetof(virga_water_state_gpu, block_groups));
+    over(water, cmd, water->field[water->settings.kernel], offsetof(virga_water_state_gpu, block_groups));
 }
 
 static void record_surfels(virga_water *water, VkCommandBuffer cmd)
@@ -116,16 +146,23 @@ static void record_surfels(virga_water *water, VkCommandBuffer cmd)
     over(water, cmd, water->surfel_count, offsetof(virga_water_state_gpu, block_lane_groups));
     virga_dispatch_and_barrier(water->base.context, cmd, water->surfel_scan, 1);
     over(water, cmd, water->edge_write, offsetof(virga_water_state_gpu, block_lane_groups));
-    over(water, cmd, water->surfel_write, offsetof(virga_water_state_gpu, surfel_groups));
+    over(water, cmd, water->surfel_write[water->settings.kernel], offsetof(virga_water_state_gpu, surfel_groups));
 }
 
-static void run(virga_water *water, VkCommandBuffer cmd, const char *name, VkDescriptorSet set, uint32_t offset,
+/* A layout with its set for this step. */
+typedef struct step_set {
+    const virga_bindings *layout;
+    VkDescriptorSet set;
+    uint32_t offset; /* of the block of the step */
+} step_set;
+
+static void run(virga_water *water, VkCommandBuffer cmd, const char *name, const step_set *use,
                 void (*record)(virga_water *, VkCommandBuffer))
 {
     virga_context *context = water->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, name);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, water->bindings->layout, 0, 1, &set, 1,
-                                      &offset);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, use->layout->layout, 0, 1, &use->set, 1,
+                                      &use->offset);
     record(water, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -194,7 +231,9 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     fill_step(water, particles, &step);
     const uint32_t offset = virga_ring_push(context, &water->step_ring, &step, sizeof step);
     const VkDescriptorSet grid_set = write_set(water, water->grid.bindings, info, particles);
-    const VkDescriptorSet set = write_set(water, water->bindings, info, particles);
+    const step_set kernels = {water->kernel_bindings, write_set(water, water->kernel_bindings, info, particles),
+                              offset};
+    const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     wait_for_readers(context, cmd);
     virga_effect_first_contents(&water->base, cmd);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
@@ -202,9 +241,11 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");
     particle_grid_record(context, cmd, &water->grid, grid_set, offset, particles);
     virga_pass_end(context, cmd, scope);
-    run(water, cmd, "water.density", set, offset, record_densities);
-    run(water, cmd, "water.field", set, offset, record_fields);
-    run(water, cmd, "water.surfels", set, offset, record_surfels);
+    run(water, cmd, "water.density", &kernels, record_densities);
+    run(water, cmd, "water.blocks", &surface, record_blocks);
+    run(water, cmd, "water.kernels", &kernels, record_kernels);
+    run(water, cmd, "water.field", &surface, record_fields);
+    run(water, cmd, "water.surfels", &surface, record_surfels);
     virga_effect_copy_statistics(&water->base, cmd, 0, water->grid.state, 0, offsetof(water_readback, grid),
                                  sizeof(virga_particle_grid_gpu));
     virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),

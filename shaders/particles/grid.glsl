@@ -4,7 +4,7 @@
 // it. The grid is a box of cells around all particles; if there is no memory for such a box, it is a smaller one around
 // their median. Cells are numbered along x first: the three cells of a row lie side by side, and so do their particles.
 //
-// The particles of a cell are in the order of their indices. The result of a sum over them does not depend on the order
+// The particles of a cell are in the order of their ids. The result of a sum over them does not depend on the order
 // in which atomics arrived.
 #define VIRGA_GLSL
 #include "shared/particle.h"

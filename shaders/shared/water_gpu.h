@@ -14,6 +14,15 @@ typedef struct virga_water_state_gpu virga_water_state_gpu;
 #define VIRGA_WATER_SIDE   4  /* grid points of a block along each axis: its cell is four steps wide */
 #define VIRGA_WATER_POINTS 64 /* grid points of a block */
 
+/* Shapes of kernels: the passes that depend on it are built once for each. */
+#define VIRGA_WATER_ISOTROPIC   0
+#define VIRGA_WATER_ANISOTROPIC 1
+
+/* Anisotropic kernels: how much of the neighbours' mean shift is subtracted, so that the surface of flat water stays in
+ * its position; and how far a center moves at most, in h. */
+#define VIRGA_WATER_UNSHIFT   1.35
+#define VIRGA_WATER_MAX_SHIFT 0.3
+
 /* One step. Lengths in m. The first members are those of virga_particle_step_gpu. */
 struct virga_water_step_gpu {
     float cell_m;     /* side of a cell: the kernel's radius h */
@@ -30,6 +39,11 @@ struct virga_water_step_gpu {
     float reach;           /* distance of the surface from such particles at most, in cells */
     float point_m;         /* distance of grid points */
     float surfel_m;        /* radius of a surfel */
+    /* Anisotropic kernels, see shaders/water/surface/kernel.comp. */
+    float smoothing; /* [0; 1] how far a kernel's center moves towards the mean of its neighbours */
+    float stretch2;  /* largest ratio of two axes, squared */
+    float lonely_m;  /* radius of the kernel of a particle without neighbours */
+    float crowd;     /* 1 / weight of the neighbours in the middle of water at rest */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -44,7 +58,7 @@ struct virga_water_state_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 56);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 72);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_water_state_gpu, 52);
 #undef uint

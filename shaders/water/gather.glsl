@@ -4,12 +4,13 @@
 // read as a texel: software Vulkan fetches that three times as fast as it reads a storage buffer and passes the values
 // on by subgroup shuffles.
 //
-// The includer defines `void visit(vec4 particle)`; with GATHER_VELOCITIES, `void visit(vec4 particle, vec4 velocity)`.
+// The includer defines `void visit(vec4 particle)`, with its position and the part of its volume that counts; with
+// GATHER_SHIFTS, `void visit(vec4 particle, vec4 shift)`.
 #include "gpu/texels.glsl"
 
-TEXELS(sorted_texel, 17, 5)
-#ifdef GATHER_VELOCITIES
-TEXELS(velocity_texel, 18, 14)
+TEXELS(sorted_texel, 13, 5)
+#ifdef GATHER_SHIFTS
+TEXELS(shift_texel, 14, 9)
 #endif
 
 void gather(uint cell)
@@ -19,8 +20,8 @@ void gather(uint cell)
         const uvec2 run = neighbour_row(cell, row, dims);
         for (uint i = run.x; i < run.y; i++) {
             const vec4 particle = uintBitsToFloat(sorted_texel(i));
-#ifdef GATHER_VELOCITIES
-            visit(particle, uintBitsToFloat(velocity_texel(i)));
+#ifdef GATHER_SHIFTS
+            visit(particle, uintBitsToFloat(shift_texel(i)));
 #else
             visit(particle);
 #endif

@@ -127,7 +127,7 @@ static void a_ball_has_the_volume_of_its_particles(void **state)
     water_fixture_close(&f);
 }
 
-static void the_order_of_particles_changes_nothing_but_rounding(void **state)
+static void the_order_of_particles_changes_nothing(void **state)
 {
     (void)state;
     static float before[4096];
@@ -173,7 +173,7 @@ int main(void)
         cmocka_unit_test(surfels_lie_on_the_surface_with_its_normal),
         cmocka_unit_test(every_edge_that_the_surface_crosses_has_a_surfel),
         cmocka_unit_test(a_ball_has_the_volume_of_its_particles),
-        cmocka_unit_test(the_order_of_particles_changes_nothing_but_rounding),
+        cmocka_unit_test(the_order_of_particles_changes_nothing),
         cmocka_unit_test(the_same_particles_give_the_same_bits),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

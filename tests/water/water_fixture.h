@@ -23,6 +23,9 @@ typedef struct water_fixture {
     /* Read back. */
     const float *densities;
     const virga_surfel_gpu *surfels;
+    const uint32_t *sorted_indices; /* for each kernel, the index of its particle */
+    const float *centers;           /* of kernels: x, y, z, factor */
+    const float *shapes;            /* of kernels: xx, yy, zz, xy, xz, yz, 0, 0 */
     virga_water_stats stats;
 } water_fixture;
 
@@ -47,9 +50,10 @@ static inline void water_fixture_open_with(water_fixture *f, const virga_water_d
     REQUIRE(host_buffer_create(&f->gpu.device, (VkDeviceSize)def->max_particles * sizeof(virga_particle_gpu),
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "particles", &f->particle_buffer,
                                error, size));
-    REQUIRE(host_buffer_create(&f->gpu.device, f->water->densities->size + f->water->surfels->size,
-                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download,
-                               error, size));
+    REQUIRE(host_buffer_create(
+        &f->gpu.device,
+        2 * f->water->densities->size + f->water->surfels->size + f->water->shapes->size + f->water->centers->size,
+        VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download, error, size));
     f->particles = f->particle_buffer.mapped;
 }
 
@@ -79,6 +83,10 @@ static inline virga_result water_fixture_try(water_fixture *f)
     f->densities =
         effect_fixture_copy(cmd, f->water->densities->buffer, f->water->densities->size, &f->download, &offset);
     f->surfels = effect_fixture_copy(cmd, f->water->surfels->buffer, f->water->surfels->size, &f->download, &offset);
+    f->sorted_indices = effect_fixture_copy(cmd, f->water->grid.sorted_indices->buffer,
+                                            f->water->grid.sorted_indices->size, &f->download, &offset);
+    f->centers = effect_fixture_copy(cmd, f->water->centers->buffer, f->water->centers->size, &f->download, &offset);
+    f->shapes = effect_fixture_copy(cmd, f->water->shapes->buffer, f->water->shapes->size, &f->download, &offset);
     effect_fixture_complete(&f->gpu, f->context);
     host_buffer_invalidate(&f->gpu.device, &f->download);
     virga_water_stats_get(f->water, &f->stats);

@@ -10,7 +10,7 @@
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
-layout(std430, set = 0, binding = 16) writeonly buffer Surfels { uvec4 surfels[]; };
+layout(std430, set = 0, binding = 15) writeonly buffer Surfels { uvec4 surfels[]; };
 
 void main()
 {

@@ -1,7 +1,7 @@
 // field.comp - the density of the water at the grid points of each block (equation 1 and section 4.2 of Iwasaki et al.
 // 2006), and which of them are inside the water.
-// One workgroup per block; each invocation has a column of four points. Reads: sorted. Writes: fields, block_insides,
-// block_of.
+// One workgroup per block; each invocation has a column of four points. Reads: centers, shapes. Writes: fields,
+// block_insides, block_of.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,14 +18,25 @@ vec2 here;
 vec4 along, sum; // positions along z, and densities there
 float inv_h2;
 
-void visit(vec4 particle)
+#include "water/kernel_types.glsl"
+
+void visit(Kernel kernel)
 {
-    const vec2 aside = particle.xy - here;
-    const vec4 apart = particle.z - along;
-    const vec4 x = max((1.0 - dot(aside, aside) * inv_h2) - apart * apart * inv_h2, 0.0);
-    sum += particle.w * (x * x * x);
+    const vec2 aside = kernel.center.xy - here;
+    const vec4 apart = kernel.center.z - along;
+    vec4 x;
+    if (KERNEL == VIRGA_WATER_ISOTROPIC) {
+        x = (1.0 - dot(aside, aside) * inv_h2) - apart * apart * inv_h2;
+    } else {
+        // A quadratic form is a parabola along z.
+        const float flat_part = dot(kernel.squares.xy, aside * aside) + 2.0 * kernel.products.x * aside.x * aside.y;
+        const float slope = 2.0 * dot(kernel.products.yz, aside);
+        x = 1.0 - inv_h2 * (flat_part + apart * (slope + kernel.squares.z * apart));
+    }
+    x = max(x, 0.0);
+    sum += kernel.center.w * (x * x * x);
 }
-#include "water/gather.glsl"
+#include "water/gather_kernels.glsl"
 
 void main()
 {

@@ -1,7 +1,7 @@
 // surfel_write.comp - moves surfels onto the surface. A surfel begins where the density, taken as linear along a
 // crossed edge of the grid, has the value of the surface. There the density and its gradient are summed up, and a step
 // of Newton's method along the gradient leads onto the surface itself.
-// One invocation per surfel. Reads: fields, block_of, sorted, sorted_velocities. Reads and writes: surfels.
+// One invocation per surfel. Reads: fields, block_of, centers, shapes, sorted_velocities. Reads and writes: surfels.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,22 +14,24 @@
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
-layout(std430, set = 0, binding = 16) buffer Surfels { uvec4 surfels[]; };
+layout(std430, set = 0, binding = 15) buffer Surfels { uvec4 surfels[]; };
 
 vec3 here;
 float sum, inv_h2;
 vec3 gradient, velocity_sum;
 
-void visit(vec4 particle, vec4 velocity)
+#include "water/kernel_types.glsl"
+
+void visit(Kernel kernel)
 {
-    const vec3 apart = here - particle.xyz;
-    const float x = max(1.0 - dot(apart, apart) * inv_h2, 0.0), weight = particle.w * (x * x);
+    const vec3 apart = here - kernel.center.xyz, conjugate = shaped(kernel, apart);
+    const float x = max(1.0 - dot(apart, conjugate) * inv_h2, 0.0), weight = kernel.center.w * (x * x);
     sum += weight * x;
-    gradient += weight * apart;
-    velocity_sum += (weight * x) * velocity.xyz;
+    gradient += weight * conjugate;
+    velocity_sum += (weight * x) * kernel.velocity;
 }
 #define GATHER_VELOCITIES
-#include "water/gather.glsl"
+#include "water/gather_kernels.glsl"
 
 // Where the surface crosses an edge.
 vec3 crossing(uint cell, uint block, uint point, uint axis)
