@@ -233,6 +233,9 @@ bad 'seed of 33 bits' render "$good" -o "$work/out" --seed 4294967296
 bad 'nothing to measure' bench snow
 bad 'device that is not listed' info --device 99
 bad 'file without particles' info "$good"
+bad 'no files of particles' check "$good" --set water.files=none_%04d.ply
+bad 'a mesh for particles' check "$good" --set water.files=box.obj
+bad 'particles at a rate of 0' check "$good" --set water.files=box.obj --set water.rate_hz=0
 bad 'files of a device' info --device cpu "$good"
 sed 's/box.obj/none.obj/' "$good" >"$work/bad.yaml"
 bad 'missing mesh, checked' check "$work/bad.yaml"

@@ -14,6 +14,7 @@
 #include "ground.h"
 #include "scene_file.h"
 #include "splash.h"
+#include "water.h"
 
 #include <virga/virga.h>
 
@@ -64,6 +65,18 @@ static void splashes(void **state)
     SAME(min_width_px);
     SAME(soft_m);
     SAME(near_fade_m);
+    scene_file_free(scene);
+}
+
+static void water(void **state)
+{
+    (void)state;
+    scene_file *scene = load();
+    const scene_water *from = scene_water_of(scene);
+    const virga_water_settings def = virga_default_water_settings();
+    SAME(kernel_spacings);
+    SAME(level);
+    assert_null(from->files);
     scene_file_free(scene);
 }
 
@@ -201,8 +214,8 @@ static void words_of_panes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(splashes), cmocka_unit_test(words),
-                                       cmocka_unit_test(ground),   cmocka_unit_test(panes),
-                                       cmocka_unit_test(wipers),   cmocka_unit_test(words_of_panes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(splashes), cmocka_unit_test(words),          cmocka_unit_test(ground), cmocka_unit_test(panes),
+        cmocka_unit_test(wipers),   cmocka_unit_test(words_of_panes), cmocka_unit_test(water)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

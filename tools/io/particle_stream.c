@@ -44,9 +44,7 @@ static bool open_file(particle_stream *stream, char *error, size_t error_size)
         return file_error(error, error_size, "cannot read", stream->path, errno);
     if (fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode)) {
         close(descriptor);
-        if (error && error_size)
-            snprintf(error, error_size, "cannot read %s: expected a regular file", stream->path);
-        return false;
+        return file_fail(error, error_size, "cannot read %s: expected a regular file", stream->path);
     }
     stream->file = gzdopen(descriptor, "rb");
     if (stream->file)

@@ -111,7 +111,8 @@ bool scene_file_refuse(const scene_file *scene, const char *key, char *error, si
 
 /* 64-bit FNV-1a of the file's bytes, the overrides and the bytes of the meshes, the environment, the material map
  * and the pictures of panes that it names: the same for the same scene anywhere, another one where any of them was
- * changed. Included files of a mesh (textures beside it) do not count. */
+ * changed. Included files of a mesh (textures beside it) do not count. Of each file of a sequence of particles, its
+ * size and three parts of 4096 bytes count. */
 uint64_t scene_file_hash(const scene_file *scene);
 
 /* The settings of an effect: a struct of the section's size. NULL where the scene was loaded without the section. */

@@ -35,11 +35,24 @@ static void quote(const char *name, char *text, size_t size)
 }
 
 /* Overrides the name of a file by one that can be read from anywhere. */
-static bool make_absolute(const char *key, char **name, void *user)
+static char *real_path(const scene_item *item, const char *name)
 {
-    char *real = realpath(*name, NULL), quoted[8200], override[8400];
+    char *folder, *joined = NULL;
+    const char *slash = strrchr(name, '/');
+    if (!scene_is_numbered(item, name))
+        return realpath(name, NULL);
+    folder = folder_of(name);
+    if (folder && asprintf(&joined, "%s/%s", folder, slash ? slash + 1 : name) < 0)
+        joined = NULL;
+    free(folder);
+    return joined;
+}
+
+static bool make_absolute(const scene_item *item, char **name, void *user)
+{
+    char *real = real_path(item, *name), quoted[8200], override[8400];
     quote(real ? real : *name, quoted, sizeof quoted);
-    snprintf(override, sizeof override, "%s=%s", key, quoted);
+    snprintf(override, sizeof override, "%s=%s", item->path, quoted);
     free(real);
     const char *one = override;
     return scene_document_override(user, &one, 1);

@@ -30,6 +30,7 @@ typedef enum scene_row_flags {
     SCENE_ROW_RESTARTS = 1,   /* a change needs the simulation to start again: it sizes pools or names a file */
     SCENE_ROW_NAMES_FILE = 2, /* (text) the name of a file, beside the scene file */
     SCENE_ROW_OPTIONAL = 4,   /* may be left out and has no default */
+    SCENE_ROW_NUMBERED = 8,   /* (names a file) or many, with a number like %04d in the name; see numbered_files.h */
 } scene_row_flags;
 
 typedef struct scene_keyword {

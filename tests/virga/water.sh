@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Water from files of particles, from the files to surfels and statistics; what is wrong with the files is one line.
+# Usage: water.sh VIRGA
+set -u
+virga=$1
+device=${VIRGA_TEST_DEVICE:-cpu}
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+}
+
+python3 -c pass 2>/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+"$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
+python3 "$here/make_particles.py" "$work" 4
+cat >"$work/ball.yaml" <<'YAML'
+virga: 1
+camera: {keys: [{position_m: [0, 1, 2], look_at_m: [0, 0.8, 0]}]}
+frames: {fps: 20, first: 1, last: 8, size: [32, 32]}
+rain: {rate_mm_h: 0, max_drops: 1024, occlusion_size: 64}
+water: {files: ball_%04d.ply, rate_hz: 10}
+YAML
+
+# render FOLDER OPTION...
+render() {
+    local folder=$work/$1
+    shift
+    timeout 120 "$virga" render "$work/ball.yaml" -o "$folder" --device "$device" --points --stats "$@" \
+        >"$work/log" 2>&1 || { cat "$work/log"; fail "render $*"; }
+    ! grep '^validation: ' "$work/log" || fail "render $*: validation"
+}
+
+# Frames 1, 3 and 5 have a file, frame 4 is between two. A frame alone is the same.
+render all --frames 1-5
+grep -q 'water.spacing_m: guessed 0.02' "$work/log" || { cat "$work/log"; fail "no line about the guess"; }
+for frame in 1:0 3:0.1 4:0.15 5:0.2; do
+    python3 "$here/check_water.py" "$work/all" ${frame%:*} ${frame#*:} || fail "surfels of frame $frame"
+done
+render alone --frames 4
+cmp "$work/all/water.0004.ply" "$work/alone/water.0004.ply" || fail "frame 4 alone is another one"
+
+# Z up, and turned back.
+render turned --frames 3 --set water.up=z --set 'water.rotation_deg=[90, 0, 0]'
+python3 "$here/check_water.py" "$work/turned" 3 0.1 || fail "surfels of a turned frame"
+
+# expect WHAT OPTION...: the check refuses, in one line that has WHAT.
+expect() {
+    local what=$1 said
+    shift
+    said=$(timeout 60 "$virga" check "$work/ball.yaml" "$@" 2>&1 >"$work/out")
+    [ $? = 2 ] && [ "$(wc -l <<<"$said")" = 1 ] && grep -qF -- "$what" <<<"$said" || fail "$what: got '$said'"
+}
+said=$("$virga" check "$work/ball.yaml" 2>/dev/null) || fail "check of a good scene"
+grep -q 'particles .*4 files, 0.3 s, up to 516 particles with velocity and with ids; spacing 0.02' <<<"$said" ||
+    fail "check says: $said"
+expect 'no file has such a name' --set water.files=none_%04d.ply
+expect 'expected one number like %04d' --set water.files=ball_%s.ply
+expect 'ball_0009.ply is missing' --set water.first=9 --set water.step=2
+expect 'expected a whole number' --set water.first=1.5
+expect 'cannot read' --set water.files=none.ply
+mv "$work/ball_0012.ply" "$work/kept"
+expect 'ball_0012.ply is missing; expected the numbers 10 to 13 in steps of 1'
+head -c 5000 "$work/kept" >"$work/ball_0012.ply"
+expect 'ball_0012.ply: byte 5000: the file ends at byte 5000, expected 4 bytes here'
+printf 'ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n' \
+    >"$work/ball_0013.ply"
+mv "$work/kept" "$work/ball_0012.ply"
+"$virga" check "$work/ball.yaml" >"$work/out" 2>&1 || { cat "$work/out"; fail "a file without particles"; }
+expect 'no guess from these particles' --set water.files=ball_0013.ply
+
+[ $failures = 0 ] && echo "water is as its particles are"
+exit $((failures > 0))

@@ -1,0 +1,242 @@
+/* water.c - what the program knows of water from simulated particles. */
+#include "water.h"
+
+#include "effect.h"
+#include "scene_rows.h"
+#include "water/water_state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- keys of scene files -------------------------------------------------------------------------------------- */
+
+static const scene_keyword water_ids[] = {
+    {"file", SCENE_WATER_IDS_FILE}, {"rows", SCENE_WATER_IDS_ROWS}, {"none", SCENE_WATER_IDS_NONE}, {NULL, 0}};
+static const scene_keyword water_ups[] = {{"y", SCENE_WATER_UP_Y}, {"z", SCENE_WATER_UP_Z}, {NULL, 0}};
+
+/* Ranges and defaults of what the library has are its own: virga/water.h. */
+static const scene_row water_rows[] = {
+    FILE_NAME(scene_water, files, OPTIONAL | SCENE_ROW_NUMBERED,
+              "PLY, legacy VTK or bgeo of each frame of a simulation, like dam_%04d.ply"),
+    NUMBER(scene_water, rate_hz, 0.001, 100000, "@frames.fps", RESTARTS, "numbers of the files in a second"),
+    WHOLE(scene_water, step, 1, 1000000, "1", RESTARTS, "from the number of a file to that of the next"),
+    OPTIONAL_NUMBER(scene_water, first, 0, 999999999, RESTARTS, "number of the first file; else the smallest"),
+    NUMBER(scene_water, start_s, -100000, 100000, "0", LIVE, "time of the first file in the scene"),
+    CHOICE(scene_water, ids, water_ids, "file", RESTARTS,
+           "what tells which particle is which: an attribute, the row in the file, or nothing"),
+    CHOICE(scene_water, up, water_ups, "y", LIVE, "axis of the files that points up"),
+    NUMBER(scene_water, unit_m, 0.000001, 1000000, "1", RESTARTS, "metres of a unit of length in the files"),
+    NUMBER(scene_water, position_m, -MAX_METERS, MAX_METERS, "[0, 0, 0]", LIVE, "of the files' origin"),
+    NUMBER(scene_water, rotation_deg, -36000, 36000, "[0, 0, 0]", LIVE, "about the world's X, then Y, then Z axis"),
+    NUMBER(scene_water, spacing_m, 0, 10, "0", RESTARTS, "distance of particles at rest; 0: guessed from the files"),
+    NUMBER(scene_water, volume, 0.01, 100, "1", LIVE,
+           "of a particle, in spacing_m^3. 1 fits a guessed spacing; SPlisHSPlasH has 0.8 of the cube of its own"),
+    NUMBER(scene_water, kernel_spacings, 1, 4, "2", LIVE, "radius of the kernel, in spacings; larger is smoother"),
+    NUMBER(scene_water, level, 0.05, 0.95, "0.5", LIVE, "density of the surface; 1 is inside the water"),
+    WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
+          "cells that the surface runs through; 280 bytes each; 0: by the files"),
+    WHOLE(scene_water, max_surfels, 0, 8388608, "0", RESTARTS, "of the surface; 32 bytes each; 0: by the files"),
+};
+static const scene_group water_group = SCENE_GROUP(scene_water, water_rows);
+
+/* The section has one key: all of the struct. */
+static const scene_row water_section[] = {SECTION_GROUP("water", &water_group, "water from simulated particles")};
+
+static bool is_used(const scene_file *scene)
+{
+    return scene_water_of(scene)->files;
+}
+
+/* ---- checks --------------------------------------------------------------------------------------------------- */
+
+static bool check_water(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    return !from->first || *from->first == floor(*from->first) ||
+           scene_file_refuse(scene, "water.first", error, error_size, "expected a whole number, got %g", *from->first);
+}
+
+/* That all files are there; they are read later. */
+static bool check(const scene_file *scene, char *error, size_t error_size)
+{
+    particle_sequence *sequence = NULL;
+    const bool good = !is_used(scene) || water_open_sequence(scene, &sequence, error, error_size);
+    particle_sequence_close(sequence);
+    return good;
+}
+
+static bool check_files(const scene_file *scene, char *error, size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    water_source source = {0};
+    if (!is_used(scene))
+        return true;
+    const bool good = water_open_source(scene, &source, error, error_size);
+    if (good)
+        printf("  particles    %s: %u files, %g s, up to %u particles with%s velocity and with%s ids; spacing %.4g m\n",
+               from->files, particle_sequence_length(source.sequence), particle_sequence_duration(source.sequence),
+               source.most, source.has_velocity ? "" : "out", source.has_ids ? "" : "out", source.spacing_m);
+    particle_sequence_close(source.sequence);
+    return good;
+}
+
+static void print(const scene_file *scene)
+{
+    const scene_water *from = scene_water_of(scene);
+    if (from->files)
+        printf("  water        %s\n", from->files);
+}
+
+/* ---- life ----------------------------------------------------------------------------------------------------- */
+
+/* A size that the scene gives, or one by the particles within the library's limits. */
+static uint32_t size_of(uint32_t given, double wanted, uint32_t low, uint32_t high)
+{
+    return given ? given : (uint32_t)fmin(fmax(wanted, low), high);
+}
+
+/* Particles may become more than in the files that were read; without ids those of two files are there at once. The box
+ * around them may become half as wide again. */
+static void size_pools(const scene_water *from, const water_source *source, virga_water_def *def)
+{
+    const double cell_m = from->kernel_spacings * source->spacing_m;
+    double cells = 1;
+    for (int axis = 0; axis < 3; axis++)
+        cells *= ceil(1.5 * source->extent_m[axis] / cell_m) + 4;
+    def->max_particles = size_of(from->max_particles, 2.0 * source->most, 4096, 8388608);
+    def->max_cells = size_of(from->max_cells, cells, def->max_cells, 16777216);
+    def->max_blocks = size_of(from->max_blocks, source->most, def->max_blocks, 1048576);
+    def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 8388608);
+    def->max_particles = def->max_particles < 64 ? 64 : def->max_particles;
+    def->max_cells = def->max_cells < 4096 ? 4096 : def->max_cells;
+    def->max_blocks = def->max_blocks < 64 ? 64 : def->max_blocks;
+    def->max_surfels = def->max_surfels < 256 ? 256 : def->max_surfels;
+}
+
+static bool define(shot *s, void *state, virga_scene_def *def, char *error, size_t error_size)
+{
+    water_state *p = state;
+    if (!is_used(s->scene))
+        return true;
+    if (!shot_blame_input(s, water_open_source(s->scene, &p->source, error, error_size)))
+        return false;
+    def->with_water = true;
+    size_pools(scene_water_of(s->scene), &p->source, &def->water);
+    p->max_particles = def->water.max_particles;
+    return true;
+}
+
+static bool open_state(shot *s, void *state, char *error, size_t error_size)
+{
+    water_state *p = state;
+    p->water = virga_scene_water(s->simulation);
+    return !p->water ||
+           host_buffer_create(&s->device, (VkDeviceSize)p->max_particles * sizeof(virga_particle_gpu) * HOST_FRAMES,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "particles", &p->particles, error,
+                              error_size);
+}
+
+static void close_state(shot *s, void *state)
+{
+    water_state *p = state;
+    particle_sequence_close(p->source.sequence);
+    host_buffer_destroy(&s->device, &p->particles);
+    host_buffer_destroy(&s->device, &p->surfels.buffer);
+}
+
+/* ---- time ----------------------------------------------------------------------------------------------------- */
+
+static bool apply(shot *s, void *state, double time_s, char *error, size_t error_size)
+{
+    const water_state *p = state;
+    const scene_water *from = scene_water_of(s->scene);
+    virga_water_settings settings = virga_default_water_settings();
+    (void)time_s;
+    if (!p->water)
+        return true;
+    settings.spacing_m = (float)p->source.spacing_m;
+    settings.volume_m3 = (float)(from->volume * pow(p->source.spacing_m, 3));
+    settings.kernel_spacings = (float)from->kernel_spacings;
+    settings.level = (float)from->level;
+    return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);
+}
+
+static bool fill_frame(shot *s, void *state, double time_s, const host_camera *camera, virga_scene_frame *frame,
+                       char *error, size_t error_size)
+{
+    water_state *p = state;
+    (void)camera;
+    return !p->water || water_fill_particles(s, p, time_s, &frame->water, error, error_size);
+}
+
+/* ---- files of a frame ----------------------------------------------------------------------------------------- */
+
+bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stats)
+{
+    virga_frame_completed(s->context, s->device.completed);
+    virga_water_stats_get(state->water, stats);
+    return stats->frame_index == state->step_frame;
+}
+
+static void write_stats(shot *s, void *state, jsonl *stats)
+{
+    const water_state *p = state;
+    virga_water_stats now;
+    if (!p->water || !water_step_stats(s, p, &now))
+        return;
+    jsonl_begin_object(stats, "water");
+    jsonl_uint64(stats, "particles", now.particles);
+    jsonl_uint64(stats, "invalid", now.invalid);
+    jsonl_uint64(stats, "in_grid", now.in_grid);
+    jsonl_number(stats, "volume_l", 1000 * p->volume_m3);
+    jsonl_uint64(stats, "surfels", now.surfels);
+    jsonl_uint64(stats, "surfels_dropped", now.surfels_dropped);
+    jsonl_uint64(stats, "blocks", now.blocks);
+    jsonl_uint64(stats, "blocks_dropped", now.blocks_dropped);
+    jsonl_end(stats);
+}
+
+/* ---- virga view ----------------------------------------------------------------------------------------------- */
+
+static double count_particles(const void *state)
+{
+    return ((const water_state *)state)->count;
+}
+
+static double count_surfels(const void *state)
+{
+    const water_state *p = state;
+    virga_water_stats stats = {0};
+    if (p->water)
+        virga_water_stats_get(p->water, &stats);
+    return stats.surfels;
+}
+
+static const tool_count counts[] = {{"particles of water", count_particles}, {"surfels of water", count_surfels}};
+
+/* ---- the effect ----------------------------------------------------------------------------------------------- */
+
+TOOL_SECTION_OF(water)
+
+const tool_effect water_effect = {
+    .name = "water",
+    .scene = {.group = SCENE_GROUP(scene_water, water_section), .check = check_water},
+    .is_used = is_used,
+    .missing = "water; expected water.files",
+    .check = check,
+    .check_files = check_files,
+    .print = print,
+    .state_size = sizeof(water_state),
+    .define = define,
+    .open = open_state,
+    .close = close_state,
+    .apply = apply,
+    .fill_frame = fill_frame,
+    .points = &water_points,
+    .write_stats = write_stats,
+    .title = "Water",
+    TOOL_ROWS(count, counts),
+};

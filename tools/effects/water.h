@@ -1,0 +1,35 @@
+/* water.h - declares the settings of water from simulated particles in a scene file. */
+#ifndef VIRGA_EFFECTS_WATER_H
+#define VIRGA_EFFECTS_WATER_H
+
+#include "scene_file.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum scene_water_ids { SCENE_WATER_IDS_FILE, SCENE_WATER_IDS_ROWS, SCENE_WATER_IDS_NONE } scene_water_ids;
+typedef enum scene_water_up { SCENE_WATER_UP_Y, SCENE_WATER_UP_Z } scene_water_up;
+
+typedef struct scene_water {
+    char *files; /* NULL: no water */
+    double rate_hz;
+    uint32_t step;
+    double *first; /* NULL: the smallest number */
+    double start_s;
+    uint32_t ids, up; /* scene_water_ids, scene_water_up */
+    double unit_m;
+    double position_m[3], rotation_deg[3];
+    double spacing_m; /* 0: guessed */
+    double volume;    /* in spacing_m^3 */
+    double kernel_spacings, level;
+    uint32_t max_particles, max_cells, max_blocks, max_surfels; /* 0: by the particles */
+} scene_water;
+
+/* The water of a scene. */
+scene_water *scene_water_of(const scene_file *scene);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,157 @@
+/* source.c - particles from files, in the units and axes of the world. */
+#include "water_state.h"
+
+#include "particle_spacing.h"
+#include "particles.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert(sizeof(particle_sample) == sizeof(virga_particle_gpu), "samples are copied as they are");
+_Static_assert(offsetof(particle_sample, velocity) == offsetof(virga_particle_gpu, velocity), "the same order");
+_Static_assert(offsetof(particle_sample, id) == offsetof(virga_particle_gpu, id), "the same order");
+
+/* ---- opening */
+
+bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, char *error, size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    const particle_sequence_def def = {.files = from->files,
+                                       .rate_hz = from->rate_hz,
+                                       .step = from->step,
+                                       .first = from->first ? (int64_t)*from->first : -1,
+                                       .ids = (particle_ids)from->ids};
+    char reason[1024];
+    return particle_sequence_open(sequence, &def, reason, sizeof reason) ||
+           scene_file_refuse(scene, "water.files", error, error_size, "%s", reason);
+}
+
+/* Takes the count and the box of a frame into account. */
+static void note_frame(const particles *frame, double unit_m, water_source *source)
+{
+    float low[3], high[3];
+    uint32_t invalid;
+    source->most = frame->count > source->most ? frame->count : source->most;
+    source->has_ids = frame->id;
+    source->has_velocity = frame->velocity;
+    if (!particles_bounds(frame, low, high, &invalid))
+        return;
+    for (int axis = 0; axis < 3; axis++)
+        source->extent_m[axis] = fmax(source->extent_m[axis], unit_m * ((double)high[axis] - (double)low[axis]));
+}
+
+static bool read_frame(water_source *source, uint32_t index, double unit_m, particle_spacing *guess, char *path,
+                       size_t path_size, char *error, size_t error_size)
+{
+    particles frame;
+    char *name = particle_sequence_path(source->sequence, index);
+    snprintf(path, path_size, "%s", name ? name : "");
+    free(name);
+    if (!particles_read(path, &frame, error, error_size))
+        return false;
+    note_frame(&frame, unit_m, source);
+    if (!(guess->spacing > 0) && !particle_spacing_guess(&frame, guess))
+        guess->spacing = 0;
+    particles_free(&frame);
+    return true;
+}
+
+/* The last file comes first: its water is more likely to have settled. */
+static bool read_frames(const scene_file *scene, water_source *source, char *error, size_t error_size)
+{
+    const scene_water *from = scene_water_of(scene);
+    const uint32_t length = particle_sequence_length(source->sequence);
+    const uint32_t order[] = {length - 1, length / 2, 0};
+    particle_spacing guess = {0};
+    char path[4096], guessed[4096] = "";
+    for (int i = 0; i < 3; i++) {
+        const bool known = guess.spacing > 0;
+        if (i && order[i] == order[i - 1])
+            continue;
+        if (!read_frame(source, order[i], from->unit_m, &guess, path, sizeof path, error, error_size))
+            return false;
+        if (!known && guess.spacing > 0)
+            memcpy(guessed, path, sizeof guessed);
+    }
+    source->spacing_m = from->spacing_m > 0 ? from->spacing_m : from->unit_m * guess.spacing;
+    if (from->spacing_m > 0)
+        return true;
+    if (!(source->spacing_m >= 0.0001 && source->spacing_m <= 10))
+        return scene_file_refuse(scene, "water.spacing_m", error, error_size,
+                                 "no guess from these particles (%g m); expected a spacing from 0.0001 to 10",
+                                 source->spacing_m);
+    fprintf(stderr, "virga: water.spacing_m: guessed %.4g from %s, by its particles per volume\n", source->spacing_m,
+            guessed);
+    return true;
+}
+
+bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size)
+{
+    return water_open_sequence(scene, &source->sequence, error, error_size) &&
+           read_frames(scene, source, error, error_size);
+}
+
+/* ---- a step */
+
+/* Rows of the matrix from the file's axes to the world's, with the unit. Z up: x stays, y goes to the back. */
+static void world_from_file(const scene_water *from, float matrix[9])
+{
+    float turn[12];
+    const scene_mesh place = {.scale = from->unit_m,
+                              .rotation_deg = {from->rotation_deg[0], from->rotation_deg[1], from->rotation_deg[2]}};
+    shot_mesh_transform(&place, turn);
+    for (int row = 0; row < 3; row++) {
+        const float *r = turn + (ptrdiff_t)row * 4;
+        const bool z_up = from->up == SCENE_WATER_UP_Z;
+        matrix[row * 3] = r[0];
+        matrix[row * 3 + 1] = z_up ? -r[2] : r[1];
+        matrix[row * 3 + 2] = z_up ? r[1] : r[2];
+    }
+}
+
+static void turn(const float matrix[9], const float in[3], float out[3])
+{
+    for (int row = 0; row < 3; row++)
+        out[row] = matrix[row * 3] * in[0] + matrix[row * 3 + 1] * in[1] + matrix[row * 3 + 2] * in[2];
+}
+
+/* Returns the sum of the shares. */
+static double copy_samples(const float matrix[9], const particle_sample *samples, uint32_t count,
+                           virga_particle_gpu *out)
+{
+    double shares = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        turn(matrix, samples[i].position, out[i].position);
+        turn(matrix, samples[i].velocity, out[i].velocity);
+        out[i].share = samples[i].share;
+        out[i].id = samples[i].id;
+        shares += (double)samples[i].share;
+    }
+    return shares;
+}
+
+bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
+                          size_t error_size)
+{
+    const scene_water *from = scene_water_of(s->scene);
+    const particle_sample *samples;
+    const VkDeviceSize part = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
+    float matrix[9];
+    if (!shot_blame_input(s, particle_sequence_at(state->source.sequence, time_s - from->start_s, &samples,
+                                                  &info->count, error, error_size)))
+        return false;
+    world_from_file(from, matrix);
+    info->particles = state->particles.buffer;
+    info->offset = s->device.frame % HOST_FRAMES * part;
+    memcpy(info->origin_m, from->position_m, sizeof info->origin_m);
+    /* The step leaves further ones out, and says so. */
+    const uint32_t count = info->count < state->max_particles ? info->count : state->max_particles;
+    const double shares =
+        copy_samples(matrix, samples, count, (void *)((char *)state->particles.mapped + info->offset));
+    state->count = count;
+    state->volume_m3 = shares * from->volume * pow(state->source.spacing_m, 3);
+    state->step_frame = s->device.frame;
+    return true;
+}

@@ -1,0 +1,44 @@
+/* water_state.h - the state of water in the program, for the files of this folder. */
+#ifndef VIRGA_EFFECTS_WATER_STATE_H
+#define VIRGA_EFFECTS_WATER_STATE_H
+
+#include "effect.h"
+#include "particle_sequence.h"
+#include "water.h"
+
+/* What the files say of the simulation, in metres. */
+typedef struct water_source {
+    particle_sequence *sequence;
+    uint32_t most;      /* particles of the fullest of the files that were read */
+    double extent_m[3]; /* of the box around the particles of these files */
+    double spacing_m;
+    bool has_ids, has_velocity;
+} water_source;
+
+typedef struct water_state {
+    virga_water *water; /* NULL: none */
+    water_source source;
+    uint32_t max_particles; /* for which there is room */
+    host_buffer particles;  /* HOST_FRAMES parts of max_particles */
+    uint32_t count;         /* of the newest step */
+    double volume_m3;       /* of all particles of the newest step */
+    uint64_t step_frame;    /* device frame of the newest step */
+    shot_read surfels;
+} water_state;
+
+/* Opens the files of a scene. Reports errors by scene_file_refuse. */
+bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, char *error, size_t error_size);
+
+/* Opens them, and reads the last and the first one. Tells on standard error what was guessed. */
+bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size);
+
+/* Fills the particles of a step. */
+bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
+                          size_t error_size);
+
+/* The newest statistics, if they are those of the newest step. */
+bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stats);
+
+extern const tool_points water_points;
+
+#endif
