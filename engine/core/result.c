@@ -30,7 +30,8 @@
     X(VIRGA_LOG_TICKS_DROPPED, "ticks-dropped")       \
     X(VIRGA_LOG_IMPACTS_DROPPED, "impacts-dropped")   \
     X(VIRGA_LOG_SHRUNK, "shrunk")                     \
-    X(VIRGA_LOG_NOT_DRAWN, "not-drawn")
+    X(VIRGA_LOG_NOT_DRAWN, "not-drawn")               \
+    X(VIRGA_LOG_FRAME_LOST, "frame-lost")
 
 #define RESULT_CASE(value) \
     case value: {          \

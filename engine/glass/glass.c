@@ -451,6 +451,7 @@ const virga_effect_type glass_type = {
     .check_settings = check_settings,
     .apply_settings = apply_settings,
     .draw_constant = glass_draw_constant,
+    .lost = glass_lost,
     .draw = glass_type_draw,
 };
 

@@ -242,6 +242,7 @@ static void record_unwritten(virga_glass *glass, VkCommandBuffer cmd)
                                           VIRGA_GLASS_HOLDS_WATER | VIRGA_GLASS_HOLDS_RELIEF);
     picture->written_style = glass->settings.style;
     picture->has_written = true;
+    glass->base.journal.doing |= GLASS_DID_UNWRITTEN;
 }
 
 /* Columns of the mist map in use, in texels, rounded up to whole blocks. */
@@ -453,7 +454,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
         return result;
     if (glass_pose_check(&context->log, pose))
         return VIRGA_ERROR_INVALID;
-    if (!glass->base.has_contents)
+    if (!glass->base.contents)
         return VIRGA_NOT_READY;
     result = ready_to_prepare(glass);
     if (result)

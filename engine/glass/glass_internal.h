@@ -37,6 +37,8 @@ typedef struct glass_readback {
 
 enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* parts of the statistics */
 
+enum { GLASS_DID_UNWRITTEN = VIRGA_DID_OWN }; /* in the journal: all tiles were marked as not written */
+
 struct virga_glass {
     virga_effect base; /* first */
     virga_glass_def def;
@@ -52,7 +54,7 @@ struct virga_glass {
         *active, *film_blocks;
     /* The surface of the pane: cells (affinity, bump, mask) and the nodes of its shape. */
     virga_buffer *surface, *nodes;
-    virga_buffer *surface_upload, *nodes_upload; /* copied by the next step; NULL: nothing to copy */
+    virga_buffer *surface_upload, *nodes_upload; /* copied by the next step; NULL: done */
     virga_ring tick_ring;
     uint32_t tick_offset; /* of the newest tick */
     virga_bindings *bindings;
@@ -105,6 +107,7 @@ virga_glass_pane_gpu glass_describe_pane(const virga_glass *glass);
 
 /* ---- glass_step.c */
 virga_result glass_axes_check(const virga_log *log, const char *name, const float axes[9]); /* all zero: none */
+void glass_lost(void *glass, uint64_t frame, uint32_t did);
 void glass_read_statistics(void *glass, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 void glass_fill_sizes(const double *diameters, const double *fluxes, uint32_t count, double stands_for,
                       float sizes_m[VIRGA_GLASS_SIZES]);

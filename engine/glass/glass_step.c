@@ -63,6 +63,14 @@ void glass_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
     }
 }
 
+void glass_lost(void *object, uint64_t frame, uint32_t did)
+{
+    virga_glass *glass = object;
+    (void)frame;
+    if (did & GLASS_DID_UNWRITTEN)
+        glass->picture.has_written = false;
+}
+
 /* ---- from the world to the pane's frame */
 
 static void to_pane(const virga_glass_step_info *info, const double world[3], double out[3])
@@ -443,8 +451,8 @@ static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
     const VkBufferCopy cells = {0, 0, glass->surface->size}, nodes = {0, 0, glass->nodes->size};
     context->vk.CmdCopyBuffer(cmd, glass->surface_upload->buffer, glass->surface->buffer, 1, &cells);
     context->vk.CmdCopyBuffer(cmd, glass->nodes_upload->buffer, glass->nodes->buffer, 1, &nodes);
-    VIRGA_RETIRE(context, glass->surface_upload);
-    VIRGA_RETIRE(context, glass->nodes_upload);
+    virga_effect_uploaded(&glass->base, &glass->surface_upload);
+    virga_effect_uploaded(&glass->base, &glass->nodes_upload);
 }
 
 static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, const virga_glass_step_info *info)
@@ -534,7 +542,8 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
                       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    virga_effect_first_contents(&glass->base, cmd);
+    if (virga_effect_first_contents(&glass->base, cmd))
+        glass->picture.has_written = false; /* the images may have lost their contents */
     upload_shape(glass, cmd);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,

@@ -3,6 +3,7 @@
 
 #include "core/settings.h"
 #include "gpu/builds.h"
+#include "gpu/effect.h"
 #include "gpu/errors.h"
 #include "gpu/functions.h"
 #include "gpu/pipeline_cache.h"
@@ -216,6 +217,9 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     context->frame_index = frame_index;
     context->completed_index = completed_index;
     context->ring_slot = (uint32_t)(frame_index % context->frames_in_flight);
+    virga_effects_settle(context, 0);
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
     virga_builds_collect(context); /* a failure is also reported by its effect */
     virga_destroy_retired(context, false);
     return virga_timers_begin_frame(context);
@@ -235,7 +239,31 @@ virga_result virga_frame_completed(virga_context *context, uint64_t completed_in
         return VIRGA_ERROR_INVALID;
     }
     context->completed_index = completed_index;
-    return virga_timers_collect(context);
+    virga_effects_settle(context, 0);
+    return context->lost ? VIRGA_ERROR_DEVICE_LOST : virga_timers_collect(context);
+}
+
+virga_result virga_frame_dropped(virga_context *context, uint64_t frame_index)
+{
+    if (!context)
+        return VIRGA_ERROR_INVALID;
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    if (frame_index <= context->completed_index || frame_index > context->frame_index) {
+        virga_log_write(&context->log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
+                        "virga_frame_dropped: expected a frame after %llu, which is completed, up to %llu, got %llu",
+                        (unsigned long long)context->completed_index, (unsigned long long)context->frame_index,
+                        (unsigned long long)frame_index);
+        return VIRGA_ERROR_INVALID;
+    }
+    virga_effects_settle(context, frame_index);
+    virga_timers_drop(context, frame_index);
+    return context->lost ? VIRGA_ERROR_DEVICE_LOST : VIRGA_OK;
+}
+
+uint64_t virga_frames_lost(const virga_context *context)
+{
+    return context ? context->lost_frames : 0;
 }
 
 void virga_memory_get(const virga_context *context, virga_memory_stats *stats)

@@ -27,7 +27,9 @@ struct virga_context {
     /* Frames. */
     uint32_t frames_in_flight;
     uint64_t frame_index, completed_index;
-    uint32_t ring_slot; /* frame_index modulo frames_in_flight */
+    uint32_t ring_slot;                                /* frame_index modulo frames_in_flight */
+    uint64_t lost_frames;                              /* number of frames of which something was not executed */
+    uint64_t lost_of_slot[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* the newest of them in each slot */
     virga_timers timers;
 
     /* Memory, see gpu/memory.c and gpu/budget.c. */
@@ -48,7 +50,8 @@ struct virga_context {
     VkSampler nearest, linear;      /* clamped to the edge */
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */
-    uint64_t target_serial;         /* serial of the newest target */
+    struct virga_effect *first_effect;
+    uint64_t target_serial; /* serial of the newest target */
 
     /* Pipelines, see gpu/builds.c. */
     VkPipelineCache pipeline_cache;

@@ -79,7 +79,7 @@ VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *gi
     if (!given || check_def(NULL, type, given, def))
         return 0;
     fill_counts(type, def, counts);
-    VkDeviceSize sum = (VkDeviceSize)type->readback_bytes * VIRGA_MAX_FRAMES_IN_FLIGHT;
+    VkDeviceSize sum = VIRGA_JOURNAL_BYTES + (VkDeviceSize)type->readback_bytes * VIRGA_MAX_FRAMES_IN_FLIGHT;
     for (uint32_t i = 0; i < type->buffer_count; i++)
         sum += buffer_bytes(&type->buffers[i], counts);
     for (uint32_t i = 0; i < type->ring_count; i++)
@@ -115,6 +115,7 @@ static virga_result create_buffers(virga_effect *effect, const effect_counts cou
         TRY(virga_buffer_create(context, (VkDeviceSize)type->readback_bytes * context->frames_in_flight,
                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT, VIRGA_HEAP_READBACK, type->readback_name,
                                 &effect->readback));
+    TRY(virga_journal_create(context, &effect->journal));
 error:
     return result;
 }
@@ -188,6 +189,7 @@ static virga_result init(virga_effect *effect)
     TRY(create_buffers(effect, counts));
     TRY(create_images(effect, counts));
     TRY(create_layouts(effect));
+    TRY(virga_effect_create_fills(effect));
     if (type->create)
         TRY(type->create(effect));
     TRY(create_passes(effect));
@@ -206,6 +208,8 @@ virga_result virga_effect_make(virga_context *context, const virga_effect_type *
     effect->context = context;
     memcpy(virga_effect_member(effect, type->def.member), def, type->def.size);
     type->default_settings(virga_effect_member(effect, type->settings.member));
+    effect->next_effect = context->first_effect;
+    context->first_effect = effect;
     context->effects++;
     const virga_result result = init(effect);
     if (result < 0) {
@@ -272,6 +276,9 @@ static void retire_rows(virga_effect *effect)
         VIRGA_RETIRE(context, ring->buffer);
     }
     VIRGA_RETIRE(context, effect->readback);
+    VIRGA_RETIRE(context, effect->journal.marks);
+    VIRGA_RETIRE(context, effect->fill_pass);
+    VIRGA_RETIRE(context, effect->fill_bindings);
     for (uint32_t i = 0; i < type->image_count; i++) {
         virga_image_2d **image = virga_effect_member(effect, type->images[i].member);
         VIRGA_RETIRE(context, *image);
@@ -282,17 +289,26 @@ static void retire_rows(virga_effect *effect)
     }
 }
 
+static void leave_context(virga_effect *effect)
+{
+    virga_effect **at = &effect->context->first_effect;
+    while (*at != effect)
+        at = &(*at)->next_effect;
+    *at = effect->next_effect;
+    effect->context->effects--;
+}
+
 void virga_effect_destroy(virga_effect *effect)
 {
     if (!effect)
         return;
     virga_context *context = effect->context;
+    leave_context(effect);
     if (effect->type->destroy)
         effect->type->destroy(effect);
     virga_effect_retire_targets(effect);
     retire_passes(effect);
     retire_rows(effect);
-    context->effects--;
     virga_free(&context->heap, effect);
 }
 

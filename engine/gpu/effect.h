@@ -11,6 +11,7 @@
 #include "core/settings.h"
 #include "gpu/bindings.h"
 #include "gpu/device_check.h"
+#include "gpu/journal.h"
 #include "gpu/pipelines.h"
 #include "gpu/resources.h"
 
@@ -37,7 +38,7 @@
 #define VIRGA_USE_INDEX    (VIRGA_USE_STORAGE | VK_BUFFER_USAGE_INDEX_BUFFER_BIT)
 #define VIRGA_USE_UNIFORM  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
 
-/* The contents of a buffer or image before the first pass. */
+/* The contents of a buffer or image before the first pass. See virga_effect_first_contents. */
 typedef enum virga_first {
     VIRGA_FIRST_ANYTHING, /* (buffers) undefined: passes write before they read */
     VIRGA_FIRST_FILL,     /* (buffers) `fill` in every word; (images) zero, in the layout GENERAL */
@@ -55,6 +56,7 @@ typedef struct virga_effect_buffer {
     uint32_t count;
     virga_first first;
     uint32_t fill;
+    uint32_t word, word_value; /* (FILL) one word that differs: its index and its value; 0: none differs */
 } virga_effect_buffer;
 
 /* Blocks that the host writes while it records, and that passes read at a dynamic offset: counts[count] blocks for each
@@ -77,6 +79,7 @@ typedef struct virga_effect_image {
     uint32_t width, height; /* indices of counts */
     uint32_t layers;        /* 0: a 3D image of depth 1 */
     virga_first first;
+    bool keeps; /* passes do not write it anew in every frame */
 } virga_effect_image;
 
 /* A descriptor set layout and its pipeline layout. Rows with a source are bound by virga_effect_bound; the effect binds
@@ -195,6 +198,9 @@ typedef struct virga_effect_type {
     /* (optional) Bits that are set in the specialisation constant 0 of every pass, and of every draw. */
     uint32_t (*pass_constant)(const void *object);
     uint32_t (*draw_constant)(const void *object);
+    /* (optional) The device has not executed calls of a completed frame. `did` tells what they recorded. What later
+     * frames need must be recorded again. */
+    void (*lost)(void *object, uint64_t frame, uint32_t did);
     /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
@@ -317,14 +323,33 @@ typedef struct virga_effect_view {
     float viewport[4];
 } virga_effect_view;
 
+/* An upload buffer whose copy was recorded. */
+typedef struct virga_effect_upload {
+    virga_buffer **staging; /* the object's pointer to it */
+    virga_buffer *buffer;
+    uint64_t first_frame; /* in which its copy was recorded */
+} virga_effect_upload;
+
+#define VIRGA_EFFECT_MAX_UPLOADS 4
+
+/* Whether something was recorded, and whether the device has executed it. */
+typedef enum virga_progress { VIRGA_NOT_RECORDED, VIRGA_RECORDED, VIRGA_EXECUTED } virga_progress;
+
 /* The first member of every effect's object. */
 typedef struct virga_effect {
     const virga_effect_type *type;
     virga_context *context;
+    struct virga_effect *next_effect; /* of the context */
+    virga_journal journal;
+    virga_progress contents, images; /* first contents: of buffers and passing images, and of images that are kept */
+    uint64_t contents_frame;         /* the newest frame in which they were recorded */
+    virga_bindings *fill_bindings;   /* of the pass that fills buffers; NULL: there are none to fill */
+    virga_pipeline *fill_pass;
+    virga_bound first_head; /* (optional) the head of a list of another effect, which is filled with 0 too */
+    virga_effect_upload uploads[VIRGA_EFFECT_MAX_UPLOADS];
     virga_pipeline_group passes; /* all passes that a step and a prepare use */
     virga_effect_target targets[VIRGA_EFFECT_MAX_TARGETS];
     virga_effect_view view;
-    bool has_contents;      /* the initial contents were recorded */
     bool not_drawn_logged;  /* it was logged that a draw had nothing to draw; reset by a successful draw */
     uint64_t step_frame;    /* frame of the newest step */
     virga_buffer *readback; /* statistics of the frames in flight, for the host */
@@ -379,9 +404,28 @@ typedef struct virga_tick_range {
 virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
                                       const uint32_t *last_tick);
 
-/* In the first call, records the initial contents that rows describe, and returns true; later calls return false. Ends
- * with a barrier before transfers and passes. */
+/* Records the first contents that rows describe, once a frame, until the device is known to have executed them. Ends
+ * with a barrier before transfers and passes. Returns true if it recorded: the effect then records those first contents
+ * of its own that are the same at any time, e.g. tables and layouts.
+ *
+ * Buffers are filled by a pass that does nothing if an earlier frame has filled them. So the recording is right whether
+ * or not the earlier frames are lost. */
 bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd);
+
+/* Parts of it for effect.c. */
+virga_result virga_effect_create_fills(virga_effect *effect);
+VkDeviceSize virga_effect_fill_bytes(void);
+
+/* The copy from an upload buffer was recorded. The buffer is retired, and *staging set to NULL, once the device has
+ * executed the copy. Until then the copy must be recorded in every frame. */
+void virga_effect_uploaded(virga_effect *effect, virga_buffer **staging);
+
+/* Ends a call that recorded outside rendering without statistics: adds what it did to the journal. */
+void virga_effect_note(virga_effect *effect, VkCommandBuffer cmd, uint32_t did);
+
+/* For all effects of a context: learns which calls of completed frames the device has executed, and lets effects do
+ * again what is lost. `dropped` is a frame that the host has thrown away; 0: none. */
+void virga_effects_settle(virga_context *context, uint64_t dropped);
 
 /* Copies a block into the frame's part of a ring and returns its offset in bytes. push takes the next block. */
 uint32_t virga_ring_push(virga_context *context, virga_ring *ring, const void *block, size_t size);
@@ -405,12 +449,10 @@ VkSampler virga_color_sampler(const virga_context *context, const virga_image *i
 
 /* ---- statistics */
 
-/* Copies `size` bytes of a buffer. The host can read them once this frame has completed. */
+/* Copies `size` bytes of a buffer, and adds the call to the journal. The host can read them once this frame has
+ * completed. */
 void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uint32_t part, const virga_buffer *from,
                                   VkDeviceSize from_offset, VkDeviceSize to_offset, VkDeviceSize size);
-
-/* Marks a part of this frame's statistics as valid, also if nothing was copied. */
-void virga_effect_mark_statistics(virga_effect *effect, uint32_t part);
 
 /* Reads the statistics of all completed frames, oldest first. */
 void virga_effect_read_statistics(virga_effect *effect);

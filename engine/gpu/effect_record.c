@@ -1,4 +1,4 @@
-/* gpu/effect_record.c - recording that all effects share: initial contents, ring blocks, descriptors, statistics. */
+/* gpu/effect_record.c - recording that all effects share: ring blocks, descriptors, statistics. */
 #include "gpu/effect.h"
 
 #include "gpu/checks.h"
@@ -31,48 +31,6 @@ virga_result virga_effect_check_ticks(const virga_effect *effect, const char *ca
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u", range->max,
                                     range->count);
     return virga_ticks_check(log, range->first, range->count, last_tick);
-}
-
-/* ---- first contents */
-
-static void record_first_image(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_image *row)
-{
-    const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaders, VK_ACCESS_SHADER_READ_BIT};
-    const virga_image_state general = {VK_IMAGE_LAYOUT_GENERAL, shaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                       READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT};
-    const VkClearColorValue zero = {.float32 = {0}};
-    const VkImageSubresourceRange all = {row->aspect, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
-    virga_image_barrier(effect->context, cmd, image->image, row->aspect, before,
-                        row->first == VIRGA_FIRST_SAMPLED ? sampled : general);
-    if (row->first == VIRGA_FIRST_FILL)
-        effect->context->vk.CmdClearColorImage(cmd, image->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
-}
-
-bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
-{
-    const virga_effect_type *type = effect->type;
-    virga_context *context = effect->context;
-    if (effect->has_contents)
-        return false;
-    for (uint32_t i = 0; i < type->image_count; i++)
-        if (type->images[i].first != VIRGA_FIRST_ANYTHING)
-            record_first_image(effect, cmd, &type->images[i]);
-    for (uint32_t i = 0; i < type->buffer_count; i++) {
-        const virga_effect_buffer *row = &type->buffers[i];
-        const virga_buffer *buffer = *(virga_buffer **)virga_effect_member(effect, row->member);
-        if (buffer && row->first == VIRGA_FIRST_FILL)
-            context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
-    }
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                      VK_ACCESS_TRANSFER_WRITE_BIT);
-    effect->has_contents = true;
-    return true;
 }
 
 /* ---- rings */
@@ -158,9 +116,18 @@ VkSampler virga_color_sampler(const virga_context *context, const virga_image *i
 
 /* ---- statistics */
 
-void virga_effect_mark_statistics(virga_effect *effect, uint32_t part)
+/* The next passes and the next frame's copies wait for a call's copies and its mark, and so does the host. */
+static void end_copies(virga_context *context, VkCommandBuffer cmd)
 {
-    effect->readback_frames[part][effect->context->ring_slot] = effect->context->frame_index;
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+}
+
+void virga_effect_note(virga_effect *effect, VkCommandBuffer cmd, uint32_t did)
+{
+    virga_journal_note(effect->context, &effect->journal, cmd, did);
+    end_copies(effect->context, cmd);
 }
 
 void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uint32_t part, const virga_buffer *from,
@@ -173,10 +140,9 @@ void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uin
                   VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     context->vk.CmdCopyBuffer(cmd, from->buffer, effect->readback->buffer, 1, &copy);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    virga_effect_mark_statistics(effect, part);
+    virga_journal_note(context, &effect->journal, cmd, 1u << part);
+    end_copies(context, cmd);
+    effect->readback_frames[part][context->ring_slot] = context->frame_index;
 }
 
 /* The oldest completed frame whose statistics were not read yet; 0: none. */

@@ -129,7 +129,9 @@ static virga_result read_times(virga_context *context, const virga_timer_slot *s
 {
     const virga_timers *timers = &context->timers;
     uint64_t ticks[VIRGA_MAX_QUERIES];
-    if (!slot->count)
+    /* Queries that were never reset must not be read. */
+    const bool lost = context->lost_of_slot[slot->frame_index % context->frames_in_flight] == slot->frame_index;
+    if (!slot->count || lost)
         return VIRGA_OK;
     const VkResult got = context->vk.GetQueryPoolResults(context->device, slot->pool, 0, slot->count, sizeof ticks,
                                                          ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT);
@@ -175,6 +177,15 @@ virga_result virga_timers_collect(virga_context *context)
         result = collected ? collected : result;
     }
     return result;
+}
+
+void virga_timers_drop(virga_context *context, uint64_t frame_index)
+{
+    virga_timer_slot *slot = &context->timers.slots[frame_index % context->frames_in_flight];
+    if (slot->frame_index != frame_index)
+        return;
+    slot->count = 0;
+    slot->reset = false;
 }
 
 uint32_t virga_timings_get(const virga_context *context, virga_pass_time *times, uint32_t capacity)

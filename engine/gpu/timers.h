@@ -39,6 +39,9 @@ virga_result virga_timers_begin_frame(virga_context *context);
 /* Reads the times of all completed frames. Returns the same as virga_timers_begin_frame. */
 virga_result virga_timers_collect(virga_context *context);
 
+/* Forgets the times of a frame that the device never executes. */
+void virga_timers_drop(virga_context *context, uint64_t frame_index);
+
 /* Called before the passes of every call that records outside rendering: the first in a frame resets the queries. */
 void virga_timers_reset(virga_context *context, VkCommandBuffer cmd);
 

@@ -126,6 +126,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 #define DEVICE       VIRGA_HEAP_DEVICE
 #define STORAGE_USE  VIRGA_USE_STORAGE
 #define FILL         VIRGA_FIRST_FILL
+#define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */
 #define MAP_USE      (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)
 #define COLOR_ASPECT VK_IMAGE_ASPECT_COLOR_BIT
 
@@ -141,7 +142,7 @@ static const virga_effect_buffer buffers[] = {
     {"ground.counts", AT(counts), STORAGE_USE, DEVICE, sizeof(ground_readback), .first = FILL},
     {"ground.landings", AT(landings), STORAGE_USE, DEVICE, 0, sizeof(virga_landing_gpu), COUNT_LANDINGS, FILL},
     {"ground.spawns", AT(spawns), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_spawns_gpu), sizeof(virga_spawn_gpu),
-     COUNT_SPAWNS, FILL},
+     COUNT_SPAWNS, FILL, .word = offsetof(virga_spawns_gpu, near_m) / sizeof(uint32_t), .word_value = FIRST_NEAR_M},
     {"ground.no_rules", AT(no_rules), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_TRANSFER_DST_BIT, DEVICE,
      sizeof(virga_splash_rules_gpu), .first = FILL},
     {"ground.rings", AT(rings), STORAGE_USE, DEVICE, sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu),
@@ -162,7 +163,7 @@ static const virga_effect_image images[] = {
     {"ground.spot_map", AT(spot_map), VK_FORMAT_R32_UINT, COLOR_ASPECT, MAP_USE, COUNT_TWO_SIDES, COUNT_SIDE, 1,
      VIRGA_FIRST_STORAGE},
     {"ground.far_map", AT(far.map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT, MAP_USE, COUNT_FAR_WIDTH,
-     COUNT_FAR_HEIGHT, 1, VIRGA_FIRST_STORAGE},
+     COUNT_FAR_HEIGHT, 1, VIRGA_FIRST_STORAGE, .keeps = true},
     {"ground.blank_materials", AT(blank_materials), VK_FORMAT_R8_UINT, COLOR_ASPECT, VK_IMAGE_USAGE_SAMPLED_BIT,
      VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
 };
@@ -274,7 +275,11 @@ static virga_result init(void *object)
     ground->window.cache_capacity = ground->def.cached_tiles;
     ground->window.cache =
         virga_alloc_array(&ground->base.context->heap, ground->def.cached_tiles, sizeof ground->window.cache[0]);
-    return ground->window.cache ? VIRGA_OK : virga_out_of_host_memory(ground->base.context, "the tiles of the ground");
+    ground->window.cache_before =
+        virga_alloc_array(&ground->base.context->heap, ground->def.cached_tiles, sizeof ground->window.cache[0]);
+    return ground->window.cache && ground->window.cache_before
+               ? VIRGA_OK
+               : virga_out_of_host_memory(ground->base.context, "the tiles of the ground");
 }
 
 static virga_result create(void *object)
@@ -302,6 +307,7 @@ static void destroy(void *object)
     virga_mesh_map_retire(context, &ground->far.height_map);
     ground_ripples_retire(context, &ground->ripples);
     virga_free(&context->heap, ground->window.cache);
+    virga_free(&context->heap, ground->window.cache_before);
 }
 
 static void describe(const void *object, char *line, size_t size)
@@ -323,7 +329,7 @@ static virga_result apply_settings(void *object, void *given)
     const virga_ground_settings *next = given, *old = &ground->settings;
     virga_soil_gpu soils[VIRGA_GROUND_MATERIALS];
     const bool same_start = next->start_wetness == old->start_wetness && next->start_water_mm == old->start_water_mm;
-    if (same_start && ground->base.has_contents)
+    if (same_start && ground->base.contents)
         return VIRGA_OK;
     ground_fill_soils(next, (double)ground->def.cell_m, soils);
     ground_standing_start(ground->standing, next, soils);
@@ -342,6 +348,7 @@ const virga_effect_type ground_type = {
     .destroy = destroy,
     .check_settings = check_settings,
     .apply_settings = apply_settings,
+    .lost = ground_lost,
 };
 
 /* ---- descriptors */

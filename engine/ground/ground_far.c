@@ -62,6 +62,7 @@ void ground_far_draw_heights(virga_ground *ground, VkCommandBuffer cmd, const vi
     virga_dispatch(ground->base.context, cmd, far->floor_pass, cells * cells / VIRGA_GROUND_GROUP);
     virga_compute_barrier(ground->base.context, cmd);
     far->drawn = false;
+    ground->base.journal.doing |= GROUND_DID_FAR_HEIGHTS;
 }
 
 void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd)
@@ -74,6 +75,7 @@ void ground_far_draw(virga_ground *ground, VkCommandBuffer cmd)
     virga_dispatch(ground->base.context, cmd, far->draw, cells * cells / VIRGA_GROUND_GROUP + 1);
     virga_pass_end(ground->base.context, cmd, scope);
     far->drawn = true;
+    ground->base.journal.doing |= GROUND_DID_FAR_MAP;
     far->drawn_at = ground->ticks;
 }
 

@@ -79,6 +79,11 @@ typedef struct ground_window {
     uint64_t moves;
     ground_cached_tile *cache;
     uint32_t cache_capacity, cached_count;
+    /* As it was before the newest move, see ground_window_undo. */
+    int32_t low_before[2];
+    bool was_placed;
+    ground_cached_tile *cache_before;
+    uint32_t cached_count_before;
 } ground_window;
 
 /* Low corner of the window for a camera position. It does not change while the camera is within one and a half tiles of
@@ -91,11 +96,17 @@ uint32_t ground_window_cache_end(const ground_window *window);
 /* Moves the window and fills `move` with the tiles that enter, leave and are evicted. */
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move);
 
+/* Takes the newest move back. */
+void ground_window_undo(ground_window *window);
+
+/* Forgets all tiles: the next move enters all of them as new ones. */
+void ground_window_forget(ground_window *window);
+
 /* ---- ground_rings.c */
 typedef struct ground_ripples {
     virga_offscreen *map;
     virga_image_2d *waves;
-    virga_buffer *upload; /* waves to upload; NULL once the upload is recorded */
+    virga_buffer *upload; /* waves to upload; NULL once they are */
     virga_pipeline *pipeline;
 } ground_ripples;
 
@@ -143,6 +154,14 @@ typedef struct ground_readback {
     virga_ground_count_gpu counts[VIRGA_GROUND_COUNTS];
 } ground_readback;
 
+/* What a step did, in the journal. */
+enum {
+    GROUND_DID_MOVE = VIRGA_DID_OWN,
+    GROUND_DID_HEIGHTS = VIRGA_DID_OWN << 1,
+    GROUND_DID_FAR_HEIGHTS = VIRGA_DID_OWN << 2,
+    GROUND_DID_FAR_MAP = VIRGA_DID_OWN << 3,
+};
+
 typedef struct ground_lists {
     uint32_t entering[VIRGA_GROUND_MAX_TILES], forgotten[VIRGA_GROUND_MAX_TILES];
 } ground_lists;
@@ -154,6 +173,8 @@ struct virga_ground {
     ground_window window;
     ground_move move;
     double base_m;
+    bool has_base;
+    uint64_t move_frame; /* of the newest move of the window */
     bool redraw_heights;
     uint64_t ticks; /* ticks run since creation */
 
@@ -187,6 +208,7 @@ void ground_write_sets(virga_ground *ground);
 
 /* ---- ground_step.c */
 
+void ground_lost(void *ground, uint64_t frame, uint32_t did);
 void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 #endif

@@ -121,7 +121,6 @@ void ground_ripples_upload(virga_context *context, VkCommandBuffer cmd, ground_r
     virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, before, filled);
     context->vk.CmdCopyBufferToImage(cmd, ripples->upload->buffer, ripples->waves->image, filled.layout, 1, &copy);
     virga_image_barrier(context, cmd, ripples->waves->image, VK_IMAGE_ASPECT_COLOR_BIT, filled, ready);
-    VIRGA_RETIRE(context, ripples->upload);
 }
 
 void ground_ripples_draw(virga_context *context, VkCommandBuffer cmd, const ground_ripples *ripples)

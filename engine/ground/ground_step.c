@@ -50,6 +50,23 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
         stats->cells[i] = read.counts[VIRGA_GROUND_CELLS + i].low;
 }
 
+/* The tiles are where they were before a lost move. If the window has moved again since then, the cells of both moves
+ * are mixed up: all tiles start anew. */
+void ground_lost(void *object, uint64_t frame, uint32_t did)
+{
+    virga_ground *ground = object;
+    if (did & GROUND_DID_MOVE && ground->move_frame == frame)
+        ground_window_undo(&ground->window);
+    else if (did & GROUND_DID_MOVE)
+        ground_window_forget(&ground->window);
+    else if (did & GROUND_DID_HEIGHTS)
+        ground->redraw_heights = true;
+    if (did & GROUND_DID_FAR_HEIGHTS)
+        ground->far.is_placed = false;
+    if (did & GROUND_DID_FAR_MAP)
+        ground->far.drawn = false;
+}
+
 /* ---- constants of a tick */
 
 /* Without a material map, the offset is outside of all cells. */
@@ -254,14 +271,19 @@ static void follow(virga_ground *ground, VkCommandBuffer cmd, const virga_ground
     bind(ground, cmd);
     if (far)
         ground_far_draw_heights(ground, cmd, info);
-    if (moved)
+    if (moved) {
         move_tiles(ground, cmd);
+        ground->move_frame = ground->base.context->frame_index;
+        ground->base.journal.doing |= GROUND_DID_MOVE;
+    }
     if (ground->redraw_heights && !moved) {
         enter_all(&ground->move, ground->window.tiles);
         write_lists(ground);
     }
-    if (moved || ground->redraw_heights)
+    if (moved || ground->redraw_heights) {
         draw_height_map(ground, cmd, info);
+        ground->base.journal.doing |= GROUND_DID_HEIGHTS;
+    }
     /* After a move only new tiles were drawn: the next step draws all. */
     ground->redraw_heights = ground->redraw_heights && moved;
     virga_pass_end(ground->base.context, cmd, scope);
@@ -415,17 +437,24 @@ static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
 static void first_contents(virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
-    if (!virga_effect_first_contents(&ground->base, cmd))
+    if (!ground->has_base) /* rounded to float, as shaders and hosts receive it */
+        ground->base_m = (double)(float)floor(ground->info.camera_m[1]);
+    ground->has_base = true;
+    /* If the first frames of ground and splashes are lost, the ground is the first to read the list. */
+    if (ground->info.returned_droplets)
+        ground->base.first_head = (virga_bound){.buffer = ground->info.returned_droplets,
+                                                .offset = ground->info.returned_droplets_offset,
+                                                .range = sizeof(virga_impacts_gpu)};
+    const bool first = virga_effect_first_contents(&ground->base, cmd);
+    ground->base.first_head = (virga_bound){0}; /* the host owns it */
+    if (!first)
         return;
-    /* Rounded to float, as shaders and hosts receive it. */
-    ground->base_m = (double)(float)floor(ground->info.camera_m[1]);
     virga_mesh_map_first_layouts(context, cmd, ground->height_map);
     virga_mesh_map_first_layouts(context, cmd, ground->far.height_map);
-    ground_ripples_upload(context, cmd, &ground->ripples);
-    static const float first_near_m = 3;
-    uint32_t bits;
-    memcpy(&bits, &first_near_m, sizeof bits);
-    context->vk.CmdFillBuffer(cmd, ground->spawns->buffer, offsetof(virga_spawns_gpu, near_m), sizeof bits, bits);
+    if (ground->ripples.upload) {
+        ground_ripples_upload(context, cmd, &ground->ripples);
+        virga_effect_uploaded(&ground->base, &ground->ripples.upload);
+    }
     transfer_barrier(ground, cmd);
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The window does not move while its middle is at most this many tiles from the camera. */
 #define HYSTERESIS_TILES 1
@@ -84,11 +85,35 @@ static void leave(ground_window *window, const int32_t low[2], ground_move *move
         }
 }
 
+static void remember(ground_window *window)
+{
+    memcpy(window->low_before, window->low, sizeof window->low);
+    memcpy(window->cache_before, window->cache, window->cache_capacity * sizeof *window->cache);
+    window->was_placed = window->is_placed;
+    window->cached_count_before = window->cached_count;
+}
+
+void ground_window_undo(ground_window *window)
+{
+    memcpy(window->low, window->low_before, sizeof window->low);
+    memcpy(window->cache, window->cache_before, window->cache_capacity * sizeof *window->cache);
+    window->is_placed = window->was_placed;
+    window->cached_count = window->cached_count_before;
+}
+
+void ground_window_forget(ground_window *window)
+{
+    memset(window->cache, 0, window->cache_capacity * sizeof *window->cache);
+    window->is_placed = false;
+    window->cached_count = 0;
+}
+
 void ground_window_move(ground_window *window, const int32_t low[2], ground_move *move)
 {
     move->leaving_count = move->entering_count = move->forgotten_count = 0;
     if (window->is_placed && low[0] == window->low[0] && low[1] == window->low[1])
         return;
+    remember(window);
     window->moves++;
     enter(window, low, move);
     if (window->is_placed)

@@ -404,6 +404,7 @@ const virga_effect_type rain_type = {
     .pass_constant = pass_constant,
     .check_settings = check_settings,
     .apply_settings = apply_settings,
+    .lost = rain_lost,
     .prepare = prepare,
     .draw = rain_type_draw,
 };

@@ -114,6 +114,8 @@ typedef struct rain_readback {
 
 enum { RAIN_PART_STEP, RAIN_PART_PREPARE }; /* of the statistics */
 
+enum { RAIN_DID_MAPS = VIRGA_DID_OWN }; /* the occlusion maps, in the journal */
+
 /* The host's statistics of a frame's step. */
 typedef struct rain_frame_stats {
     double time_s;
@@ -218,6 +220,7 @@ void rain_keep_tick(virga_rain *rain);
 
 /* Before a call records: fills buffers in the first call, and reads the statistics of completed frames. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
+void rain_lost(void *rain, uint64_t frame, uint32_t did);
 void rain_read_statistics(void *rain, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 /* ---- rain_occlusion.c */

@@ -214,6 +214,7 @@ virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, co
             draw_map(rain, cmd, i, camera_m, occluders, count);
         }
     virga_pass_end(rain->base.context, cmd, scope);
+    virga_effect_note(&rain->base, cmd, RAIN_DID_MAPS);
     return VIRGA_OK;
 }
 
@@ -270,6 +271,7 @@ virga_result virga_rain_import_occlusion(virga_rain *rain, VkCommandBuffer cmd, 
     rain->map_count = count;
     rain->host_maps = true;
     rain->host_map_image = *depth;
+    virga_effect_note(&rain->base, cmd, 0);
     return VIRGA_OK;
 }
 

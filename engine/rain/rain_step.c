@@ -42,6 +42,19 @@ void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint
         read_step(rain, &rain->frame_stats[ring_slot], &read.impacts);
 }
 
+/* Drops are where the time says, whatever was lost. Without maps rain falls everywhere until they are drawn again. */
+void rain_lost(void *object, uint64_t frame, uint32_t did)
+{
+    virga_rain *rain = object;
+    (void)frame;
+    if (did & 1u << RAIN_PART_STEP)
+        rain->stepped = false;
+    if (!(did & RAIN_DID_MAPS))
+        return;
+    rain->maps_drawn = false;
+    rain->map_count = rain->host_maps ? rain->map_count : 0;
+}
+
 static void upload_slots(virga_rain *rain, VkCommandBuffer cmd)
 {
     virga_context *context = rain->base.context;
@@ -49,8 +62,7 @@ static void upload_slots(virga_rain *rain, VkCommandBuffer cmd)
     context->vk.CmdCopyBuffer(cmd, rain->slot_upload->buffer, rain->slot_buffer->buffer, 1, &slots);
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    /* The staging buffer is destroyed once this frame has completed. */
-    VIRGA_RETIRE(context, rain->slot_upload);
+    virga_effect_uploaded(&rain->base, &rain->slot_upload);
 }
 
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd)
@@ -58,8 +70,10 @@ void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd)
     virga_context *context = rain->base.context;
     virga_timers_reset(context, cmd);
     if (virga_effect_first_contents(&rain->base, cmd)) {
-        virga_mesh_map_first_layouts(context, cmd, rain->map);
-        upload_slots(rain, cmd);
+        if (!rain->maps_drawn)
+            virga_mesh_map_first_layouts(context, cmd, rain->map);
+        if (rain->slot_upload)
+            upload_slots(rain, cmd);
     }
     if (rain->base.step_frame == context->frame_index)
         return;

@@ -295,6 +295,7 @@ const virga_effect_type splash_type = {
     .fit_device = fit_device,
     .create = create,
     .check_settings = check_settings,
+    .lost = splash_lost,
     .prepare = prepare,
     .draw = splash_type_draw,
 };
@@ -358,9 +359,10 @@ void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
 void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buffer *returned_droplets)
 {
     if (returned_droplets)
-        *returned_droplets = splash && splash->ticks ? (virga_splash_buffer){splash->returned_droplets->buffer, 0,
-                                                                             splash->returned_droplets->size}
-                                                     : (virga_splash_buffer){0};
+        *returned_droplets =
+            splash && splash->ticks && splash->base.contents
+                ? (virga_splash_buffer){splash->returned_droplets->buffer, 0, splash->returned_droplets->size}
+                : (virga_splash_buffer){0};
 }
 
 void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,

@@ -65,6 +65,13 @@ struct virga_splash {
     virga_splash_settings settings;
     double anchor_m[3];
     bool anchored;
+    /* As it was before the newest step, for a lost frame. */
+    struct {
+        uint64_t frame;
+        virga_buffer *droplets;
+        double anchor_m[3];
+        bool anchored;
+    } before;
     uint64_t ticks; /* since creation */
     uint32_t last_tick;
 
@@ -113,6 +120,7 @@ void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint 
 void splash_push_rules(virga_splash *splash);
 
 /* ---- splash_step.c */
+void splash_lost(void *splash, uint64_t frame, uint32_t did);
 void splash_read_statistics(void *splash, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 /* ---- splash_draw.c */

@@ -51,6 +51,26 @@ void splash_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     }
 }
 
+/* Goes back to the droplets and the anchor of the lost step. After a later step they can not: then droplets jump by a
+ * tick, and those in the air are gone after a second. */
+void splash_lost(void *object, uint64_t frame, uint32_t did)
+{
+    virga_splash *splash = object;
+    if (!(did & 1u << SPLASH_PART_STEP) || splash->before.frame != frame)
+        return;
+    splash->droplets = splash->before.droplets;
+    splash->anchored = splash->before.anchored;
+    memcpy(splash->anchor_m, splash->before.anchor_m, sizeof splash->anchor_m);
+}
+
+static void remember(virga_splash *splash)
+{
+    splash->before.frame = splash->base.context->frame_index;
+    splash->before.droplets = splash->droplets;
+    splash->before.anchored = splash->anchored;
+    memcpy(splash->before.anchor_m, splash->anchor_m, sizeof splash->anchor_m);
+}
+
 /* ---- ticks */
 
 static void push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
@@ -193,6 +213,7 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
                   READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (virga_effect_first_contents(&splash->base, cmd))
         write_indices(splash, cmd);
+    remember(splash);
     follow(splash, cmd, info);
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(splash, cmd, info, i);

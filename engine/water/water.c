@@ -257,7 +257,7 @@ const virga_effect_type water_type = {
 
 static virga_water_buffer whole_buffer(const virga_water *water, const virga_buffer *buffer)
 {
-    return water->base.has_contents ? (virga_water_buffer){buffer->buffer, 0, buffer->size} : (virga_water_buffer){0};
+    return water->base.contents ? (virga_water_buffer){buffer->buffer, 0, buffer->size} : (virga_water_buffer){0};
 }
 
 void virga_water_surfels(const virga_water *water, virga_water_buffer *surfels, double origin_m[3])

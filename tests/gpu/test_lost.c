@@ -207,6 +207,7 @@ static void context_is_lost(life *l)
     LOST(virga_target_create(l->context, &target_def, &target));
     LOST(virga_frame_begin(l->context, UINT64_MAX, UINT64_MAX - 1));
     LOST(virga_frame_completed(l->context, 0));
+    LOST(virga_frame_dropped(l->context, 1));
     LOST(virga_pipeline_cache_get(l->context, &size, NULL));
 }
 

@@ -147,7 +147,7 @@ static inline void splash_fixture_step(splash_fixture *f, uint32_t ticks)
 /* Exactly these droplets are in the air; all counts are reset. */
 static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu *droplets, uint32_t count)
 {
-    if (!f->splash->base.has_contents)
+    if (!f->splash->base.contents)
         splash_fixture_step(f, 0);
     const VkDeviceSize state_size = f->splash->state->size, size = f->splash->droplets->size;
     virga_splash_state_gpu *state = f->upload.mapped;

@@ -104,6 +104,10 @@ typedef enum virga_log_id {
     /* A draw call found nothing to draw, because a call before it is missing: which one. Logged once, and again after
      * a draw that had everything it needs. */
     VIRGA_LOG_NOT_DRAWN = 17,
+
+    /* The device has not executed a frame that was reported as completed, see virga_frame_dropped. Logged at the first
+     * such frame, and then at the 10th, 100th, ... */
+    VIRGA_LOG_FRAME_LOST = 18,
 } virga_log_id;
 
 /* Returns the short, stable name of a log id, e.g. "argument". Never NULL. Thread-safety: any thread. */

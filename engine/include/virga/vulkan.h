@@ -20,9 +20,9 @@
  * "Outside rendering" means outside a render pass and outside dynamic rendering; "inside" means within one.
  *
  * Command buffers belong to the context's queue family. A frame may use one or several of them. They go to one queue,
- * each once, in the order in which they were recorded. Virga orders its own work by barriers alone. What a host writes
- * (vertex buffers, images of a view) the host must make visible before it calls Virga. What it gives to a frame must
- * live until that frame has completed.
+ * each once, in the order in which they were recorded. A host that throws them away calls virga_frame_dropped. Virga
+ * orders its own work by barriers alone. What a host writes (vertex buffers, images of a view) the host must make
+ * visible before it calls Virga. What it gives to a frame must live until that frame has completed.
  *
  * Thread-safety: calls on one context, and on objects made from it, must not overlap. Different contexts may be used
  * from different threads at the same time, also on the same device.
@@ -210,6 +210,23 @@ VIRGA_API virga_result virga_frame_begin(virga_context *context, uint64_t frame_
  * the timings and statistics of that frame are then available at once. Frees nothing. `completed_index` must not fall,
  * and must not pass the newest frame that has begun (VIRGA_ERROR_INVALID). */
 VIRGA_API virga_result virga_frame_completed(virga_context *context, uint64_t completed_index);
+
+/* Tells that the device will never execute what was recorded in a frame: the host has thrown its command buffers away.
+ *
+ * It is an error to submit them after that. Virga records what later frames need again, e.g. uploads and first
+ * contents. The time that was stepped in the frame is skipped: no drop lands in it. Call it before the next
+ * virga_frame_begin. Then the next frame already contains what is missing.
+ *
+ * A host that does not call it still gets a complete picture again: each call of a frame leaves a mark when the device
+ * executes it. If a mark is missing when the frame is reported as completed, all is recorded again from then on. Until
+ * then, up to frames_in_flight frames may show less than they should. This works for a part of a frame too.
+ *
+ * A dropped frame counts as completed once all frames before it have: report it so. `frame_index` must have begun and
+ * not be completed (VIRGA_ERROR_INVALID). Costs microseconds. */
+VIRGA_API virga_result virga_frame_dropped(virga_context *context, uint64_t frame_index);
+
+/* Number of frames of which the device has not executed some or all, since the context was created. 0 for NULL. */
+VIRGA_API uint64_t virga_frames_lost(const virga_context *context);
 
 /* Builds pipelines that wait, and collects those that jobs have built.
  *

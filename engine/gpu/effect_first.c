@@ -1,0 +1,235 @@
+/* gpu/effect_first.c - first contents of buffers and images, uploads, and what is done again after a lost frame. */
+#include "gpu/effect.h"
+
+#include "gpu/builds.h"
+#include "gpu/context.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+
+#include "shaders/gpu_first_fill_comp.spv.h"
+
+#include <string.h>
+
+#define FILL_GROUP      256 /* as in shaders/gpu/first_fill.comp */
+#define FILL_MAX_GROUPS 4096
+
+/* ---- buffers */
+
+/* Other rows, e.g. of uniform buffers, never change after their fill. */
+static bool by_pass(const virga_effect_buffer *row)
+{
+    return row->first == VIRGA_FIRST_FILL && (row->usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+virga_result virga_effect_create_fills(virga_effect *effect)
+{
+    static const virga_binding_kind kinds[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < effect->type->buffer_count; i++)
+        count += by_pass(&effect->type->buffers[i]);
+    if (!count)
+        return VIRGA_OK;
+    const virga_result result = virga_bindings_create(effect->context, kinds, VIRGA_ROWS(kinds), count + 1,
+                                                      4 * sizeof(uint32_t), &effect->fill_bindings);
+    if (result)
+        return result;
+    const virga_compute_def def = {.shader = VIRGA_SPIRV(gpu_first_fill_comp),
+                                   .layout = effect->fill_bindings->layout,
+                                   .group = &effect->passes,
+                                   .name = "first_fill"};
+    return virga_compute_pipeline_create(effect->context, &def, &effect->fill_pass);
+}
+
+static void record_fill(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_buffer *row, virga_bound filled,
+                        uint32_t set_index)
+{
+    virga_context *context = effect->context;
+    const virga_bound bound[VIRGA_MAX_BINDINGS] = {
+        filled,
+        {.buffer = effect->journal.marks->buffer, .range = sizeof(uint32_t)},
+    };
+    const VkDescriptorSet set = virga_bindings_write(context, effect->fill_bindings, set_index, bound);
+    const VkPipelineLayout layout = effect->fill_bindings->layout;
+    const uint32_t words = (uint32_t)(filled.range / sizeof(uint32_t)), groups = (words + FILL_GROUP - 1) / FILL_GROUP;
+    const uint32_t constants[4] = {words, row->fill, row->word, row->word_value};
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
+    context->vk.CmdPushConstants(cmd, layout, VIRGA_ALL_STAGES, 0, sizeof constants, constants);
+    virga_dispatch(context, cmd, effect->fill_pass, groups < FILL_MAX_GROUPS ? groups : FILL_MAX_GROUPS);
+}
+
+static void record_fills(virga_effect *effect, VkCommandBuffer cmd)
+{
+    static const virga_effect_buffer zero = {.first = VIRGA_FIRST_FILL};
+    uint32_t set_index = 0;
+    for (uint32_t i = 0; i < effect->type->buffer_count; i++) {
+        const virga_effect_buffer *row = &effect->type->buffers[i];
+        const virga_buffer *buffer = *(virga_buffer **)virga_effect_member(effect, row->member);
+        if (buffer && by_pass(row))
+            record_fill(effect, cmd, row, (virga_bound){.buffer = buffer->buffer, .range = buffer->size}, set_index++);
+        else if (buffer && row->first == VIRGA_FIRST_FILL)
+            effect->context->vk.CmdFillBuffer(cmd, buffer->buffer, 0, VK_WHOLE_SIZE, row->fill);
+    }
+    if (effect->first_head.buffer)
+        record_fill(effect, cmd, &zero, effect->first_head, set_index);
+}
+
+/* ---- images */
+
+static void record_image(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_image *row)
+{
+    const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
+    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+    const VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaders, VK_ACCESS_SHADER_READ_BIT};
+    const virga_image_state general = {VK_IMAGE_LAYOUT_GENERAL, shaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                       READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT};
+    const VkClearColorValue zero = {.float32 = {0}};
+    const VkImageSubresourceRange all = {row->aspect, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+    virga_image_barrier(effect->context, cmd, image->image, row->aspect, before,
+                        row->first == VIRGA_FIRST_SAMPLED ? sampled : general);
+    if (row->first == VIRGA_FIRST_FILL)
+        effect->context->vk.CmdClearColorImage(cmd, image->image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+}
+
+/* A transition from UNDEFINED discards the contents. So an image that is kept is transitioned again only if its first
+ * transition is known to be lost. */
+static void record_images(virga_effect *effect, VkCommandBuffer cmd)
+{
+    for (uint32_t i = 0; i < effect->type->image_count; i++) {
+        const virga_effect_image *row = &effect->type->images[i];
+        if (row->first != VIRGA_FIRST_ANYTHING && (!row->keeps || effect->images == VIRGA_NOT_RECORDED))
+            record_image(effect, cmd, row);
+    }
+}
+
+/* ---- first contents */
+
+static void wait_for_earlier_frames(virga_context *context, VkCommandBuffer cmd)
+{
+    const VkAccessFlags any = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+                  VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, any);
+}
+
+bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
+{
+    virga_context *context = effect->context;
+    if ((effect->contents == VIRGA_EXECUTED && effect->images == VIRGA_EXECUTED) ||
+        effect->contents_frame == context->frame_index)
+        return false;
+    if (effect->contents_frame)
+        wait_for_earlier_frames(context, cmd);
+    record_images(effect, cmd);
+    record_fills(effect, cmd);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                      VK_ACCESS_TRANSFER_WRITE_BIT);
+    context->vk.CmdFillBuffer(cmd, effect->journal.marks->buffer, 0, sizeof(uint32_t), 1); /* the passes are done */
+    effect->journal.doing |= VIRGA_DID_CONTENTS | (effect->images == VIRGA_NOT_RECORDED ? VIRGA_DID_IMAGES : 0);
+    effect->contents = effect->contents == VIRGA_EXECUTED ? VIRGA_EXECUTED : VIRGA_RECORDED;
+    effect->images = effect->images == VIRGA_EXECUTED ? VIRGA_EXECUTED : VIRGA_RECORDED;
+    effect->contents_frame = context->frame_index;
+    return true;
+}
+
+/* ---- uploads */
+
+/* The entry of that pointer, else a free one. */
+static virga_effect_upload *upload_of(virga_effect *effect, virga_buffer **staging)
+{
+    virga_effect_upload *free_one = &effect->uploads[0];
+    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_UPLOADS; i++) {
+        if (effect->uploads[i].staging == staging)
+            return &effect->uploads[i];
+        if (!effect->uploads[i].staging)
+            free_one = &effect->uploads[i];
+    }
+    return free_one;
+}
+
+void virga_effect_uploaded(virga_effect *effect, virga_buffer **staging)
+{
+    virga_effect_upload *upload = upload_of(effect, staging);
+    if (upload->staging != staging || upload->buffer != *staging)
+        *upload = (virga_effect_upload){staging, *staging, effect->context->frame_index};
+    effect->journal.doing |= VIRGA_DID_UPLOAD;
+}
+
+/* The object may have replaced the buffer in the meantime: the new one is not copied yet. */
+static void end_uploads(virga_effect *effect, uint64_t frame)
+{
+    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_UPLOADS; i++) {
+        virga_effect_upload *upload = &effect->uploads[i];
+        if (!upload->staging || upload->first_frame > frame)
+            continue;
+        if (*upload->staging == upload->buffer)
+            VIRGA_RETIRE(effect->context, *upload->staging);
+        upload->staging = NULL;
+    }
+}
+
+/* ---- what became of completed frames */
+
+static void drop_statistics(virga_effect *effect, uint64_t frame, uint32_t lost)
+{
+    for (uint32_t part = 0; part < VIRGA_EFFECT_PARTS; part++) {
+        uint64_t *unread = &effect->readback_frames[part][frame % effect->context->frames_in_flight];
+        if ((lost & 1u << part) && *unread == frame)
+            *unread = 0;
+    }
+}
+
+/* Counts a frame once, however many effects lost something in it. A dropped frame is no surprise to its host. */
+static void count_lost(virga_effect *effect, uint64_t frame, bool dropped)
+{
+    virga_context *context = effect->context;
+    uint64_t *lost = &context->lost_of_slot[frame % context->frames_in_flight];
+    if (*lost == frame)
+        return;
+    *lost = frame;
+    context->lost_frames++;
+    uint64_t power = 1;
+    while (power < context->lost_frames)
+        power *= 10;
+    if (!dropped && power == context->lost_frames)
+        virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_FRAME_LOST,
+                        "frame %llu is reported as completed, but the device has not executed what %s recorded in it; "
+                        "%llu such frames so far (see virga_frame_dropped)",
+                        (unsigned long long)frame, effect->type->name, (unsigned long long)context->lost_frames);
+}
+
+static void settle_frame(virga_effect *effect, const virga_journal_fate *fate, bool dropped)
+{
+    if (fate->executed & VIRGA_DID_CONTENTS)
+        effect->contents = VIRGA_EXECUTED;
+    else if ((fate->lost & VIRGA_DID_CONTENTS) && fate->frame == effect->contents_frame &&
+             effect->contents != VIRGA_EXECUTED)
+        effect->contents = VIRGA_NOT_RECORDED;
+    if (fate->executed & VIRGA_DID_IMAGES)
+        effect->images = VIRGA_EXECUTED;
+    else if ((fate->lost & VIRGA_DID_IMAGES) && effect->images != VIRGA_EXECUTED)
+        effect->images = VIRGA_NOT_RECORDED;
+    if (fate->executed & VIRGA_DID_UPLOAD)
+        end_uploads(effect, fate->frame);
+    if (!fate->lost)
+        return;
+    drop_statistics(effect, fate->frame, fate->lost);
+    count_lost(effect, fate->frame, dropped);
+    if (effect->type->lost)
+        effect->type->lost(effect, fate->frame, fate->lost);
+}
+
+void virga_effects_settle(virga_context *context, uint64_t dropped)
+{
+    virga_journal_fate fate;
+    for (virga_effect *effect = context->first_effect; effect; effect = effect->next_effect) {
+        if (dropped && effect->view.frame == dropped)
+            effect->view.ready = false;
+        while (virga_journal_take(context, &effect->journal, dropped, &fate))
+            settle_frame(effect, &fate, fate.frame == dropped);
+    }
+}
