@@ -5,6 +5,7 @@
 #include <virga/drops.h>
 #include <virga/glass.h>
 #include <virga/ground.h>
+#include <virga/lens.h>
 #include <virga/light.h>
 #include <virga/material.h>
 #include <virga/rain.h>

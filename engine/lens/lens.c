@@ -1,0 +1,293 @@
+/* lens/lens.c - creates and destroys lenses, applies settings, and answers queries. */
+#include "lens/lens_internal.h"
+
+#include "core/settings.h"
+#include "gpu/errors.h"
+#include "lens/lens.h"
+
+#include "shaders/lens_aperture_comp.spv.h"
+#include "shaders/lens_combine_comp.spv.h"
+#include "shaders/lens_focus_comp.spv.h"
+#include "shaders/lens_gather_comp.spv.h"
+#include "shaders/lens_layer_comp.spv.h"
+#include "shaders/lens_paper_comp.spv.h"
+#include "shaders/lens_reach_comp.spv.h"
+#include "shaders/lens_sample_comp.spv.h"
+#include "shaders/lens_tile_comp.spv.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define DEF_COOKIE      VIRGA_COOKIE(41)
+#define SETTINGS_COOKIE VIRGA_COOKIE(42)
+
+/* ---- defaults */
+
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(lens_def, virga_lens_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(lens_settings, virga_lens_settings, kind, member, __VA_ARGS__)
+
+static const virga_setting_row def_rows[] = {
+    DEF(U32, max_width, 16, 16384, 1920),
+    DEF(U32, max_height, 16, 16384, 1080),
+    DEF(U32, half_resolution, 0, 1),
+};
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(ENUM, style, VIRGA_LENS_STYLE_PAPER, VIRGA_LENS_STYLE_PHYSICAL, VIRGA_LENS_STYLE_PHYSICAL),
+    SETTING(FLOAT, focal_m, 0.001, 10, 0.05),
+    SETTING(FLOAT, aperture_f, 0, 128, 2.8),
+    SETTING(FLOAT, focus_m, 0, 1e6, 10),
+    SETTING(U32, follow, 0, 1),
+    SETTING(FLOAT, focus_point[0], 0, 1, 0.5),
+    SETTING(FLOAT, focus_point[1], 0, 1, 0.5),
+    SETTING(FLOAT, focus_time_s, 0, 60, 0.25),
+    SETTING(U32, blades, 0, 16),
+    SETTING(FLOAT, blade_roundness, 0, 1),
+    SETTING(FLOAT, blade_rotation_deg, -360, 360),
+    SETTING(FLOAT, cats_eye, 0, 1),
+    SETTING(FLOAT, max_radius_px, 1, 2 * VIRGA_LENS_MAX_RADIUS, 32),
+    SETTING(FLOAT, threshold_m[0], 0, 1e6, 5),
+    SETTING(FLOAT, threshold_m[1], 0, 1e6, 20),
+    SETTING(FLOAT, filter_weight[0], 0, 100, 1),
+    SETTING(FLOAT, filter_weight[1], 0, 100, 5),
+};
+
+virga_lens_def virga_default_lens_def(void)
+{
+    virga_lens_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
+}
+
+virga_lens_settings virga_default_lens_settings(void)
+{
+    virga_lens_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    return settings;
+}
+
+static virga_result fit_device(const virga_context *context, void *given)
+{
+    virga_lens_def *def = given;
+    bool changed = false;
+    const uint32_t max = context->properties.limits.maxImageDimension2D;
+    def->max_width = virga_clamp_setting_u32(&context->log, "lens_def.max_width", def->max_width, 16, max, &changed);
+    def->max_height = virga_clamp_setting_u32(&context->log, "lens_def.max_height", def->max_height, 16, max, &changed);
+    return changed ? VIRGA_DEGRADED : VIRGA_OK;
+}
+
+/* ---- resources */
+
+enum { COUNT_WIDTH = 1, COUNT_HEIGHT, COUNT_COLUMNS, COUNT_ROWS, COUNT_TEXELS, COUNT_TILES, COUNT_APERTURE };
+
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    const virga_lens_def *def = given;
+    const uint32_t step = def->half_resolution ? 2 : 1;
+    counts[COUNT_WIDTH] = def->max_width;
+    counts[COUNT_HEIGHT] = def->max_height;
+    counts[COUNT_COLUMNS] = (def->max_width + step - 1) / step;
+    counts[COUNT_ROWS] = (def->max_height + step - 1) / step;
+    counts[COUNT_TEXELS] = counts[COUNT_COLUMNS] * counts[COUNT_ROWS];
+    counts[COUNT_TILES] = (counts[COUNT_COLUMNS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE *
+                          ((counts[COUNT_ROWS] + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE);
+    counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
+}
+
+#define AT(member) offsetof(virga_lens, member)
+#define DEVICE     VIRGA_HEAP_DEVICE
+
+static const virga_effect_buffer buffers[] = {
+    {"lens.state", AT(state), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_lens_state_gpu),
+     .first = VIRGA_FIRST_FILL},
+    {"lens.spreads", AT(spreads), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TEXELS},
+    {"lens.tiles", AT(tiles), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
+    {"lens.reaches", AT(reaches), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(float), .count = COUNT_TILES},
+};
+
+static const virga_effect_ring rings[] = {
+    {"lens.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_lens_gpu), VIRGA_COUNT_ONE},
+};
+
+#define COLOR   VK_IMAGE_ASPECT_COLOR_BIT
+#define WRITTEN (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)
+
+static const virga_effect_image images[] = {
+    {"lens.aperture", AT(aperture), VK_FORMAT_R32_SFLOAT, COLOR, WRITTEN, COUNT_APERTURE, COUNT_APERTURE, 1,
+     VIRGA_FIRST_STORAGE},
+    {"lens.samples", AT(samples), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS, 1,
+     VIRGA_FIRST_STORAGE},
+    {"lens.fields", AT(fields), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN, COUNT_COLUMNS, COUNT_ROWS,
+     VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE},
+    {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+     COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE},
+    {"lens.blank_depth", AT(blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
+     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    {"lens.blank_color", AT(blank_color), VK_FORMAT_R8G8B8A8_UNORM, COLOR, VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE,
+     VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+};
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define IMAGE   VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+
+/* The same bindings as in shaders/lens, where each file declares those it uses. */
+static const virga_binding_kind bindings[LENS_BINDINGS] = {
+    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE | VK_SHADER_STAGE_FRAGMENT_BIT, VIRGA_SOURCE_RING,
+     AT(view_ring), sizeof(virga_lens_gpu)},                                  /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                       /* 1 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                     /* 2 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                       /* 3 */
+    [LENS_BIND_DEPTH] = {SAMPLED, COMPUTE},                                   /* 4 */
+    [LENS_BIND_COLOR] = {SAMPLED, COMPUTE},                                   /* 5 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                        /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                     /* 7 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                      /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                       /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                     /* 10 */
+    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                            /* 11 */
+    [LENS_BIND_FIELDS] = {SAMPLED, COMPUTE},                                  /* 12 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                        /* 13 */
+    {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT, VIRGA_SOURCE_IMAGE, AT(picture)}, /* 14 */
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE}, /* 15 colors of layers */
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE},
+    {SAMPLED, COMPUTE}, /* 19 depths of layers */
+};
+
+static const virga_effect_layout layouts[] = {{AT(bindings), bindings, LENS_BINDINGS, 1, 0}};
+
+static const virga_effect_pass passes[] = {
+    {"lens.focus", AT(focus), VIRGA_SPIRV_ROW(lens_focus_comp)},
+    {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV_ROW(lens_aperture_comp)},
+    {"lens.sample", AT(sample), VIRGA_SPIRV_ROW(lens_sample_comp)},
+    {"lens.tile", AT(tile), VIRGA_SPIRV_ROW(lens_tile_comp)},
+    {"lens.reach", AT(reach), VIRGA_SPIRV_ROW(lens_reach_comp)},
+    {"lens.gather", AT(gather), VIRGA_SPIRV_ROW(lens_gather_comp)},
+    {"lens.layer", AT(layer), VIRGA_SPIRV_ROW(lens_layer_comp), .forms = VIRGA_LENS_LAYERS},
+    {"lens.combine", AT(combine), VIRGA_SPIRV_ROW(lens_combine_comp)},
+    {"lens.paper", AT(paper), VIRGA_SPIRV_ROW(lens_paper_comp)},
+};
+
+static void fill_areas(virga_lens *lens)
+{
+    lens_fill_areas(lens->settings.blades, (double)lens->settings.blade_roundness,
+                    (double)lens->settings.blade_rotation_deg, lens->areas);
+}
+
+static virga_result init(void *object)
+{
+    fill_areas(object);
+    return VIRGA_OK;
+}
+
+static virga_result apply_settings(void *object, void *given)
+{
+    virga_lens *lens = object;
+    virga_lens_settings *next = given, *now = &lens->settings;
+    next->blades = next->blades < 3 ? 0 : next->blades;
+    next->threshold_m[1] = fmaxf(next->threshold_m[0], next->threshold_m[1]);
+    const bool reshaped = next->blades != now->blades || next->blade_roundness != now->blade_roundness ||
+                          next->blade_rotation_deg != now->blade_rotation_deg;
+    *now = *next;
+    if (reshaped)
+        fill_areas(lens);
+    return VIRGA_OK;
+}
+
+static void describe(const void *object, char *line, size_t size)
+{
+    const virga_lens *lens = object;
+    snprintf(line, size, "lens: pictures of up to %u x %u pixels%s", lens->def.max_width, lens->def.max_height,
+             lens->def.half_resolution ? ", blurred at half resolution" : "");
+}
+
+static void lens_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data)
+{
+    virga_lens *lens = object;
+    virga_lens_state_gpu state;
+    (void)ring_slot;
+    (void)parts;
+    memcpy(&state, data, sizeof state);
+    lens->stats.frame_index = frame;
+    lens->stats.focus_m = state.focus_inv_m > 0 ? 1 / state.focus_inv_m : INFINITY;
+}
+
+VIRGA_EFFECT_FUNCTIONS(lens)
+VIRGA_EFFECT_DRAW_FUNCTIONS(lens)
+
+const virga_effect_type lens_type = {
+    .name = "a lens",
+    .log_name = "lens_settings",
+    .size = sizeof(virga_lens),
+    .def = {"lens_def", sizeof(virga_lens_def), DEF_COOKIE, AT(def)},
+    .settings = {"lens_settings", sizeof(virga_lens_settings), SETTINGS_COOKIE, AT(settings)},
+    .def_rows = def_rows,
+    .def_count = VIRGA_ROWS(def_rows),
+    .setting_rows = setting_rows,
+    .setting_count = VIRGA_ROWS(setting_rows),
+    VIRGA_TABLE(buffer),
+    VIRGA_TABLE(ring),
+    VIRGA_TABLE(image),
+    VIRGA_TABLE(layout),
+    .passes = passes,
+    .pass_count = VIRGA_ROWS(passes),
+    .draws = lens_draws,
+    .draw_count = 1,
+    .readback_name = "lens.readback",
+    .readback_bytes = sizeof(virga_lens_state_gpu),
+    .fit_device = fit_device,
+    .count = count,
+    .init = init,
+    .describe = describe,
+    .read_statistics = lens_read_statistics,
+    .default_settings = lens_default_settings,
+    .apply_settings = apply_settings,
+    .draw = lens_type_draw,
+};
+
+/* ---- queries */
+
+void virga_lens_picture(const virga_lens *lens, virga_lens_image *picture)
+{
+    if (!picture)
+        return;
+    *picture = (virga_lens_image){0};
+    if (lens && lens->base.contents)
+        *picture = (virga_lens_image){lens->picture->image, lens->picture->layer_views[0], lens->width, lens->height};
+}
+
+double virga_lens_breathing(double focal_m, double focus_m)
+{
+    return focus_m > focal_m && focal_m > 0 ? focus_m / (focus_m - focal_m) : 1;
+}
+
+void virga_lens_fill_view(virga_lens *lens, virga_view *view)
+{
+    if (!lens || !view)
+        return;
+    const virga_lens_settings *settings = &lens->settings;
+    virga_lens_stats stats;
+    virga_lens_stats_get(lens, &stats);
+    view->aperture_m = settings->aperture_f > 0 ? fminf(settings->focal_m / settings->aperture_f, 1) : 0;
+    view->focus_m = settings->focus_m;
+    if (settings->follow && stats.frame_index)
+        view->focus_m = stats.focus_m < 1e6f ? stats.focus_m : 0;
+}
+
+void virga_lens_stats_get(virga_lens *lens, virga_lens_stats *stats)
+{
+    if (!stats)
+        return;
+    memset(stats, 0, sizeof *stats);
+    if (!lens)
+        return;
+    virga_effect_read_statistics(&lens->base);
+    *stats = lens->stats;
+}

@@ -1,0 +1,276 @@
+/* lens/lens_draw.c - prepare blurs a picture, draw copies it into a target. */
+#include "lens/lens_internal.h"
+
+#include "core/settings.h"
+#include "gpu/builds.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+#include "gpu/view.h"
+
+#include "shaders/lens_show_frag.spv.h"
+#include "shaders/lens_show_vert.spv.h"
+
+#include <math.h>
+
+#define PI 3.14159265358979323846
+
+/* ---- checks */
+
+static virga_result check_layer(const virga_log *log, const virga_lens_layer *layer, uint32_t index)
+{
+    if (!layer->color.view || layer->color.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return virga_wrong_argument(log, "layers[%u].color: expected an image view, and its layout", index);
+    if (layer->depth.view && layer->depth.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return virga_wrong_argument(log, "layers[%u].depth.before.layout: expected the layout while reading", index);
+    if (!layer->depth.view && !(layer->depth_m >= 0.001f && layer->depth_m <= 1e6f))
+        return virga_wrong_argument(log, "layers[%u].depth_m: expected 0.001 to 1e6 m or a depth image, got %g", index,
+                                    (double)layer->depth_m);
+    return VIRGA_OK;
+}
+
+static virga_result check_view(const virga_lens *lens, const virga_view *view, double time_s)
+{
+    const virga_context *context = lens->base.context;
+    const virga_result result = virga_view_check(context, view, time_s);
+    if (result)
+        return result;
+    if (!view->color.view)
+        return virga_wrong_argument(&context->log, "virga_lens_prepare: expected a view with color");
+    if (view->viewport[0] < 0 || view->viewport[1] < 0 || view->viewport[2] > (float)lens->def.max_width ||
+        view->viewport[3] > (float)lens->def.max_height)
+        return virga_wrong_argument(&context->log,
+                                    "view.viewport: expected up to %u x %u pixels from (0, 0) on, got %g x %g at (%g, "
+                                    "%g)",
+                                    lens->def.max_width, lens->def.max_height, (double)view->viewport[2],
+                                    (double)view->viewport[3], (double)view->viewport[0], (double)view->viewport[1]);
+    return VIRGA_OK;
+}
+
+static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
+                                  const virga_lens_layer *layers, uint32_t layer_count, double time_s)
+{
+    const virga_log *log = &lens->base.context->log;
+    virga_result result = virga_effect_check_step(&lens->base, "virga_lens_prepare", cmd, view);
+    if (result)
+        return result;
+    if (lens->base.step_frame == lens->base.context->frame_index)
+        return virga_wrong_argument(log, "virga_lens_prepare: expected one prepare a frame");
+    if (layer_count > VIRGA_LENS_MAX_LAYERS || (layer_count && !layers))
+        return virga_wrong_argument(log, "virga_lens_prepare: expected up to %d layers, got %u%s",
+                                    VIRGA_LENS_MAX_LAYERS, layer_count, layers ? "" : " in no array");
+    result = check_view(lens, view, time_s);
+    for (uint32_t i = 0; i < layer_count && !result; i++)
+        result = check_layer(log, &layers[i], i);
+    return result ? result : virga_effect_ready(&lens->base);
+}
+
+/* ---- the uniforms of a view */
+
+/* The share of the way to a new focus. Time that runs backwards, or the first picture, go there at once. */
+static float ease(const virga_lens *lens, double time_s)
+{
+    const double passed_s = time_s - lens->time_s, constant_s = (double)lens->settings.focus_time_s;
+    if (!lens->has_time || passed_s < 0 || constant_s <= 0)
+        return 1;
+    return (float)(1 - exp(-passed_s / constant_s));
+}
+
+static void fill_picture(const virga_lens *lens, const virga_view *view, virga_lens_gpu *out)
+{
+    const uint32_t step = lens->def.half_resolution ? 2 : 1;
+    out->depth_a = view->clip_from_view[10];
+    out->depth_b = view->clip_from_view[14];
+    out->far_depth = view->reversed_depth ? 0.0f : 1.0f;
+    out->depth_given = view->depth.view != VK_NULL_HANDLE && out->depth_b != 0;
+    out->left = (uint32_t)view->viewport[0];
+    out->top = (uint32_t)view->viewport[1];
+    out->width = (uint32_t)view->viewport[2];
+    out->height = (uint32_t)view->viewport[3];
+    out->step = step;
+    out->columns = (out->width + step - 1) / step;
+    out->rows = (out->height + step - 1) / step;
+    out->tile_columns = (out->columns + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE;
+    out->tile_rows = (out->rows + VIRGA_LENS_TILE - 1) / VIRGA_LENS_TILE;
+}
+
+/* The pixel at a share of a side. */
+static uint32_t pixel_at(float share, uint32_t first, uint32_t pixels)
+{
+    const uint32_t pixel = (uint32_t)(share * (float)pixels);
+    return first + (pixel < pixels ? pixel : pixels - 1);
+}
+
+static void fill_lens(const virga_lens *lens, const virga_view *view, double time_s, virga_lens_gpu *out)
+{
+    const virga_lens_settings *settings = &lens->settings;
+    /* shaders/lens/lens.glsl: r = A p / 2 (1 / s - 1 / z); p is half the height times the projection's cotangent. */
+    const double aperture_m = settings->aperture_f > 0 ? (double)settings->focal_m / (double)settings->aperture_f : 0;
+    const double pixels = 0.5 * (double)view->viewport[3] * fabs((double)view->clip_from_view[5]);
+    out->circle_px_m = (float)(0.5 * aperture_m * pixels);
+    out->max_radius = fminf(settings->max_radius_px / (float)out->step, VIRGA_LENS_MAX_RADIUS);
+    out->follow = settings->follow;
+    out->focus_x = pixel_at(settings->focus_point[0], out->left, out->width);
+    out->focus_y = pixel_at(settings->focus_point[1], out->top, out->height);
+    out->focus_inv_m = settings->focus_m > 0 ? 1 / settings->focus_m : 0;
+    out->ease = ease(lens, time_s);
+    out->cats_eye = settings->cats_eye;
+    out->blades = (float)settings->blades;
+    out->roundness = settings->blade_roundness;
+    out->rotation = (float)((double)settings->blade_rotation_deg * PI / 180);
+    for (int i = 0; i < 2; i++) {
+        out->threshold_m[i] = settings->threshold_m[i];
+        out->filter_weight[i] = settings->filter_weight[i];
+    }
+    for (int i = 0; i < VIRGA_LENS_SPREADS; i++)
+        out->areas[i] = lens->areas[i];
+}
+
+static void push_view(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers, uint32_t layer_count,
+                      double time_s, virga_lens_gpu *filled)
+{
+    *filled = (virga_lens_gpu){.layers = layer_count};
+    fill_picture(lens, view, filled);
+    fill_lens(lens, view, time_s, filled);
+    for (uint32_t i = 0; i < layer_count; i++)
+        filled->layer_inv_m[i] = layers[i].depth.view ? 0 : 1 / layers[i].depth_m;
+    lens->view_offset = virga_ring_push(lens->base.context, &lens->view_ring, filled, sizeof *filled);
+    lens->width = filled->width;
+    lens->height = filled->height;
+    lens->time_s = time_s;
+    lens->has_time = true;
+}
+
+static VkDescriptorSet write_set(virga_lens *lens, const virga_view *view, const virga_lens_layer *layers,
+                                 uint32_t layer_count)
+{
+    virga_context *context = lens->base.context;
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&lens->base, lens->bindings, bound);
+    bound[LENS_BIND_DEPTH] = virga_bound_or_blank(&view->depth, lens->blank_depth, context->nearest);
+    bound[LENS_BIND_COLOR] = virga_bound_or_blank(&view->color, lens->blank_color, context->nearest);
+    bound[LENS_BIND_FIELDS_WRITTEN] =
+        (virga_bound){.view = lens->fields->view, .image_layout = VK_IMAGE_LAYOUT_GENERAL, .sampler = context->linear};
+    bound[LENS_BIND_FIELDS] = bound[LENS_BIND_FIELDS_WRITTEN];
+    for (uint32_t i = 0; i < VIRGA_LENS_LAYERS; i++) {
+        const virga_lens_layer *layer = i < layer_count ? &layers[i] : NULL;
+        bound[LENS_BIND_LAYER_COLORS + i] =
+            virga_bound_or_blank(layer ? &layer->color : NULL, lens->blank_color, context->nearest);
+        bound[LENS_BIND_LAYER_DEPTHS + i] =
+            virga_bound_or_blank(layer ? &layer->depth : NULL, lens->blank_depth, context->nearest);
+    }
+    return virga_bindings_write(context, lens->bindings, 0, bound);
+}
+
+/* ---- prepare */
+
+#define GROUP 8 /* side of the workgroups of passes over pixels */
+
+static uint32_t groups(uint32_t size, uint32_t group)
+{
+    return (size + group - 1) / group;
+}
+
+/* A pass over a picture, and a barrier after it. */
+static void over(virga_lens *lens, VkCommandBuffer cmd, const char *name, const virga_pipeline *pipeline,
+                 uint32_t width, uint32_t height)
+{
+    virga_context *context = lens->base.context;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, name);
+    virga_dispatch_2d(context, cmd, pipeline, groups(width, GROUP), groups(height, GROUP));
+    virga_compute_barrier(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_lens_gpu *view)
+{
+    virga_context *context = lens->base.context;
+    over(lens, cmd, "lens.aperture", lens->aperture_reach, VIRGA_LENS_APERTURE, VIRGA_LENS_APERTURE);
+    over(lens, cmd, "lens.sample", lens->sample, view->columns, view->rows);
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
+    virga_dispatch_2d(context, cmd, lens->tile, view->tile_columns, view->tile_rows);
+    virga_compute_barrier(context, cmd);
+    virga_dispatch_and_barrier(context, cmd, lens->reach, groups(view->tile_columns * view->tile_rows, 64));
+    virga_pass_end(context, cmd, scope);
+    over(lens, cmd, "lens.gather", lens->gather, view->columns, view->rows);
+    for (uint32_t i = 0; i < view->layers; i++)
+        over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
+    over(lens, cmd, "lens.combine", lens->combine, view->width, view->height);
+}
+
+/* Waits for the readers of the last picture, the host's among them. */
+static void wait_for_readers(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+}
+
+static void show_to_readers(virga_context *context, VkCommandBuffer cmd)
+{
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                  READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
+                                const virga_lens_layer *layers, uint32_t layer_count, double time_s)
+{
+    if (!lens)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = lens->base.context;
+    const virga_result result = check_prepare(lens, cmd, view, layers, layer_count, time_s);
+    if (result)
+        return result;
+    virga_lens_gpu filled;
+    virga_timers_reset(context, cmd);
+    virga_effect_read_statistics(&lens->base);
+    lens->base.step_frame = context->frame_index;
+    push_view(lens, view, layers, layer_count, time_s, &filled);
+    const VkDescriptorSet set = write_set(lens, view, layers, layer_count);
+    wait_for_readers(context, cmd);
+    virga_effect_first_contents(&lens->base, cmd);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings->layout, 0, 1, &set, 1,
+                                      &lens->view_offset);
+    virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
+    if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
+        over(lens, cmd, "lens.paper", lens->paper, filled.width, filled.height);
+    else
+        record_physical(lens, cmd, &filled);
+    show_to_readers(context, cmd);
+    virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0, 0, sizeof(virga_lens_state_gpu));
+    virga_effect_set_view(&lens->base, set, view->viewport);
+    return virga_check_uploads(context);
+}
+
+/* ---- draw */
+
+const virga_effect_draw lens_draws[1] = {
+    {"lens.draw", VIRGA_FORM(lens_show_vert), VIRGA_FORM(lens_show_frag), .no_depth = true, .replace = true},
+};
+
+virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_target *target)
+{
+    if (!lens)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = lens->base.context;
+    const virga_effect_target *found;
+    virga_result result =
+        virga_effect_check_draw(&lens->base, "virga_lens_draw", cmd, target, virga_effect_ready(&lens->base), &found);
+    if (result)
+        return result;
+    const virga_pipeline *pipeline = found->draws[0];
+    result = virga_pipelines_ready(&pipeline, 1);
+    if (result)
+        return result;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, "lens.draw");
+    virga_set_draw_area(context, cmd, lens->base.view.viewport);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings->layout, 0, 1,
+                                      &lens->base.view.set, 1, &lens->view_offset);
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    context->vk.CmdDraw(cmd, 3, 1, 0, 0);
+    virga_pass_end(context, cmd, scope);
+    return VIRGA_OK;
+}

@@ -1,0 +1,53 @@
+/* lens/lens_internal.h - defines the struct of virga_lens and the functions its files share. Internal.
+ *
+ *   lens.c           create, destroy, settings, queries
+ *   lens_aperture.c  the area of the aperture's image on a grid of pixels
+ *   lens_draw.c      prepare, draw
+ */
+#ifndef VIRGA_LENS_LENS_INTERNAL_H
+#define VIRGA_LENS_LENS_INTERNAL_H
+
+#include "gpu/context.h"
+#include "gpu/effect.h"
+
+#include <virga/lens.h>
+#include <virga/shared/lens_gpu.h>
+
+/* Bindings of the passes. */
+enum {
+    LENS_BIND_DEPTH = 4,
+    LENS_BIND_COLOR,
+    LENS_BIND_FIELDS_WRITTEN = 11,
+    LENS_BIND_FIELDS,
+    LENS_BIND_LAYER_COLORS = 15,
+    LENS_BIND_LAYER_DEPTHS = LENS_BIND_LAYER_COLORS + VIRGA_LENS_LAYERS,
+    LENS_BINDINGS = LENS_BIND_LAYER_DEPTHS + VIRGA_LENS_LAYERS,
+};
+
+struct virga_lens {
+    virga_effect base; /* first */
+    virga_lens_def def;
+    virga_lens_settings settings;
+    float areas[VIRGA_LENS_SPREADS];
+    double time_s; /* of the newest prepare */
+    bool has_time;
+
+    virga_buffer *state, *spreads, *tiles, *reaches;
+    virga_image_2d *aperture, *samples, *fields, *picture, *blank_depth, *blank_color;
+    virga_ring view_ring;
+    uint32_t view_offset, width, height; /* of the newest prepare */
+    virga_bindings *bindings;
+    virga_pipeline *focus, *aperture_reach, *sample, *tile, *reach, *gather, *layer[VIRGA_LENS_LAYERS], *combine,
+        *paper;
+    virga_lens_stats stats;
+};
+
+/* ---- lens_aperture.c */
+
+/* Fills the areas of an aperture's image on a grid of pixels, for the radii of shaders/lens/spread.glsl. */
+void lens_fill_areas(uint32_t blades, double roundness, double rotation_deg, float areas[VIRGA_LENS_SPREADS]);
+
+/* ---- lens_draw.c */
+extern const virga_effect_draw lens_draws[1];
+
+#endif

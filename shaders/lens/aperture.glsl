@@ -1,0 +1,49 @@
+// aperture.glsl - how much of a pixel the image of a point covers.
+//
+// Seen from a point of the aperture that is to the right, what is behind the focus moves to the right against it, and
+// what is in front of it to the left. So the image of a point behind the focus is an upright image of the aperture, and
+// that of a point in front of it is upside down. Both functions take the position in the aperture, in pixels.
+//
+// The image of a point is an image of the aperture, scaled to the radius of the circle of confusion. `reach` is the
+// radius of the aperture's image whose edge goes through the centre of a pixel, so coverage falls from 1 to 0 as reach
+// goes from half a pixel inside to half a pixel outside. A radius below half a pixel is a point: the pixel itself.
+layout(set = 0, binding = 2) uniform sampler2D aperture_reach;
+
+float coverage(ivec2 apart, float radius)
+{
+    const float reach = texelFetch(aperture_reach, apart + VIRGA_LENS_MAX_RADIUS, 0).r;
+    return clamp(max(radius, 0.5) - reach + 0.5, 0.0, 1.0);
+}
+
+// Cat's eye: away from the picture's centre the rim of the lens's barrel cuts the bundle of light. Light from above
+// comes down through the rim: where it passes the aperture at height a, it passed the rim, which is L before it, at
+// a + L tan(angle). So it also has to pass a second aperture of the same size that is shifted towards the centre.
+float second_coverage(vec2 apart, float radius, vec2 shift)
+{
+    return clamp(max(radius, 0.5) - length(apart - shift * radius) + 0.5, 0.0, 1.0);
+}
+
+// The area of the intersection of two discs of radius 1 that are `apart` of each other, over pi.
+float lens_area(float apart)
+{
+    const float half_apart = 0.5 * min(apart, 2.0);
+    return 2.0 / 3.14159265 * (acos(half_apart) - half_apart * sqrt(1.0 - half_apart * half_apart));
+}
+
+// The shift of the second aperture, in radii, for the light that comes to a texel of the work image.
+vec2 cats_eye_shift(vec2 texel)
+{
+    const vec2 half_size = 0.5 * vec2(view.columns, view.rows);
+    return view.cats_eye * (half_size - texel - 0.5) / length(half_size);
+}
+
+// The coverage of a texel by the image of a point, divided by the share of the aperture that the cat's eye leaves
+// there. So an even picture stays even. The disc of a lamp near a corner gains or loses up to a fifth of its light.
+float covers(ivec2 apart, float radius, ivec2 texel)
+{
+    const float covered = coverage(apart, radius);
+    if (view.cats_eye == 0.0 || covered == 0.0)
+        return covered;
+    const vec2 shift = cats_eye_shift(vec2(texel));
+    return min(covered, second_coverage(vec2(apart), radius, shift)) / max(lens_area(length(shift)), 0.05);
+}

@@ -1,0 +1,21 @@
+// focus.comp - the focus of this view: as set, or eased towards what is at the focus point. It is eased in 1/m, in
+// which the blur is linear.
+// One invocation. Reads: depth. Writes: state.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "lens.glsl"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 4) uniform sampler2D scene_depth;
+
+void main()
+{
+    float next = view.focus_inv_m;
+    if (view.follow != 0u && view.depth_given != 0u)
+        next = inverse_depth(texelFetch(scene_depth, ivec2(view.focus_x, view.focus_y), 0).r);
+    if (view.follow != 0u && state.focused != 0u)
+        next = mix(state.focus_inv_m, next, view.ease);
+    state.focus_inv_m = next;
+    state.focused = 1u;
+}

@@ -1,0 +1,50 @@
+// layers.glsl - the layers over the scene: premultiplied color and coverage, and the depth of each pixel or of the
+// whole layer. The includer has pixels.glsl.
+layout(set = 0, binding = 15) uniform sampler2D layer_color_0;
+layout(set = 0, binding = 16) uniform sampler2D layer_color_1;
+layout(set = 0, binding = 17) uniform sampler2D layer_color_2;
+layout(set = 0, binding = 18) uniform sampler2D layer_color_3;
+layout(set = 0, binding = 19) uniform sampler2D layer_depth_0;
+layout(set = 0, binding = 20) uniform sampler2D layer_depth_1;
+layout(set = 0, binding = 21) uniform sampler2D layer_depth_2;
+layout(set = 0, binding = 22) uniform sampler2D layer_depth_3;
+
+vec4 layer_color(uint layer, ivec2 pixel)
+{
+    switch (layer) {
+    case 0u: return finite(texelFetch(layer_color_0, pixel, 0));
+    case 1u: return finite(texelFetch(layer_color_1, pixel, 0));
+    case 2u: return finite(texelFetch(layer_color_2, pixel, 0));
+    default: return finite(texelFetch(layer_color_3, pixel, 0));
+    }
+}
+
+float layer_depth(uint layer, ivec2 pixel)
+{
+    switch (layer) {
+    case 0u: return texelFetch(layer_depth_0, pixel, 0).r;
+    case 1u: return texelFetch(layer_depth_1, pixel, 0).r;
+    case 2u: return texelFetch(layer_depth_2, pixel, 0).r;
+    default: return texelFetch(layer_depth_3, pixel, 0).r;
+    }
+}
+
+// The signed circle of confusion (texels) of a layer at a texel: of the nearest of its pixels.
+float layer_circle(uint layer, ivec2 texel)
+{
+    if (view.layer_inv_m[layer] > 0.0)
+        return circle(view.layer_inv_m[layer]);
+    float nearest = 1e9;
+    for (uint i = 0u; i < view.step * view.step; i++)
+        nearest = min(nearest, circle(inverse_depth(layer_depth(layer, pixel_of(texel, i)))));
+    return nearest;
+}
+
+// The mean of a layer's pixels in a texel.
+vec4 layer_mean(uint layer, ivec2 texel)
+{
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < view.step * view.step; i++)
+        sum += layer_color(layer, pixel_of(texel, i));
+    return sum / float(view.step * view.step);
+}

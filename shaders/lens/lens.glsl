@@ -1,0 +1,32 @@
+// lens.glsl - what the passes of the lens share: the view, its pictures, and the circle of confusion.
+//
+// A thin lens with an aperture of diameter A (m), focused at distance s, images a point at distance z as a disc. With
+// the image distance v of the focus, the disc's diameter on the sensor is c = A v |1/s - 1/z|, by similar triangles. A
+// direction with tangent 1 is v away from the sensor's centre, which is p pixels on the picture. So the radius in
+// pixels is
+//
+//     r = A p / 2 |1/s - 1/z|
+//
+// whatever the sensor's size. It has a sign here: r = A p / 2 (1/s - 1/z) is negative in front of the focus. It is
+// linear in 1/z, and so in the values of a depth buffer. Greater r is farther.
+#define VIRGA_GLSL
+#include "shared/lens_gpu.h"
+
+layout(scalar, set = 0, binding = 0) uniform View { virga_lens_gpu view; };
+layout(std430, set = 0, binding = 1) buffer State { virga_lens_state_gpu state; };
+
+// 1 / view depth (1/m) of a value of the depth buffer. 0 at infinity.
+float inverse_depth(float stored) { return max((view.depth_a + stored) / view.depth_b, 0.0); }
+
+// The signed radius of the circle of confusion, in texels of the work image.
+float circle(float inv_m)
+{
+    const float r = view.circle_px_m * (state.focus_inv_m - inv_m) / float(view.step);
+    return clamp(r, -view.max_radius, view.max_radius);
+}
+
+// What a picture may not hold: NaN becomes 0, infinity and huge numbers the largest half float.
+vec4 finite(vec4 color)
+{
+    return clamp(mix(color, vec4(0.0), isnan(color)), vec4(-65504.0), vec4(65504.0));
+}

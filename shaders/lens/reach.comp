@@ -1,0 +1,31 @@
+// reach.comp - how far each tile has to look for what reaches it: the largest circle of confusion of all tiles from
+// which a disc can reach into it.
+// One invocation per tile. Reads: tiles. Writes: reaches.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "lens.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 9) readonly buffer Tiles { float tiles[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer Reaches { float reaches[]; };
+
+// The distance (texels) from a pixel of one tile to one of another along an axis.
+float gap(int tiles_apart) { return float(max(abs(tiles_apart) - 1, 0) * VIRGA_LENS_TILE + min(abs(tiles_apart), 1)); }
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= view.tile_columns * view.tile_rows)
+        return;
+    const ivec2 size = ivec2(view.tile_columns, view.tile_rows);
+    const ivec2 own = ivec2(gl_GlobalInvocationID.x % view.tile_columns, gl_GlobalInvocationID.x / view.tile_columns);
+    const int most = int(view.max_radius) / VIRGA_LENS_TILE + 1;
+    float reach = 0.0;
+    for (int y = max(own.y - most, 0); y <= min(own.y + most, size.y - 1); y++)
+        for (int x = max(own.x - most, 0); x <= min(own.x + most, size.x - 1); x++) {
+            const float radius = tiles[y * size.x + x];
+            if (radius + 1.0 >= length(vec2(gap(x - own.x), gap(y - own.y))))
+                reach = max(reach, radius);
+        }
+    reaches[gl_GlobalInvocationID.x] = reach;
+}

@@ -1,0 +1,44 @@
+// sample.comp - the scene as samples: color and circle of confusion of each texel of the work image. At half resolution
+// a texel is the mean of those of its pixels that are as near as the nearest one: a mean over an edge would be a color
+// that is nowhere, at a depth that is nowhere.
+// One invocation per texel. Reads: color, depth, state. Writes: samples, spreads.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "lens.glsl"
+#include "pixels.glsl"
+#include "spread.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 4) uniform sampler2D scene_depth;
+layout(set = 0, binding = 5) uniform sampler2D scene_color;
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D samples;
+layout(std430, set = 0, binding = 7) writeonly buffer Spreads { float spreads[]; };
+
+float circle_at(ivec2 pixel)
+{
+    return view.depth_given != 0u ? circle(inverse_depth(texelFetch(scene_depth, pixel, 0).r)) : 0.0;
+}
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= int(view.columns) || texel.y >= int(view.rows))
+        return;
+    const uint pixels = view.step * view.step;
+    float radii[4], nearest = 1e9;
+    for (uint i = 0u; i < pixels; i++) {
+        radii[i] = circle_at(pixel_of(texel, i));
+        nearest = min(nearest, radii[i]);
+    }
+    vec4 sum = vec4(0.0);
+    float radius = 0.0;
+    for (uint i = 0u; i < pixels; i++) {
+        const float weight = max(1.0 - (radii[i] - nearest), 0.0);
+        sum += weight * vec4(finite(texelFetch(scene_color, pixel_of(texel, i), 0)).rgb, 1.0);
+        radius += weight * radii[i];
+    }
+    radius /= sum.a;
+    imageStore(samples, texel, vec4(sum.rgb / sum.a, radius));
+    spreads[texel.y * int(view.columns) + texel.x] = spread(radius);
+}

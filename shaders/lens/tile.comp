@@ -1,0 +1,42 @@
+// tile.comp - the largest circle of confusion in each tile, of the scene and of the layers.
+// One workgroup per tile. Reads: samples, depths of layers. Writes: tiles.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "lens.glsl"
+#include "pixels.glsl"
+#include "layers.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 8) uniform sampler2D samples;
+layout(std430, set = 0, binding = 9) writeonly buffer Tiles { float tiles[]; };
+
+shared float largest[64];
+
+float largest_at(ivec2 texel)
+{
+    float radius = abs(texelFetch(samples, texel, 0).a);
+    for (uint layer = 0u; layer < view.layers; layer++)
+        radius = max(radius, abs(layer_circle(layer, texel)));
+    return radius;
+}
+
+void main()
+{
+    const ivec2 first = ivec2(gl_WorkGroupID.xy) * VIRGA_LENS_TILE;
+    const uint lane = gl_LocalInvocationIndex;
+    float radius = 0.0;
+    for (uint i = lane; i < VIRGA_LENS_TILE * VIRGA_LENS_TILE; i += 64u) {
+        const ivec2 texel = first + ivec2(i % VIRGA_LENS_TILE, i / VIRGA_LENS_TILE);
+        radius = max(radius, largest_at(min(texel, ivec2(view.columns, view.rows) - 1)));
+    }
+    largest[lane] = radius;
+    barrier();
+    for (uint half_count = 32u; half_count > 0u; half_count /= 2u) {
+        if (lane < half_count)
+            largest[lane] = max(largest[lane], largest[lane + half_count]);
+        barrier();
+    }
+    if (lane == 0u)
+        tiles[gl_WorkGroupID.y * view.tile_columns + gl_WorkGroupID.x] = largest[0];
+}

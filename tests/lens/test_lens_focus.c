@@ -1,0 +1,102 @@
+/* test_lens_focus.c - the focus: what it follows, how it eases, and what it means for the camera. */
+#include "lens_fixture.h"
+
+static double focus_m(lens_fixture *f)
+{
+    virga_lens_stats stats;
+    virga_lens_stats_get(f->lens, &stats);
+    assert_int_equal(stats.frame_index, f->gpu.device.completed);
+    return (double)stats.focus_m;
+}
+
+static void the_focus_follows_the_depth_at_the_point(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    lens_fixture_open(&f, 32, 16, false);
+    f.settings.follow = 1;
+    f.settings.focus_time_s = 0;
+    lens_paint_all(&f.scene, 0.5f, 8);
+    lens_paint(&f.scene, 31, 15, 0.5f, 3);
+    lens_fixture_run(&f);
+    assert_float_equal(focus_m(&f), 8, 1e-4);
+    f.settings.focus_point[0] = f.settings.focus_point[1] = 1;
+    lens_fixture_run(&f);
+    assert_float_equal(focus_m(&f), 3, 1e-4);
+    lens_fixture_close(&f);
+}
+
+static void the_focus_eases_to_a_new_depth(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    lens_fixture_open(&f, 16, 16, false);
+    f.settings.follow = 1;
+    f.settings.focus_time_s = 0.5f;
+    lens_paint_all(&f.scene, 0.5f, 10);
+    lens_fixture_run(&f);
+    assert_float_equal(focus_m(&f), 10, 1e-4); /* the first picture is in focus at once */
+    lens_paint_all(&f.scene, 0.5f, 2);
+    for (int frame = 1; frame <= 4; frame++) {
+        f.time_s = 0.1 * frame;
+        lens_fixture_run(&f);
+        assert_float_equal(1 / focus_m(&f), 0.5 + (0.1 - 0.5) * exp(-0.2 * frame), 1e-5);
+    }
+    f.time_s = 0; /* another shot: time runs backwards */
+    lens_fixture_run(&f);
+    assert_float_equal(focus_m(&f), 2, 1e-4);
+    lens_fixture_close(&f);
+}
+
+static void without_depth_all_is_sharp(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    lens_fixture_open(&f, 16, 16, false);
+    f.flat = true;
+    f.settings.follow = 1;
+    f.settings.focus_m = 7;
+    lens_paint_all(&f.scene, 0, 1);
+    lens_paint(&f.scene, 8, 8, 4, 1);
+    lens_fixture_run(&f);
+    assert_float_equal(lens_result(&f, 8, 8), 4, 0);
+    assert_float_equal(focus_m(&f), 7, 1e-4);
+    lens_fixture_close(&f);
+}
+
+static void a_view_gets_the_lens_for_its_streaks(void **state)
+{
+    (void)state;
+    lens_fixture f;
+    lens_fixture_open(&f, 16, 16, false);
+    f.settings.focal_m = 0.05f;
+    f.settings.aperture_f = 2;
+    f.settings.focus_m = 6;
+    REQUIRE(virga_lens_set(f.lens, &f.settings) == VIRGA_OK);
+    virga_lens_fill_view(f.lens, &f.view);
+    assert_float_equal(f.view.aperture_m, 0.025, 1e-6);
+    assert_float_equal(f.view.focus_m, 6, 0);
+    lens_fixture_close(&f);
+}
+
+static void breathing_is_that_of_a_thin_lens(void **state)
+{
+    (void)state;
+    /* 1 / focal = 1 / focus + 1 / image; the picture grows as the image distance. */
+    const double image_m = 1 / (1 / 0.05 - 1 / 0.5);
+    assert_float_equal(virga_lens_breathing(0.05, 0.5), image_m / 0.05, 1e-12);
+    assert_float_equal(virga_lens_breathing(0.05, 0), 1, 0);
+    assert_float_equal(virga_lens_breathing(0.05, 0.04), 1, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_focus_follows_the_depth_at_the_point),
+        cmocka_unit_test(the_focus_eases_to_a_new_depth),
+        cmocka_unit_test(without_depth_all_is_sharp),
+        cmocka_unit_test(a_view_gets_the_lens_for_its_streaks),
+        cmocka_unit_test(breathing_is_that_of_a_thin_lens),
+    };
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
+}
