@@ -17,6 +17,14 @@
 #include "shaders/particles_sums_comp.spv.h"
 #include "shaders/particles_thin_comp.spv.h"
 #include "shaders/particles_window_comp.spv.h"
+#include "shaders/water_spray_break_comp.spv.h"
+#include "shaders/water_spray_compact_comp.spv.h"
+#include "shaders/water_spray_mark_comp.spv.h"
+#include "shaders/water_spray_place_comp.spv.h"
+#include "shaders/water_spray_scan_comp.spv.h"
+#include "shaders/water_spray_starts_comp.spv.h"
+#include "shaders/water_spray_surfel_comp.spv.h"
+#include "shaders/water_spray_write_comp.spv.h"
 #include "shaders/water_surface_block_compact_comp.spv.h"
 #include "shaders/water_surface_block_mark_comp.spv.h"
 #include "shaders/water_surface_block_scan_comp.spv.h"
@@ -42,10 +50,9 @@
 #define SETTING(kind, member, ...) VIRGA_SETTING_ROW(water_settings, virga_water_settings, kind, member, __VA_ARGS__)
 
 static const virga_setting_row def_rows[] = {
-    DEF(U32, max_particles, 64, 8388608, 65536),
-    DEF(U32, max_cells, 4096, 16777216, 262144),
-    DEF(U32, max_blocks, 64, 1048576, 32768),
-    DEF(U32, max_surfels, 256, 8388608, 262144),
+    DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_blocks, 64, 1048576, 32768),    DEF(U32, max_surfels, 256, 8388608, 262144),
+    DEF(U32, max_spray, 64, 262144, 4096),       DEF(U32, max_droplets, 256, 4194304, 65536),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -56,6 +63,10 @@ static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, kernel, 0, VIRGA_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC),
     SETTING(FLOAT, smoothing, 0, 1, 0.9),
     SETTING(FLOAT, stretch, 1, 4, 2),
+    SETTING(FLOAT, spray_density, 0, 0.9, 0.35),
+    SETTING(U32, spray_pieces, 1, VIRGA_WATER_PIECES, 25),
+    SETTING(FLOAT, spray_speed_m_s, 0.01, 1000, 4),
+    SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
 };
 
 virga_water_def virga_default_water_def(void)
@@ -113,6 +124,10 @@ enum {
     COUNT_BLOCKS,
     COUNT_POINTS,
     COUNT_SURFELS,
+    COUNT_SPRAY,
+    COUNT_SPRAY_PICK_BYTES,
+    COUNT_TABLE,
+    COUNT_DROPLETS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -125,6 +140,11 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_BLOCKS] = def->max_blocks;
     counts[COUNT_POINTS] = (VkDeviceSize)def->max_blocks * VIRGA_WATER_POINTS;
     counts[COUNT_SURFELS] = def->max_surfels;
+    counts[COUNT_SPRAY] = def->max_spray;
+    counts[COUNT_SPRAY_PICK_BYTES] = VIRGA_PICK_BYTES(((VkDeviceSize)def->max_particles + VIRGA_WATER_LANES - 1) /
+                                                      VIRGA_WATER_LANES * VIRGA_WATER_LANES);
+    counts[COUNT_TABLE] = water_table_entries(def);
+    counts[COUNT_DROPLETS] = def->max_droplets;
 }
 
 #define AT(member) offsetof(virga_water, member)
@@ -146,6 +166,15 @@ static const virga_effect_buffer buffers[] = {
     {"water.shifts", AT(shifts), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"water.shapes", AT(shapes), VIRGA_USE_TEXELS, DEVICE, .entry = 2 * 16, .count = COUNT_PARTICLES},
     {"water.centers", AT(centers), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"water.spray_picks", AT(spray.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SPRAY_PICK_BYTES},
+    {"water.spray_list", AT(spray.list), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
+     .count = COUNT_SPRAY},
+    {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * sizeof(virga_water_splash_gpu),
+     .count = COUNT_SPRAY},
+    {"water.spray_table", AT(spray.table), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * 4, .count = COUNT_TABLE},
+    {"water.spray_starts", AT(spray.starts), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_SPRAY},
+    {"water.droplets", AT(spray.droplets), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_spray_gpu),
+     .count = COUNT_DROPLETS, .first = VIRGA_FIRST_FILL},
     {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
      .first = VIRGA_FIRST_FILL},
 };
@@ -203,15 +232,41 @@ static const virga_binding_kind bindings[] = {
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shapes)},                                 /* 18 */
 };
 
+static const virga_binding_kind spray_bindings[] = {
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
+    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.picks)},                           /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.list)},                            /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.splashes)},                        /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.table)},                           /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.starts)},                          /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},                        /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(spray.droplets)},                         /* 16 */
+};
+
 static const virga_effect_layout layouts[] = {
     [WATER_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_water, grid_bindings, 1),
     [WATER_LAYOUT_KERNELS] = {AT(kernel_bindings), kernel_bindings, VIRGA_ROWS(kernel_bindings), 1, 0},
     [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
+    [WATER_LAYOUT_SPRAY] = {AT(spray.bindings), spray_bindings, VIRGA_ROWS(spray_bindings), 1, 0},
 };
 
 #define PASS(pass)                                                                                             \
     {                                                                                                          \
         "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), .layout = WATER_LAYOUT_SURFACE \
+    }
+#define SPRAY_PASS(pass, member)                                                            \
+    {                                                                                       \
+        "water.spray_" #pass, AT(spray.member), VIRGA_SPIRV_ROW(water_spray_##pass##_comp), \
+            .layout = WATER_LAYOUT_SPRAY                                                    \
     }
 /* One form for each virga_water_kernel. */
 #define KERNEL_PASS(pass, row)                                                                               \
@@ -230,10 +285,20 @@ static const virga_effect_pass passes[] = {
     PASS(surfel_scan),
     PASS(edge_write),
     KERNEL_PASS(surfel_write, WATER_LAYOUT_SURFACE),
+    SPRAY_PASS(mark, mark),
+    SPRAY_PASS(scan, scan),
+    SPRAY_PASS(compact, compact),
+    SPRAY_PASS(break, break_up),
+    SPRAY_PASS(starts, starts_scan),
+    SPRAY_PASS(write, write),
+    SPRAY_PASS(place, place),
+    SPRAY_PASS(surfel, surfel),
 };
 
 static const virga_effect_pool pools[] = {
     {"max_surfels", offsetof(virga_water_def, max_surfels), 256, 256},
+    {"max_droplets", offsetof(virga_water_def, max_droplets), 256, 256},
+    {"max_spray", offsetof(virga_water_def, max_spray), 64, 64},
     {"max_blocks", offsetof(virga_water_def, max_blocks), 64, 64},
     {"max_cells", offsetof(virga_water_def, max_cells), 4096, VIRGA_GRID_SCAN_CELLS},
     {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
@@ -264,6 +329,14 @@ void virga_water_surfels(const virga_water *water, virga_water_buffer *surfels, 
 {
     if (surfels)
         *surfels = water ? whole_buffer(water, water->surfels) : (virga_water_buffer){0};
+    for (int axis = 0; origin_m && axis < 3; axis++)
+        origin_m[axis] = water ? water->origin_m[axis] : 0;
+}
+
+void virga_water_spray(const virga_water *water, virga_water_buffer *droplets, double origin_m[3])
+{
+    if (droplets)
+        *droplets = water ? whole_buffer(water, water->spray.droplets) : (virga_water_buffer){0};
     for (int axis = 0; origin_m && axis < 3; axis++)
         origin_m[axis] = water ? water->origin_m[axis] : 0;
 }

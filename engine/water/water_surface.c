@@ -38,6 +38,10 @@ void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                             .in_grid = read.grid.sorted,
                             .surfels = read.state.surfels,
                             .surfels_dropped = saturated_difference(read.state.surfels_wanted, read.state.surfels),
+                            .splashes = read.state.splashes,
+                            .splashes_dropped = saturated_difference(read.state.splashes_wanted, read.state.splashes),
+                            .droplets = read.state.droplets,
+                            .droplets_dropped = saturated_difference(read.state.droplets_wanted, read.state.droplets),
                             .blocks = read.state.blocks,
                             .blocks_dropped = saturated_difference(read.state.blocks_wanted, read.state.blocks)};
 }
@@ -104,6 +108,7 @@ static void fill_step(const virga_water *water, uint32_t particles, virga_water_
                                   .surfel_m = (float)(1.2 * point_m),
                                   .smoothing = settings->smoothing,
                                   .stretch2 = settings->stretch * settings->stretch,
+                                  .volume = (float)volume,
                                   .lonely_m = (float)lonely_radius((double)settings->level, volume, h),
                                   .crowd = (float)crowd(d, h)};
 }
@@ -184,7 +189,8 @@ static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, co
         return virga_wrong_argument(&context->log, "step_info.offset: expected a multiple of %u, got %llu",
                                     (uint32_t)context->properties.limits.minStorageBufferOffsetAlignment,
                                     (unsigned long long)info->offset);
-    if (virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3))
+    if (virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3) ||
+        virga_settings_check_positions(&context->log, "step_info.time_s", &info->time_s, 1))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&water->base);
 }
@@ -229,23 +235,30 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     memcpy(water->origin_m, info->origin_m, sizeof water->origin_m);
     water->step_particles[context->ring_slot] = particles;
     fill_step(water, particles, &step);
+    water_spray_fill(water, info->time_s, &step);
     const uint32_t offset = virga_ring_push(context, &water->step_ring, &step, sizeof step);
     const VkDescriptorSet grid_set = write_set(water, water->grid.bindings, info, particles);
     const step_set kernels = {water->kernel_bindings, write_set(water, water->kernel_bindings, info, particles),
                               offset};
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
+    const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
     wait_for_readers(context, cmd);
     virga_effect_first_contents(&water->base, cmd);
+    water_spray_clear(water, cmd);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");
     particle_grid_record(context, cmd, &water->grid, grid_set, offset, particles);
     virga_pass_end(context, cmd, scope);
     run(water, cmd, "water.density", &kernels, record_densities);
+    if (water_has_spray(water))
+        run(water, cmd, "water.spray", &spray, water_spray_record);
     run(water, cmd, "water.blocks", &surface, record_blocks);
     run(water, cmd, "water.kernels", &kernels, record_kernels);
     run(water, cmd, "water.field", &surface, record_fields);
     run(water, cmd, "water.surfels", &surface, record_surfels);
+    if (water_has_spray(water))
+        run(water, cmd, "water.spray_surfels", &spray, water_spray_record_surfels);
     virga_effect_copy_statistics(&water->base, cmd, 0, water->grid.state, 0, offsetof(water_readback, grid),
                                  sizeof(virga_particle_grid_gpu));
     virga_effect_copy_statistics(&water->base, cmd, 0, water->state, 0, offsetof(water_readback, state),

@@ -8,6 +8,7 @@
 #define uint virga_uint
 typedef struct virga_water_step_gpu virga_water_step_gpu;
 typedef struct virga_water_state_gpu virga_water_state_gpu;
+typedef struct virga_water_splash_gpu virga_water_splash_gpu;
 #endif
 
 #define VIRGA_WATER_LANES  VIRGA_GRID_LANES
@@ -22,6 +23,9 @@ typedef struct virga_water_state_gpu virga_water_state_gpu;
  * its position; and how far a center moves at most, in h. */
 #define VIRGA_WATER_UNSHIFT   1.35
 #define VIRGA_WATER_MAX_SHIFT 0.3
+
+#define VIRGA_WATER_PIECES          32 /* droplets of a particle at most */
+#define VIRGA_WATER_DROPLET_SURFELS 16 /* surfels of a droplet */
 
 /* One step. Lengths in m. The first members are those of virga_particle_step_gpu. */
 struct virga_water_step_gpu {
@@ -44,6 +48,21 @@ struct virga_water_step_gpu {
     float stretch2;  /* largest ratio of two axes, squared */
     float lonely_m;  /* radius of the kernel of a particle without neighbours */
     float crowd;     /* 1 / weight of the neighbours in the middle of water at rest */
+    /* Spray, see shaders/water/spray. */
+    float spray_low;      /* particles with less density are splash particles */
+    float spray_high;     /* those with more are none; in between a part of the particle. 0: no spray */
+    float volume;         /* m^3, of a particle */
+    float spray_kernel;   /* radius of the kernel of a droplet, in radii of the droplet: h' / R_s */
+    float spray_factor;   /* density in the center of a droplet */
+    float spray_level;    /* density of the surface of droplets */
+    float spray_pattern;  /* m, radius of the ball in which the droplets of a particle are */
+    float inv_full_speed; /* s/m, 1 / speed at which a particle has all its droplets */
+    uint max_pieces;      /* droplets of a particle at most */
+    uint max_splashes;    /* splash particles at most */
+    uint max_droplets;
+    uint splash_half; /* half of the buffers that this step writes: 0 or 1. The last step wrote the other */
+    uint splash_mask; /* entries of the table of ids - 1 */
+    uint goes_on;     /* whether the states of the last step count */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -55,12 +74,29 @@ struct virga_water_state_gpu {
     uint surfels;              /* surfels of the surface */
     uint surfels_wanted;       /* without the limit of max_surfels */
     uint surfel_groups[3];     /* an invocation for each surfel */
+    uint splashes;             /* splash particles */
+    uint splashes_wanted;      /* without the limit of max_splashes */
+    uint droplets;             /* droplets that they became */
+    uint droplets_wanted;      /* without the limit of max_droplets */
+    uint spray_word_groups[3]; /* an invocation for every 32 sorted particles */
+    uint first_spray_surfel;
+    uint spray_surfels;
+    uint spray_surfel_groups[3]; /* an invocation for each of them */
+};
+
+/* State of a splash particle, from frame to frame. */
+struct virga_water_splash_gpu {
+    uint id;         /* of the particle */
+    float max_speed; /* m/s, since it became a splash particle */
+    float age;       /* s */
+    uint pieces;     /* droplets */
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 72);
+VIRGA_ASSERT_SIZE(virga_water_splash_gpu, 16);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 128);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_water_state_gpu, 52);
+VIRGA_ASSERT_SIZE(virga_water_state_gpu, 100);
 #undef uint
 #endif
 

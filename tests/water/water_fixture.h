@@ -19,13 +19,14 @@ typedef struct water_fixture {
     host_buffer particle_buffer, download;
     virga_particle_gpu *particles; /* of the next step */
     uint32_t count;
-    double origin_m[3];
+    double origin_m[3], time_s;
     /* Read back. */
     const float *densities;
     const virga_surfel_gpu *surfels;
     const uint32_t *sorted_indices; /* for each kernel, the index of its particle */
     const float *centers;           /* of kernels: x, y, z, factor */
-    const float *shapes;            /* of kernels: xx, yy, zz, xy, xz, yz, 0, 0 */
+    const virga_spray_gpu *droplets;
+    const float *shapes; /* of kernels: xx, yy, zz, xy, xz, yz, 0, 0 */
     virga_water_stats stats;
 } water_fixture;
 
@@ -45,15 +46,17 @@ static inline void water_fixture_open_with(water_fixture *f, const virga_water_d
     f->context = effect_fixture_open(&f->gpu, timings, effect_fixture_log, NULL);
     REQUIRE(virga_water_create(f->context, def, &f->water) == VIRGA_OK);
     f->settings = virga_default_water_settings();
+    f->settings.spray_density = 0; /* only test_water_spray.c has spray */
     char *error = f->gpu.error;
     const size_t size = sizeof f->gpu.error;
     REQUIRE(host_buffer_create(&f->gpu.device, (VkDeviceSize)def->max_particles * sizeof(virga_particle_gpu),
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "particles", &f->particle_buffer,
                                error, size));
-    REQUIRE(host_buffer_create(
-        &f->gpu.device,
-        2 * f->water->densities->size + f->water->surfels->size + f->water->shapes->size + f->water->centers->size,
-        VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download, error, size));
+    REQUIRE(host_buffer_create(&f->gpu.device,
+                               2 * f->water->densities->size + f->water->surfels->size + f->water->shapes->size +
+                                   f->water->centers->size + f->water->spray.droplets->size,
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, HOST_BUFFER_READBACK, "water down", &f->download,
+                               error, size));
     f->particles = f->particle_buffer.mapped;
 }
 
@@ -76,7 +79,7 @@ static inline virga_result water_fixture_try(water_fixture *f)
 {
     VkDeviceSize offset = 0;
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
-    virga_water_step_info info = {.particles = f->particle_buffer.buffer, .count = f->count};
+    virga_water_step_info info = {.particles = f->particle_buffer.buffer, .count = f->count, .time_s = f->time_s};
     memcpy(info.origin_m, f->origin_m, sizeof info.origin_m);
     const virga_result result = virga_water_step(f->water, cmd, &info);
     effect_fixture_transfers(cmd);
@@ -87,6 +90,8 @@ static inline virga_result water_fixture_try(water_fixture *f)
                                             f->water->grid.sorted_indices->size, &f->download, &offset);
     f->centers = effect_fixture_copy(cmd, f->water->centers->buffer, f->water->centers->size, &f->download, &offset);
     f->shapes = effect_fixture_copy(cmd, f->water->shapes->buffer, f->water->shapes->size, &f->download, &offset);
+    f->droplets = effect_fixture_copy(cmd, f->water->spray.droplets->buffer, f->water->spray.droplets->size,
+                                      &f->download, &offset);
     effect_fixture_complete(&f->gpu, f->context);
     host_buffer_invalidate(&f->gpu.device, &f->download);
     virga_water_stats_get(f->water, &f->stats);

@@ -21,6 +21,7 @@
 
 #include <virga/light.h>
 #include <virga/shared/particle.h>
+#include <virga/shared/spray.h>
 #include <virga/shared/surfel.h>
 #include <virga/vulkan.h>
 
@@ -48,6 +49,14 @@ typedef struct virga_water_def {
 
     /* [256; 8388608] surfels; 32 bytes each. Further ones are left out, and the log says so. Default 262144. */
     uint32_t max_surfels;
+
+    /* [64; 262144] splash particles in a frame; 64 bytes each. The water of further ones is missing from the picture,
+     * and the statistics say how many. Default 4096. */
+    uint32_t max_spray;
+
+    /* [256; 4194304] droplets that splash particles become; 32 bytes each. Further ones are left out, and the
+     * statistics say how many. Default 65536. */
+    uint32_t max_droplets;
 } virga_water_def;
 
 VIRGA_API virga_water_def virga_default_water_def(void);
@@ -95,6 +104,21 @@ typedef struct virga_water_settings {
     /* [1; 4] (anisotropic) largest ratio of two axes of a kernel. Default 2: the square root of the paper's k_r = 4, as
      * the paper compares squares of axes. */
     float stretch;
+
+    /* [0; 0.9] particles with less density than this are splash particles: they leave the surface and become droplets.
+     * 0: there are none. With kernel_spacings 2 and volume_m3 0, a particle all alone has the density 0.196, and those
+     * of a flat surface have 0.7. Default 0.35. */
+    float spray_density;
+
+    /* [1; 32] droplets that a splash particle becomes at most: V of equation 3. Default 25, as in the paper. */
+    uint32_t spray_pieces;
+
+    /* [0.01; 1000] speed at which a particle becomes that many (m/s); their number grows linearly with the largest
+     * speed since it left the water. Default 4. */
+    float spray_speed_m_s;
+
+    /* [0; 4] radius of the ball in which the droplets of a particle are, in spacings. Default 1.25. */
+    float spray_pattern;
 } virga_water_settings;
 
 VIRGA_API virga_water_settings virga_default_water_settings(void);
@@ -132,6 +156,10 @@ typedef struct virga_water_step_info {
 
     /* [-1e9; 1e9] position in the world (m) that the particles' positions are relative to. */
     double origin_m[3];
+
+    /* [-1e9; 1e9] time that the particles are at (s), in the time of virga_water_prepare. Splash particles are followed
+     * from step to step if it grows by 0.25 s at most; otherwise they begin anew. */
+    double time_s;
 } virga_water_step_info;
 
 /* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device
@@ -150,6 +178,11 @@ typedef struct virga_water_buffer {
  * frame, relative to `origin_m`. Ready to be read by transfers and compute shaders. */
 VIRGA_API void virga_water_surfels(const virga_water *water, virga_water_buffer *surfels, double origin_m[3]);
 
+/* Reads where the spray of the newest step is: virga_spray_gpu, as many as virga_water_stats.droplets says for that
+ * frame, relative to `origin_m`. The volumes of a particle's droplets add up to its volume times its share. The surface
+ * has surfels of them as well, after all others. Ready to be read by transfers and compute shaders. */
+VIRGA_API void virga_water_spray(const virga_water *water, virga_water_buffer *droplets, double origin_m[3]);
+
 /* Reads the density at each particle of the newest step: a float for each, in the order of the particles. 1 is inside
  * the water, 0 stands for particles outside the grid. Ready to be read by transfers and compute shaders. */
 VIRGA_API void virga_water_densities(const virga_water *water, virga_water_buffer *densities);
@@ -165,6 +198,9 @@ typedef struct virga_water_stats {
 
     /* Surfels that were made, and those for which there was no room. */
     uint32_t surfels, surfels_dropped;
+
+    /* Splash particles, and those for which there was no room; the same of their droplets. */
+    uint32_t splashes, splashes_dropped, droplets, droplets_dropped;
 
     /* Cells that the surface may run through, and those of them for which there was no room. */
     uint32_t blocks, blocks_dropped;

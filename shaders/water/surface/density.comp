@@ -51,7 +51,9 @@ void main()
     gather(cell);
     const float density = frame.kernel * sum;
     densities[sorted_indices[own]] = density;
-    if (density < frame.full)
+    // A splash particle all alone has no part in the surface, and there is none around it.
+    const bool alone = density < frame.spray_low && sum <= 1.01 * uintBitsToFloat(sorted_texel(own)).w;
+    if (density < frame.full && !alone)
         atomicOr(cell_marks[cell], reached_cells(here * frame.inv_cell_m));
     if (KERNEL == VIRGA_WATER_ANISOTROPIC) {
         const float share = 1.0 / max(weight_sum, 1e-20);

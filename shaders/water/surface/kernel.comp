@@ -1,4 +1,4 @@
-// kernel.comp - the kernels of the surface.
+// kernel.comp - the kernels of the surface. What leaves the surface as spray has no part in it.
 //
 // Isotropic: a ball of radius h around each particle, as it is.
 //
@@ -15,16 +15,19 @@
 //   - With few neighbours (equation 15 has a limit of 25) a kernel becomes a small ball, by degrees: particles that
 //     leave the water do not jump from one shape to the other.
 //
-// One invocation per sorted particle. Reads: sorted, shifts, picks. Writes: centers; reads and writes: shapes.
+// One invocation per sorted particle. Reads: sorted, shifts, picks, densities. Writes: centers; reads and writes:
+// shapes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "water/grid.glsl"
 #include "water/kernels.glsl"
+#include "water/spray_part.glsl"
 #define GATHER_SHIFTS
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
 
+layout(std430, set = 0, binding = 8) readonly buffer Densities { float densities[]; };
 layout(std430, set = 0, binding = 10) readonly buffer Picks { uvec4 picks[]; };
 
 vec3 here, shift;
@@ -88,7 +91,9 @@ void main()
     const uint own = gl_GlobalInvocationID.x;
     if (own >= grid.sorted)
         return;
-    const vec4 particle = uintBitsToFloat(sorted_texel(own));
+    vec4 particle = uintBitsToFloat(sorted_texel(own));
+    if (frame.spray_high > 0.0)
+        particle.w *= 1.0 - spray_part(densities[sorted_indices[own]]);
     if (KERNEL == VIRGA_WATER_ISOTROPIC) {
         centers[own] = particle;
         return;

@@ -1,0 +1,75 @@
+/* water/water_spray.c - records the spray of a step: splash particles become droplets. */
+#include "water/spray_kernel.h"
+#include "water/water_internal.h"
+
+#include "gpu/record.h"
+
+/* Steps that are farther apart than this have nothing in common (s). */
+#define MAX_GAP_S 0.25
+
+uint32_t water_table_entries(const virga_water_def *def)
+{
+    uint32_t entries = 128;
+    while (entries < 2 * def->max_spray)
+        entries *= 2;
+    return entries;
+}
+
+bool water_has_spray(const virga_water *water)
+{
+    return water->settings.spray_density > 0;
+}
+
+void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *out)
+{
+    const virga_water_settings *settings = &water->settings;
+    const double gap_s = time_s - water->spray_time_s;
+    double ratio, factor, level;
+    water_spray_kernel((double)settings->level, &ratio, &factor, &level);
+    out->spray_low = settings->spray_density;
+    out->spray_high = settings->spray_density;
+    out->spray_kernel = (float)ratio;
+    out->spray_factor = (float)factor;
+    out->spray_level = (float)level;
+    out->spray_pattern = settings->spray_pattern * settings->spacing_m;
+    out->inv_full_speed = 1 / settings->spray_speed_m_s;
+    out->max_pieces = settings->spray_pieces;
+    out->max_splashes = water->def.max_spray;
+    out->max_droplets = water->def.max_droplets;
+    out->splash_half = water->splash_half ^= 1;
+    out->splash_mask = water_table_entries(&water->def) - 1;
+    out->goes_on = water->spray_goes_on && gap_s >= 0 && gap_s <= MAX_GAP_S;
+    water->spray_goes_on = water_has_spray(water);
+    water->spray_time_s = time_s;
+}
+
+/* Empties the half of the table that this step fills, before the barrier at the start of its passes. */
+void water_spray_clear(const virga_water *water, VkCommandBuffer cmd)
+{
+    const VkDeviceSize bytes = (VkDeviceSize)water_table_entries(&water->def) * 4;
+    const virga_context *context = water->base.context;
+    context->vk.CmdFillBuffer(cmd, water->spray.table->buffer, water->splash_half * bytes, bytes, 0);
+    context->vk.CmdFillBuffer(cmd, water->state->buffer, offsetof(virga_water_state_gpu, splashes), 4 * 4, 0);
+}
+
+void water_spray_record(virga_water *water, VkCommandBuffer cmd)
+{
+    virga_context *context = water->base.context;
+    const VkBuffer list = water->spray.list->buffer;
+    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.mark, water->grid.state->buffer,
+                                        offsetof(virga_particle_grid_gpu, sorted_groups));
+    virga_dispatch_and_barrier(context, cmd, water->spray.scan, 1);
+    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.compact, water->state->buffer,
+                                        offsetof(virga_water_state_gpu, spray_word_groups));
+    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.break_up, list, 0);
+    virga_dispatch_and_barrier(context, cmd, water->spray.starts_scan, 1);
+    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.write, list, 0);
+}
+
+void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd)
+{
+    virga_context *context = water->base.context;
+    virga_dispatch_and_barrier(context, cmd, water->spray.place, 1);
+    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.surfel, water->state->buffer,
+                                        offsetof(virga_water_state_gpu, spray_surfel_groups));
+}

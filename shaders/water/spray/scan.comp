@@ -1,0 +1,23 @@
+// scan.comp - the list of splash particles, second pass.
+// One workgroup, in which each invocation takes a run of words. Reads and writes: picks, the list's head, state.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "spray.glsl"
+#define COMPACT_GROUP VIRGA_WATER_LANES
+#define COMPACT_PICKS_BINDING 7
+#define COMPACT_LIST_BINDING 9
+#include "gpu/compact_scan.glsl"
+
+layout(local_size_x = VIRGA_WATER_LANES) in;
+
+void main()
+{
+    const uint found = scan_picks(grid.sorted_groups[0], frame.max_splashes).x;
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    state.splashes_wanted = found;
+    state.splashes = min(found, frame.max_splashes);
+    const uint words = grid.sorted_groups[0] * (VIRGA_WATER_LANES / 32u);
+    state.spray_word_groups = uint[3]((words + VIRGA_WATER_LANES - 1u) / VIRGA_WATER_LANES, 1u, 1u);
+}
