@@ -220,6 +220,7 @@ virga_result virga_frame_begin(virga_context *context, uint64_t frame_index, uin
     virga_effects_settle(context, 0);
     if (context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
+    virga_effects_free_targets(context);
     virga_builds_collect(context); /* a failure is also reported by its effect */
     virga_destroy_retired(context, false);
     return virga_timers_begin_frame(context);

@@ -51,7 +51,8 @@ struct virga_context {
     uint32_t objects;               /* number of Vulkan objects that exist */
     uint32_t effects;               /* number of effects that exist */
     struct virga_effect *first_effect;
-    uint64_t target_serial; /* serial of the newest target */
+    virga_target *first_target;
+    struct virga_target_class *first_target_class;
 
     /* Pipelines, see gpu/builds.c. */
     VkPipelineCache pipeline_cache;

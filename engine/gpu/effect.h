@@ -20,9 +20,8 @@
 #define VIRGA_EFFECT_MAX_COUNTS   24
 #define VIRGA_EFFECT_MAX_DEF      512   /* bytes */
 #define VIRGA_EFFECT_MAX_SETTINGS 16384 /* bytes */
-#define VIRGA_EFFECT_MAX_TARGETS  8
-#define VIRGA_EFFECT_MAX_DRAWS    32 /* pipelines of a target */
-#define VIRGA_EFFECT_PARTS        2  /* parts of a frame's statistics: its step and its prepare */
+#define VIRGA_EFFECT_MAX_DRAWS    32    /* pipelines of a target */
+#define VIRGA_EFFECT_PARTS        2     /* parts of a frame's statistics: its step and its prepare */
 
 #define VIRGA_ROWS(table) (uint32_t)(sizeof(table) / sizeof(table)[0])
 
@@ -308,10 +307,11 @@ typedef struct virga_ring {
 /* Bytes of a block of this type in a ring, aligned for dynamic offsets. */
 #define VIRGA_RING_BYTES(type) ((sizeof(type) + VIRGA_RING_ALIGNMENT - 1) / VIRGA_RING_ALIGNMENT * VIRGA_RING_ALIGNMENT)
 
-/* Pipelines for one target. */
+/* Pipelines for the targets of one class. */
 typedef struct virga_effect_target {
-    uint64_t serial;                               /* serial of the virga_target; 0: free */
-    bool motion;                                   /* it has motion vectors */
+    struct virga_effect_target *next;
+    struct virga_target_class *class_of;
+    const virga_target *from;                      /* the target that they were created for */
     virga_pipeline *draws[VIRGA_EFFECT_MAX_DRAWS]; /* by row, then by constant */
 } virga_effect_target;
 
@@ -348,7 +348,7 @@ typedef struct virga_effect {
     virga_bound first_head; /* (optional) the head of a list of another effect, which is filled with 0 too */
     virga_effect_upload uploads[VIRGA_EFFECT_MAX_UPLOADS];
     virga_pipeline_group passes; /* all passes that a step and a prepare use */
-    virga_effect_target targets[VIRGA_EFFECT_MAX_TARGETS];
+    virga_effect_target *targets;
     virga_effect_view view;
     bool not_drawn_logged;  /* it was logged that a draw had nothing to draw; reset by a successful draw */
     uint64_t step_frame;    /* frame of the newest step */
@@ -475,6 +475,14 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
 
 /* Releases the pipelines of all targets. */
 void virga_effect_retire_targets(virga_effect *effect);
+
+/* For all effects of a context: releases pipelines whose targets are all destroyed. Not before the next frame, so that
+ * a host may destroy its targets before it creates compatible ones. */
+void virga_effects_free_targets(virga_context *context);
+
+/* A target is being destroyed, and then its render pass. Pipelines that are still to be built for it are created again
+ * for another target of its class, if there is one. */
+void virga_effects_forget_target(const virga_target *target);
 
 /* Stores what the draws of a view need. */
 void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4]);

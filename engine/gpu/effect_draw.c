@@ -9,32 +9,52 @@
 
 /* ---- targets */
 
-/* Serial 0: a free one. */
-static virga_effect_target *find_target(const virga_effect *effect, uint64_t serial)
+static virga_effect_target *find_target(const virga_effect *effect, const virga_target_class *class_of)
 {
-    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_TARGETS; i++)
-        if (effect->targets[i].serial == serial)
-            return (virga_effect_target *)&effect->targets[i];
-    return NULL;
+    virga_effect_target *found = effect->targets;
+    while (found && found->class_of != class_of)
+        found = found->next;
+    return found;
 }
 
-static void retire_target(virga_effect *effect, virga_effect_target *target)
+static void retire_draws(virga_effect *effect, virga_effect_target *target)
 {
     for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_DRAWS; i++)
         VIRGA_RETIRE(effect->context, target->draws[i]);
-    target->serial = 0;
+}
+
+/* Takes the target at *at out of the list. */
+static void free_target(virga_effect *effect, virga_effect_target **at)
+{
+    virga_effect_target *target = *at;
+    *at = target->next;
+    retire_draws(effect, target);
+    virga_target_class_leave(effect->context, target->class_of);
+    virga_free(&effect->context->heap, target);
 }
 
 void virga_effect_retire_targets(virga_effect *effect)
 {
-    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_TARGETS; i++)
-        retire_target(effect, &effect->targets[i]);
+    while (effect->targets)
+        free_target(effect, &effect->targets);
+}
+
+void virga_effects_free_targets(virga_context *context)
+{
+    for (virga_effect *effect = context->first_effect; effect; effect = effect->next_effect) {
+        virga_effect_target **at = &effect->targets;
+        while (*at)
+            if ((*at)->class_of->targets)
+                at = &(*at)->next;
+            else
+                free_target(effect, at);
+    }
 }
 
 bool virga_effect_wants_motion(const virga_effect *effect)
 {
-    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_TARGETS; i++)
-        if (effect->targets[i].serial && effect->targets[i].motion)
+    for (const virga_effect_target *target = effect->targets; target; target = target->next)
+        if (target->class_of->targets && target->class_of->like.motion_attachment)
             return true;
     return false;
 }
@@ -87,19 +107,55 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
         return virga_wrong_argument(log, "%s: expected a target of the same context", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    if (!effect->type->draw_count || find_target(effect, target->serial))
+    if (!effect->type->draw_count || find_target(effect, target->class_of))
         return VIRGA_OK;
-    virga_effect_target *slot = find_target(effect, 0);
-    if (!slot)
-        return virga_wrong_argument(log, "%s: more than %d targets", call, VIRGA_EFFECT_MAX_TARGETS);
-    const virga_result result = create_draws(effect, target, slot);
-    if (result < 0) {
-        retire_target(effect, slot);
-        return result;
+    virga_effect_target *made = virga_alloc(&effect->context->heap, sizeof *made);
+    if (!made)
+        return virga_out_of_host_memory(effect->context, call);
+    made->class_of = target->class_of;
+    made->from = target;
+    made->next = effect->targets;
+    effect->targets = made;
+    virga_target_class_use(made->class_of);
+    const virga_result result = create_draws(effect, target, made);
+    if (result < 0)
+        free_target(effect, &effect->targets);
+    return result < 0 ? result : VIRGA_OK;
+}
+
+static bool waits(const virga_effect_target *target)
+{
+    for (uint32_t i = 0; i < VIRGA_EFFECT_MAX_DRAWS; i++)
+        if (target->draws[i] && target->draws[i]->build)
+            return true;
+    return false;
+}
+
+static const virga_target *another_of(const virga_context *context, const virga_target_class *class_of)
+{
+    const virga_target *other = context->first_target;
+    while (other && other->class_of != class_of)
+        other = other->next_target;
+    return other;
+}
+
+void virga_effects_forget_target(const virga_target *target)
+{
+    const virga_target *other = another_of(target->context, target->class_of);
+    for (virga_effect *effect = target->context->first_effect; effect; effect = effect->next_effect) {
+        virga_effect_target **at = &effect->targets;
+        while (*at && (*at)->from != target)
+            at = &(*at)->next;
+        if (!*at)
+            continue;
+        if (!waits(*at)) {
+            (*at)->from = other;
+            continue;
+        }
+        free_target(effect, at);
+        if (other)
+            virga_effect_attach(effect, "virga_target_destroy", other); /* a failure is logged, and draws are refused */
     }
-    slot->motion = virga_target_outputs_of(target) & VIRGA_OUTPUTS_MOTION;
-    slot->serial = target->serial;
-    return VIRGA_OK;
 }
 
 /* ---- draws */
@@ -118,11 +174,11 @@ virga_result virga_effect_find_target(const virga_effect *effect, const char *ca
     const virga_log *log = &effect->context->log;
     if (!cmd || !target)
         return virga_wrong_argument(log, "%s: NULL argument", call);
-    if (target->context != effect->context) /* serials of another context's targets are not unique here */
+    if (target->context != effect->context)
         return virga_wrong_argument(log, "%s: expected a target of the same context", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    *found = find_target(effect, target->serial);
+    *found = find_target(effect, target->class_of);
     return VIRGA_OK;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/settings.h"
 #include "gpu/context.h"
+#include "gpu/effect.h"
 #include "gpu/errors.h"
 #include "gpu/pipelines.h"
 
@@ -103,6 +104,82 @@ static virga_result check_def(const virga_log *log, const virga_target_def *def)
     return VIRGA_OK;
 }
 
+/* ---- classes */
+
+/* The members that decide what a pipeline is like. A render pass is known by its handle only, and a handle may be given
+ * to another pass later. So without a class number, each such target is of a class of its own. */
+static void fill_like(const virga_target *target, virga_target_def *like)
+{
+    const virga_target_def *def = &target->def;
+    memset(like, 0, sizeof *like); /* also the padding */
+    like->kind = def->kind;
+    like->color_count = def->color_count;
+    like->motion_attachment = def->motion_attachment;
+    like->reactive_attachment = def->reactive_attachment;
+    like->samples = def->samples;
+    like->depth_attached = def->depth_attached;
+    like->reversed_depth = def->reversed_depth;
+    if (def->kind == VIRGA_TARGET_DYNAMIC) {
+        memcpy(like->color_formats, def->color_formats, sizeof like->color_formats);
+        like->depth_format = def->depth_format;
+        like->stencil_format = def->stencil_format;
+    } else {
+        like->subpass = def->subpass;
+        like->render_pass_class = def->render_pass_class;
+    }
+}
+
+static virga_target_class *find_class(const virga_context *context, const virga_target_def *like)
+{
+    if (like->kind == VIRGA_TARGET_RENDER_PASS && !like->render_pass_class)
+        return NULL;
+    for (virga_target_class *found = context->first_target_class; found; found = found->next)
+        if (!memcmp(&found->like, like, sizeof *like))
+            return found;
+    return NULL;
+}
+
+static virga_result join_class(virga_context *context, virga_target *target)
+{
+    virga_target_def like;
+    fill_like(target, &like);
+    target->class_of = find_class(context, &like);
+    if (!target->class_of) {
+        target->class_of = virga_alloc(&context->heap, sizeof *target->class_of);
+        if (!target->class_of)
+            return virga_out_of_host_memory(context, "a target");
+        memcpy(&target->class_of->like, &like, sizeof like);
+        target->class_of->next = context->first_target_class;
+        context->first_target_class = target->class_of;
+    }
+    target->class_of->targets++;
+    return VIRGA_OK;
+}
+
+static void free_unused(virga_context *context, virga_target_class *class_of)
+{
+    if (class_of->targets || class_of->users)
+        return;
+    virga_target_class **at = &context->first_target_class;
+    while (*at != class_of)
+        at = &(*at)->next;
+    *at = class_of->next;
+    virga_free(&context->heap, class_of);
+}
+
+void virga_target_class_use(virga_target_class *class_of)
+{
+    class_of->users++;
+}
+
+void virga_target_class_leave(virga_context *context, virga_target_class *class_of)
+{
+    class_of->users--;
+    free_unused(context, class_of);
+}
+
+/* ---- create and destroy */
+
 virga_result virga_target_create(virga_context *context, const virga_target_def *def, virga_target **target)
 {
     if (target)
@@ -123,7 +200,13 @@ virga_result virga_target_create(virga_context *context, const virga_target_def 
         return virga_out_of_host_memory(context, "a target");
     made->context = context;
     made->def = *def;
-    made->serial = ++context->target_serial;
+    result = join_class(context, made);
+    if (result) {
+        virga_free(&context->heap, made);
+        return result;
+    }
+    made->next_target = context->first_target;
+    context->first_target = made;
     *target = made;
     return VIRGA_OK;
 }
@@ -132,7 +215,15 @@ void virga_target_destroy(virga_target **target)
 {
     if (!target || !*target)
         return;
-    virga_free(&(*target)->context->heap, *target);
+    virga_context *context = (*target)->context;
+    virga_target **at = &context->first_target;
+    while (*at != *target)
+        at = &(*at)->next_target;
+    *at = (*target)->next_target;
+    (*target)->class_of->targets--;
+    virga_effects_forget_target(*target);
+    free_unused(context, (*target)->class_of);
+    virga_free(&context->heap, *target);
     *target = NULL;
 }
 

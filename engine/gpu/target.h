@@ -4,11 +4,23 @@
 
 #include "gpu/pipelines.h"
 
+/* Targets whose pipelines are the same. It exists as long as a target or an effect's pipelines belong to it. */
+typedef struct virga_target_class {
+    struct virga_target_class *next; /* of the context */
+    virga_target_def like;           /* of any of its targets; two with all bytes equal are of one class */
+    uint32_t targets, users;         /* targets, and effects that have pipelines for them */
+} virga_target_class;
+
 struct virga_target {
     virga_context *context;
     virga_target_def def;
-    uint64_t serial; /* unique among the targets of a context, never reused */
+    virga_target_class *class_of;
+    virga_target *next_target; /* of the context */
 };
+
+/* An effect has, or no longer has, pipelines for a class. */
+void virga_target_class_use(virga_target_class *class_of);
+void virga_target_class_leave(virga_context *context, virga_target_class *class_of);
 
 /* The outputs of a target besides the colour. */
 virga_target_outputs virga_target_outputs_of(const virga_target *target);

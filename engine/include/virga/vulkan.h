@@ -330,6 +330,13 @@ typedef struct virga_target_def {
     /* (render pass) Index of the subpass. */
     uint32_t subpass;
 
+    /* (render pass) A number of your choice for render passes that are compatible with each other (Vulkan's chapter
+     * "Render Pass Compatibility"), e.g. those of the same code before and after a resize. Targets with the same
+     * number, and otherwise equal definitions, share pipelines: after the first one, attach compiles nothing. Render
+     * passes that are not compatible must have different numbers; Virga cannot check that. Dynamic targets are always
+     * shared if they are equal. Default 0: this target shares with none. */
+    uint64_t render_pass_class;
+
     /* Format of each color attachment.
      * (dynamic) VK_FORMAT_UNDEFINED for an attachment that the host has left out. Attachment 0 is required.
      * (render pass) Optional: formats that are given are checked.
@@ -371,12 +378,13 @@ typedef struct virga_target_def {
 
 VIRGA_API virga_target_def virga_default_target_def(void);
 
-/* Creates a target. Each effect then builds its pipelines for it once, e.g. with virga_rain_attach. Errors as
- * virga_context_create. */
+/* Creates a target. Each effect then builds its pipelines for it once, e.g. with virga_rain_attach. There is no limit
+ * to the number of targets. Errors as virga_context_create. */
 VIRGA_API virga_result virga_target_create(virga_context *context, const virga_target_def *def, virga_target **target);
 
-/* Destroys the target and sets *target to NULL. Accepts NULL. Pipelines that effects built for it stay until the
- * effects are destroyed. */
+/* Destroys the target and sets *target to NULL. Accepts NULL. Frames in flight may still use it. The next
+ * virga_frame_begin releases the pipelines that effects built for it, unless another target shares them by then. So at
+ * a resize it makes no difference whether the old target is destroyed before or after the new one is created. */
 VIRGA_API void virga_target_destroy(virga_target **target);
 
 /* What temporal anti-aliasing and upscaling need to know about rain, splashes and panes. For targets with a motion or a
