@@ -130,7 +130,7 @@ static const struct {
     {"!virga: 1\ncamera: {keys: []}\n", "s.yaml:2: camera.keys: expected 1 to 100000 entries, got 0"},
     {"!virga: 1\ncamera: {keys: [{position_m: [0, 0, 0]}]}\n", "camera.keys.0.look_at_m: is missing"},
     {"!virga: 1\ncamera: {keys: [{position_m: [0, 1, 0], look_at_m: [0, 1, 0]}]}\n",
-     "camera.keys.0.look_at_m: expected another place than position_m"},
+     "camera.keys.0.look_at_m: expected another position than position_m"},
     {"!virga: 1\ncamera: {keys: [{position_m: [0, 1, 0], look_at_m: [0, 1, 1]},\n"
      "  {position_m: [0, 1, 0], look_at_m: [0, 1, 1]}]}\n",
      "s.yaml:3: camera.keys.1.time_s: expected more than the key before has (0), got 0"},

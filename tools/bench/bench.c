@@ -1,4 +1,4 @@
-/* bench.c - a device to measure on, and what is timed there. */
+/* bench.c - the device of a bench, and its measurements. */
 #include "bench/bench.h"
 
 #include "options.h"

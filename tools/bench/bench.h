@@ -1,4 +1,4 @@
-/* bench.h - what the benches of effects share: a device, a floor to rain on, pictures to draw into. */
+/* bench.h - what the benches of effects share: a device, a floor to rain on, and targets to draw into. */
 #ifndef VIRGA_BENCH_BENCH_H
 #define VIRGA_BENCH_BENCH_H
 
@@ -23,10 +23,10 @@ typedef struct bench {
     char error[512];
 } bench;
 
-/* A device, a floor to rain on, pictures to draw into, and a context with those caches; *b is all zero before. */
+/* Opens a device, and creates a floor, targets, and a context with this pipeline cache. *b must be all zero. */
 bool bench_open(bench *b, const char *device, const void *blob, size_t blob_size, virga_pipeline_build_mode when);
 
-/* All zero again. */
+/* Destroys all of it; *b is all zero afterwards. */
 void bench_close(bench *b);
 
 bool bench_fail(bench *b, const char *what);
@@ -34,7 +34,7 @@ bool bench_fail(bench *b, const char *what);
 /* Begins a frame, for the host and for Virga. */
 bool bench_begin(bench *b, VkCommandBuffer *cmd);
 
-/* Submits, waits, and returns how long that took. */
+/* Submits, waits, and returns the time of both. */
 bool bench_submit(bench *b, double *milliseconds);
 
 /* Time of a pass of the newest frame; 0 if it was not recorded. */

@@ -1,4 +1,4 @@
-/* machine_limits.h - what the machine itself can do, for the bench to measure passes against. */
+/* machine_limits.h - measures the speed of the machine, for comparison with the passes of a bench. */
 #ifndef VIRGA_TOOL_LIMITS_H
 #define VIRGA_TOOL_LIMITS_H
 

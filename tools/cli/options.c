@@ -45,7 +45,7 @@ static bool unknown(const options *parsed, const char *text, size_t length)
     return options_complain(parsed->command, "no option %s; see virga help %s", word, parsed->command);
 }
 
-/* Takes the option at argv[*at], with its value from behind '=' or from the next argument. */
+/* Reads the option at argv[*at]. Its value follows '=' or is the next argument. */
 static bool read_option(options *parsed, int argc, char **argv, int *at)
 {
     const char *text = argv[*at], *equals = strchr(text, '=');
@@ -100,7 +100,7 @@ const char *options_value(const options *parsed, const char *name)
     return index < parsed->row_count ? parsed->values[index] : NULL;
 }
 
-/* Prints what an option does, on below its first word where the line is full. */
+/* Prints the help of an option, wrapped and indented. */
 static void print_wrapped(const char *text)
 {
     enum { INDENT = 31, WIDTH = 100 };

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #define BAR_WIDTH    32
-#define LINE_EVERY_S 5.0 /* where there is no terminal */
+#define LINE_EVERY_S 5.0 /* if standard error is not a terminal */
 
 double progress_now(void)
 {
@@ -82,7 +82,8 @@ void interrupt_install(void)
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    /* A file that grows past its limit is an error of the write, as a full disk is, and no reason to die. */
+    /* A file that reaches the size limit is an error of the write, as a full disk is. It should not kill the program.
+     * */
     signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -1,4 +1,4 @@
-/* progress.h - progress of long work: a bar with the time left on a terminal, plain lines elsewhere; and Ctrl-C. */
+/* progress.h - progress of long work: a bar with the remaining time on a terminal, else plain lines; and Ctrl-C. */
 #ifndef VIRGA_TOOL_PROGRESS_H
 #define VIRGA_TOOL_PROGRESS_H
 
@@ -14,11 +14,11 @@ typedef struct progress {
 
 void progress_begin(progress *p, const char *what, uint32_t total);
 
-/* One more is done; `note` (may be NULL) stands behind the bar. */
+/* One more is done. `note` (may be NULL) is shown after the bar. */
 void progress_step(progress *p, const char *note);
 void progress_end(progress *p);
 
-/* Seconds on a clock that only goes forward. */
+/* Seconds of a monotonic clock. */
 double progress_now(void);
 
 /* Ctrl-C and SIGTERM: the first requests a stop after the current frame, the second ends the program at once. */

@@ -1,4 +1,4 @@
-/* boxes.c - boxes with flat sides, in memory: wipers and walls. */
+/* boxes.c - meshes made of boxes: wipers and walls. */
 #include "boxes.h"
 
 #include <math.h>

@@ -1,10 +1,10 @@
-/* boxes.h - boxes with flat sides: what is simple, or moves within itself. */
+/* boxes.h - meshes made of boxes, for simple and for moving things. */
 #ifndef DRIVE_BOXES_H
 #define DRIVE_BOXES_H
 
 #include "mesh.h"
 
-/* Boxes with flat sides, in memory. */
+/* Vertices and indices of boxes. */
 #define MAX_BOXES 64
 typedef struct boxes {
     host_vertex vertices[MAX_BOXES * 24];

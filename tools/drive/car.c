@@ -12,12 +12,12 @@
 #define WHEEL_X_M      0.735
 #define WHEEL_RADIUS_M 0.315
 #define MAX_STEER      0.75 /* rad */
-#define STEP_M         0.5  /* between points of the track once it is read */
+#define STEP_M         0.5  /* between points of the loaded track */
 #define MAX_POINTS     65536
 
 /* ---- the track */
 
-/* A closed Catmull-Rom curve through the points, at even steps. */
+/* Points at equal distances on a closed Catmull-Rom curve through the given points. */
 static bool spread(const float (*given)[3], uint32_t count, track *t)
 {
     const uint32_t fine = 64;
@@ -119,7 +119,7 @@ static double distance2(const car *c, const float point[3])
     return x * x + z * z;
 }
 
-/* The nearest point not far from the last nearest: where the way passes itself the car keeps to its part of it. */
+/* Finds the nearest point of the track, near the previous one: at a crossing the car stays on its part of the track. */
 static void find_nearest(car *c, const track *t)
 {
     uint32_t best = c->nearest;
@@ -141,7 +141,7 @@ static double heading_to(const car *c, const float point[3])
     return atan2(c->position_m[0] - (double)point[0], c->position_m[2] - (double)point[2]);
 }
 
-/* Height and slope of the road from the two points beside the nearest, and the axes that follow. */
+/* Sets height, slope and axes from the two neighbours of the nearest point. */
 static void stand(car *c, const track *t)
 {
     const float *a = t->points[(c->nearest + t->count - 2) % t->count], *b = ahead(t, c->nearest, 2 * t->step_m);
@@ -171,7 +171,7 @@ void car_place(car *c, const track *t, double way_m)
     stand(c, t);
 }
 
-/* Steers for a point ahead; slows down for the bends that come, so that they pull with about 2 m/s^2. */
+/* Steers towards a point ahead, and slows down before bends to a lateral acceleration of about 2 m/s^2. */
 static void steer_by_itself(const car *c, const track *t, double *gas, double *steer)
 {
     const double look_m = 2 + 0.4 * c->speed_m_s;
@@ -197,7 +197,7 @@ static void steer_by_keys(const car *c, const car_keys *keys, double *gas, doubl
     *steer = (keys->left ? limit : 0) - (keys->right ? limit : 0);
 }
 
-/* Back beside the way where the car left it. */
+/* Moves a car that left the track back to its edge. */
 static void keep_on(car *c, const track *t)
 {
     const float *at = t->points[c->nearest];
@@ -267,8 +267,8 @@ car_part car_part_of(const char *material)
     return CAR_BODY;
 }
 
-/* The columns of `axes` as the car has them, in the world. */
-static void turn_out(const car *c, double local[9], float axes[9])
+/* Transforms axes of the car's frame into the world. */
+static void axes_to_world(const car *c, double local[9], float axes[9])
 {
     for (int column = 0; column < 3; column++)
         for (int i = 0; i < 3; i++)
@@ -281,10 +281,11 @@ void car_wheel(const car *c, int wheel, double position_m[3], float axes[9])
 {
     const bool right = wheel % 2, front = wheel < 2;
     const double axle[3] = {right ? WHEEL_X_M : -WHEEL_X_M, WHEEL_RADIUS_M, front ? FRONT_AXLE_M : REAR_AXLE_M};
-    /* First it rolls about its axle; on the left it is turned around; then it is steered about the vertical. */
+    /* It rolls about its axle; on the left it is mirrored by half a turn; then it is steered about the vertical axis.
+     * */
     const double roll = right ? c->rolled : -c->rolled, turn = (front ? c->steer : 0) + (right ? 0 : M_PI);
     const double cr = cos(roll), sr = -sin(roll), ct = cos(turn), st = sin(turn);
     double local[9] = {ct, 0, -st, st * sr, cr, ct * sr, st * cr, -sr, ct * cr};
     car_point(c, axle, position_m);
-    turn_out(c, local, axes);
+    axes_to_world(c, local, axes);
 }

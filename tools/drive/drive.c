@@ -15,9 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEAR_ENOUGH_M 60 /* what is farther keeps no rain off that could be seen */
+#define NEAR_ENOUGH_M 60 /* farther occluders have no visible effect on the rain */
 
-/* Turns an error of Virga into one line that names what failed; the log has the reason. Warnings are no errors. */
+/* Turns an error of Virga into one line that names what failed. The log has the reason. Warnings are not errors. */
 static bool fine(drive *d, virga_result result, const char *doing)
 {
     return result >= 0 || host_fail(d->error, sizeof d->error, "%s: %s", doing, virga_result_name(result));
@@ -36,7 +36,7 @@ static bool create_device(drive *d, const host_device_info *chosen)
     /* ... and here a host sets its own. */
     VkPhysicalDeviceFeatures available;
     vkGetPhysicalDeviceFeatures(chosen->physical, &available);
-    features.features.wideLines = available.wideLines; /* worth it on software Vulkan */
+    features.features.wideLines = available.wideLines; /* faster on software Vulkan */
     const float priority = 1;
     const char *extensions[HOST_DEVICE_EXTENSIONS];
     const VkDeviceQueueCreateInfo queue = {
@@ -58,7 +58,7 @@ static bool create_device(drive *d, const host_device_info *chosen)
     if (!host_device_wrap(&d->device, &d->listed, chosen, device, error, error_size)) /* with two frames in flight */
         return false;
     d->device.wide_lines = available.wideLines;
-    d->device.independent_blend = true; /* glass is blended: one attachment needs no feature for it */
+    d->device.independent_blend = true; /* blending into one attachment needs no feature */
     return true;
 }
 
@@ -94,7 +94,7 @@ static bool create_context(drive *d)
     size_t size = 0;
     void *compiled = NULL;
     FILE *file = d->chosen.pipelines ? fopen(d->chosen.pipelines, "rb") : NULL;
-    if (file) { /* what an earlier run compiled; a blob from another driver is ignored */
+    if (file) { /* pipelines that an earlier run compiled; the data of another driver is ignored */
         compiled = malloc(64u << 20);
         size = compiled ? fread(compiled, 1, 64u << 20, file) : 0;
         fclose(file);
@@ -139,13 +139,13 @@ static bool create_rain(drive *d)
     virga_glass_def windshield = virga_default_glass_def();
     windshield.width_m = CAR_GLASS_WIDTH_M;
     windshield.height_m = CAR_GLASS_HEIGHT_M;
-    windshield.max_texels = 2048; /* fine enough for one that fills the picture */
+    windshield.max_texels = 2048; /* enough for a pane that fills the picture */
 
     virga_scene_def def = virga_default_scene_def();
     def.rain.max_drops = software ? 32768 : 131072;
     def.rain.occlusion_size = software ? 512 : 1024;
     def.rain.occlusion_slants = 1;
-    def.rain.max_panes = 1; /* the windshield catches the very drops that are seen to fall */
+    def.rain.max_panes = 1; /* the windshield catches the same drops that are drawn */
     def.rain.occluder_strides[0] = sizeof(host_vertex);
     def.with_ground = true;
     def.ground.cells = software ? 512 : 1024;
@@ -158,18 +158,18 @@ static bool create_rain(drive *d)
 static virga_glass_wiper wiper(float pivot_u_m, float reach_m, float blade_m)
 {
     virga_glass_wiper w = virga_default_glass_wiper();
-    w.pivot_m[0] = pivot_u_m; /* u runs to the right seen from outside: 0 is before the passenger */
+    w.pivot_m[0] = pivot_u_m; /* u runs to the right seen from outside: 0 is on the passenger's side */
     w.pivot_m[1] = -0.05f;
     w.reach_m = reach_m;
     w.blade_m = blade_m;
     w.low_deg = 177;
     w.high_deg = 78;
-    w.drive = VIRGA_GLASS_HOST; /* stands where `host_deg` says: the key W is ours */
+    w.drive = VIRGA_GLASS_HOST; /* the host sets the angle: the key W controls it */
     w.host_deg = w.low_deg;
     return w;
 }
 
-/* Shapes and settings: at the start, and any time later. */
+/* Shapes and settings can be set at the start and at any time later. */
 static bool set_rain(drive *d)
 {
     virga_glass *glass = virga_scene_glass(d->rain, 0);
@@ -196,7 +196,7 @@ static bool set_rain(drive *d)
     virga_splash_settings splash = virga_default_splash_settings();
     splash.gain = 2; /* 1 is what a camera records */
     for (int state = 0; state < VIRGA_GROUND_STATES; state++)
-        splash.rules[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* what of the car is to have none */
+        splash.rules[VIRGA_MATERIAL_GLASS][state].model = VIRGA_SPLASH_NONE; /* parts of the car without splashes */
     return fine(d, virga_ground_set(virga_scene_ground(d->rain), &ground), "ground") &&
            fine(d, virga_splash_set(virga_scene_splash(d->rain), &splash), "splashes");
 }
@@ -210,7 +210,7 @@ bool set_rate(drive *d, float rate_mm_h)
     rain.gust_m_s = 0.8f;
     rain.streak_gain = 2;
     rain.light_gain = 2;
-    rain.near_fade_m = 1.6f; /* nearer ones are blurs: none falls in the car */
+    rain.near_fade_m = 1.6f; /* hides nearer drops, so that none falls inside the car */
     rain.lighting = d->lighting;
     return fine(d, virga_rain_set(virga_scene_rain(d->rain), &rain), "rain");
 }
@@ -229,7 +229,7 @@ static bool attach(drive *d)
 
 /* ---- 5. a frame -------------------------------------------------------------------------------------------------- */
 
-/* Street lamps and the car's own: one light for the street's material and for the water. */
+/* Lamps of the street and of the car. They light both the street and the water. */
 static void light_up(drive *d)
 {
     d->lighting = virga_default_lighting();
@@ -254,7 +254,7 @@ static void light_up(drive *d)
     }
 }
 
-/* All that is near and the car, which moves: what keeps rain off, gets wet, and is splashed on. */
+/* Occluders keep rain off, get wet and have splashes: all meshes nearby, and the moving car. */
 static uint32_t fill_occluders(drive *d)
 {
     uint32_t count = host_mesh_occluders(&d->street, d->occluders, MAX_OCCLUDERS - 2), kept = 0;
@@ -269,7 +269,7 @@ static uint32_t fill_occluders(drive *d)
         if (off2 < (double)NEAR_ENOUGH_M * NEAR_ENOUGH_M || d->occluders[i].ground)
             d->occluders[kept++] = d->occluders[i];
     }
-    /* Splashes stay where they were made: a car that moves would drive into its own. */
+    /* Splashes do not move with the car, so a moving car has none. */
     const bool still = d->car.speed_m_s < 1;
     virga_occluder of_car[MAX_PARTS];
     count = host_mesh_occluders(&d->body, of_car, MAX_PARTS);
@@ -291,12 +291,12 @@ static uint32_t fill_occluders(drive *d)
     return kept;
 }
 
-/* Where the windshield is and how it moves: the wind of the drive and its jolts pull at the drops. */
+/* The pose and the motion of the windshield. Head wind and accelerations move its drops. */
 static virga_scene_pane place_windshield(const drive *d)
 {
     virga_scene_pane pane = {.shelter = 0};
     car_point(&d->car, car_windshield_m, pane.pose.position_m);
-    for (int i = 0; i < 3; i++) { /* seen from outside: x to the left of the car, z to where it drives */
+    for (int i = 0; i < 3; i++) { /* seen from outside: x points to the left of the car, z forward */
         pane.pose.world_from_pane[i] = -d->car.axes[i];
         pane.pose.world_from_pane[3 + i] = d->car.axes[3 + i];
         pane.pose.world_from_pane[6 + i] = -d->car.axes[6 + i];
@@ -317,7 +317,7 @@ static virga_image seen(const host_image *image, VkImageLayout layout)
                          .after = {layout, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT}};
 }
 
-/* The camera, the one of the frame before, and the scene's depth and colour, as Virga wants them. */
+/* The view for Virga: this camera, that of the previous frame, and the scene's depth and color. */
 static virga_view look(const drive *d, double dt_s)
 {
     const stage_camera *now = &d->camera, *then = d->has_last_camera ? &d->last_camera : now;
@@ -337,7 +337,7 @@ static virga_view look(const drive *d, double dt_s)
     return view;
 }
 
-/* All of a frame; what is above makes what it needs. */
+/* Records a whole frame. */
 static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
 {
     const virga_view view = look(d, dt_s);
@@ -354,7 +354,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
         !fine(d, virga_scene_record(d->rain, cmd, &frame), "step"))
         return false;
 
-    virga_ground_maps maps; /* what the street's material samples */
+    virga_ground_maps maps; /* sampled by the street's material */
     virga_ground_maps_get(virga_scene_ground(d->rain), &maps);
     draw_world(d, cmd, &maps); /* color, depth; `behind` is a copy of color now */
 
@@ -366,7 +366,7 @@ static bool record(drive *d, VkCommandBuffer cmd, double dt_s)
     return fine(d, drawn, "draw");
 }
 
-/* The images that the street's material samples stay the same: once, and after a resize. */
+/* Binds the images that the street's material samples: once, and after a resize. */
 static void bind_maps(drive *d)
 {
     virga_ground_maps maps;
@@ -374,7 +374,7 @@ static void bind_maps(drive *d)
     stage_bind(&d->stage, &maps, &d->environment);
 }
 
-/* The world moves on by dt_s, and is drawn. */
+/* Advances the world by dt_s and draws it. */
 bool run_frame(drive *d, double dt_s, bool keep)
 {
     VkCommandBuffer cmd;
@@ -415,7 +415,7 @@ static void print_cost(const drive *d)
            memory.device_allocations);
 }
 
-/* Everything that was recorded must be complete; then in any order, so long as the context goes last. */
+/* All recorded commands must have completed. The order is free, but the context is last. */
 static void destroy_rain(drive *d)
 {
     virga_scene_destroy(&d->rain);

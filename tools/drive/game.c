@@ -47,7 +47,7 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int modifi
     switch (key) {
     case GLFW_KEY_C:
         d->outside = !d->outside;
-        d->has_last_camera = d->stage.has_last = false; /* a cut: motion does not reach back beyond it */
+        d->has_last_camera = d->stage.has_last = false; /* a cut: no motion blur across it */
         break;
     case GLFW_KEY_W: d->wiper_speed = (d->wiper_speed + 1) % WIPER_SPEEDS; break;
     case GLFW_KEY_A: d->car.autopilot = true; break;
@@ -68,7 +68,7 @@ static void read_keys(drive *d)
                          .right = glfwGetKey(d->window, GLFW_KEY_RIGHT) == GLFW_PRESS};
 }
 
-/* Rate, speed and frames a second, twice a second. */
+/* Shows rain rate, speed and frames per second, twice a second. */
 static void update_title(drive *d, double now_s)
 {
     static double since_s;
@@ -92,8 +92,7 @@ bool run_window(drive *d)
     for (uint32_t i = 0; !glfwWindowShouldClose(d->window) && (!d->chosen.frames || i < d->chosen.frames); i++) {
         glfwPollEvents();
         read_keys(d);
-        const double now_s = glfwGetTime(),
-                     dt_s = fmin(fmax(now_s - then_s, 0), 0.1); /* a hitch is not driven through */
+        const double now_s = glfwGetTime(), dt_s = fmin(fmax(now_s - then_s, 0), 0.1); /* a long frame is shortened */
         then_s = now_s;
         if (!run_frame(d, dt_s, false))
             return false;

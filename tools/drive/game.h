@@ -1,4 +1,4 @@
-/* game.h - what the game has, and what its files do for each other. All calls of Virga are in drive.c. */
+/* game.h - the state of the game, and the functions of its files. All calls of Virga are in drive.c. */
 #ifndef DRIVE_GAME_H
 #define DRIVE_GAME_H
 
@@ -27,7 +27,7 @@ typedef struct choices {
     double start_m;
 } choices;
 
-/* All that the program has. */
+/* The state of the program. */
 typedef struct drive {
     choices chosen;
     char error[1024];
@@ -41,7 +41,7 @@ typedef struct drive {
     stage stage;
     host_environment environment;
     host_mesh street, blocks, body, wipers;
-    boxes boxes; /* of the wipers, where they are now */
+    boxes boxes; /* of the wipers at their current angles */
     track track;
     car car;
     car_keys keys;
@@ -61,10 +61,11 @@ typedef struct drive {
     virga_occluder occluders[MAX_OCCLUDERS];
     float rate_mm_h;
     int wiper_speed;
-    double wiper_s; /* into the wipers' cycle */
+    double wiper_s; /* time in the wipers' cycle */
 } drive;
 
-/* drive.c: a frame, dt_s after the one before; `keep`: its picture can be had afterwards. Another rate of the rain. */
+/* drive.c: renders a frame, dt_s after the one before; with `keep`, its picture can be read afterwards. Sets the rain
+ * rate. */
 bool run_frame(drive *d, double dt_s, bool keep);
 bool set_rate(drive *d, float rate_mm_h);
 
@@ -72,21 +73,21 @@ bool set_rate(drive *d, float rate_mm_h);
 bool read_command_line(drive *d, int argc, char **argv);
 void print_help(void);
 
-/* window.c: an instance, and a window where one is wanted; and the end of both. */
+/* window.c: creates and destroys the instance, and the window if there is one. */
 bool open_window(drive *d);
 void close_window(drive *d);
 
-/* world.c: street, car and light of the sky; draws them into the stage's color and depth. */
+/* world.c: loads street, car and sky, and draws them into the stage's color and depth. */
 bool load_world(drive *d);
 void draw_world(drive *d, VkCommandBuffer cmd, const virga_ground_maps *maps);
 void unload_world(drive *d);
 
-/* windshield.c: where the pane has glass; arms and blades as they stand, and on by dt_s. */
+/* windshield.c: fills the mask of the pane; updates the mesh of the wipers; moves the wipers by dt_s. */
 void mask_pane(drive *d);
 void put_wipers(drive *d);
 void move_wipers(drive *d, double dt_s);
 
-/* game.c: keys and title of a window until it is closed; or frames at even times, the last as a file. */
+/* game.c: runs the window until it is closed; or renders frames at equal steps and writes the last one as a file. */
 bool run_window(drive *d);
 bool run_file(drive *d);
 void move_camera(drive *d, double dt_s);

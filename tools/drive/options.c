@@ -58,7 +58,7 @@ static bool parse_option(drive *d, int option, const char *value)
             }
         }
         return complain("--size", "WxH, 16 to 8192 pixels a side");
-    default: return false; /* getopt has said what is wrong */
+    default: return false; /* getopt has printed the error */
     }
 }
 

@@ -18,7 +18,7 @@ void stage_camera_set(const stage *s, stage_camera *camera)
     const double right[3] = {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2], f[0] * u[1] - f[1] * u[0]};
     memset(camera->view_from_world, 0, sizeof camera->view_from_world);
     memset(camera->clip_from_view, 0, sizeof camera->clip_from_view);
-    for (int i = 0; i < 3; i++) { /* column i: where the world's axis i points, as the camera sees it */
+    for (int i = 0; i < 3; i++) { /* column i: the world's axis i in view space */
         camera->view_from_world[4 * i] = (float)right[i];
         camera->view_from_world[4 * i + 1] = (float)u[i];
         camera->view_from_world[4 * i + 2] = (float)-f[i];
@@ -89,8 +89,8 @@ static void fill_lights(const stage_camera *camera, const virga_lighting *lighti
     }
 }
 
-/* Irradiance over pi from radiance in harmonics: bands times 1, 2/3, 1/4 (Ramamoorthi and Hanrahan 2001), and the
- * harmonics' own factors. */
+/* Irradiance over pi from the harmonics of radiance: the bands times 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001),
+ * times the factors of the basis. */
 static void fill_sky(const float sh[9][3], struct drive_frame_gpu *to)
 {
     static const float factors[9] = {0.282095f,         0.488603f * 2 / 3, 0.488603f * 2 / 3,
@@ -101,7 +101,7 @@ static void fill_sky(const float sh[9][3], struct drive_frame_gpu *to)
             to->irradiance[i][c] = sh[i][c] * factors[i];
 }
 
-/* Rows that turn a point into the shade's own axes: 1 at its ends, and metres above the ground. */
+/* Rows of the transform into the shade's frame: 1 at its ends, and metres above the ground. */
 static void fill_shade(const stage_camera *camera, const stage_shade *shade, struct drive_frame_gpu *to)
 {
     const float scales[3] = {shade->half_m[0], 1, shade->half_m[1]};
@@ -135,7 +135,7 @@ bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, siz
         return false;
     if (*resized || !s->width)
         return true;
-    /* The slot of the ring is free again before its semaphore is used anew. */
+    /* Waits until the slot of the ring is free, so that its semaphore can be used again. */
     if (!host_begin_frame(s->device, cmd, error, error_size))
         return false;
     if (!s->window)
@@ -150,7 +150,7 @@ bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, siz
     return host_submit(s->device, error, error_size) && stage_images_again(s, resized, error, error_size);
 }
 
-/* At the start and after a cut the material finds nothing mirrored there: 1 / distance is 0. */
+/* At the start and after a cut there are no reflections: 1 / distance is 0. */
 static void clear_behind(const stage *s, VkCommandBuffer cmd)
 {
     const VkPipelineStageFlags readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
@@ -167,7 +167,7 @@ static void clear_behind(const stage *s, VkCommandBuffer cmd)
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
                        const virga_lighting *lighting)
 {
-    struct drive_frame_gpu *to = s->numbers[slot(s)].mapped;
+    struct drive_frame_gpu *to = s->uniforms[slot(s)].mapped;
     memset(to, 0, sizeof *to);
     fill_camera(s, camera, to);
     fill_ground(camera, maps, to);
@@ -203,7 +203,7 @@ static void fill_material(const host_material *material, float sky, struct drive
     surface->traits[2] = sky;
 }
 
-/* The primitives that are glass, or those that are not. */
+/* Draws either the primitives of glass or all others. */
 static void draw_primitives(const stage *s, VkCommandBuffer cmd, const stage_draw *draw, const VkDescriptorSet *sets,
                             bool glass, struct drive_surface_gpu *surface)
 {
@@ -244,7 +244,7 @@ void stage_draw_mesh(stage *s, VkCommandBuffer cmd, const stage_camera *camera, 
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, s->world_pipeline);
 }
 
-/* The pass has left `color` ready to be copied from. */
+/* The pass leaves `color` in the layout for copies. */
 void stage_world_end(stage *s, VkCommandBuffer cmd)
 {
     vkCmdEndRenderPass(cmd);
@@ -309,7 +309,7 @@ bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool k
     };
     const VkResult shown = vkQueuePresentKHR(s->device->queue, &present);
     if (shown == VK_SUCCESS || shown == VK_SUBOPTIMAL_KHR || shown == VK_ERROR_OUT_OF_DATE_KHR)
-        return true; /* the next stage_begin sees to the rest */
+        return true; /* the next stage_begin creates a new swapchain */
     return host_fail(error, error_size, "vkQueuePresentKHR gave %s", host_result_name(shown));
 }
 
@@ -328,7 +328,7 @@ void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment 
     const VkSampler repeat = s->samplers[HOST_SAMPLE_TEXTURE];
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
         const VkDescriptorSet set = s->world.sets[i];
-        host_set_write_buffer(s->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, s->numbers[i].buffer);
+        host_set_write_buffer(s->device, set, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, s->uniforms[i].buffer);
         host_set_write_image(s->device, set, 1, repeat, environment->sky.view, read);
         host_set_write_image(s->device, set, 2, linear, environment->reflection.view, read);
         host_set_write_image(s->device, set, 3, nearest, maps->wetness, general);

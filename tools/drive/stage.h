@@ -36,11 +36,11 @@ typedef struct stage_draw {
     const host_mesh *mesh;
     double position_m[3];
     float axes[9];      /* columns: the mesh's axes in the world */
-    float sky;          /* [0; 1]: 0.3 within a car */
+    float sky;          /* share of the sky that it sees, [0; 1]: 0.3 inside a car */
     const float *skies; /* (optional) instead of `sky`, one per primitive; below 0: it is not drawn */
 } stage_draw;
 
-/* What stands on the ground and keeps light from it: a car. All 0: nothing. */
+/* An object on the ground that shades it: a car. All 0: none. */
 typedef struct stage_shade {
     double position_m[3]; /* on the ground, in the middle */
     float axes[9];
@@ -54,9 +54,9 @@ typedef struct stage {
     VkSwapchainKHR swapchain;
     VkFormat show_format;
     uint32_t width, height;      /* 0: minimised, nothing can be drawn */
-    uint32_t image_count, image; /* of the swapchain; the one of this frame */
+    uint32_t image_count, image; /* number in the swapchain; index of this frame's image */
     VkImage images[STAGE_IMAGES];
-    host_slice slices[STAGE_IMAGES]; /* of these, or one of the picture */
+    host_slice slices[STAGE_IMAGES]; /* of the swapchain's images, or of the picture */
     VkSemaphore acquired[HOST_FRAMES], finished[STAGE_IMAGES];
     host_image picture; /* instead of a swapchain */
     host_buffer copy;   /* its bytes, after the last frame */
@@ -70,7 +70,7 @@ typedef struct stage {
     VkDescriptorPool material_pool;
     VkPipeline world_pipeline, glass_pipeline, sky_pipeline, show_pipeline;
     VkSampler samplers[HOST_SAMPLINGS];
-    host_buffer numbers[HOST_FRAMES]; /* drive_frame_gpu */
+    host_buffer uniforms[HOST_FRAMES]; /* drive_frame_gpu */
     host_image white;
     struct {
         const host_mesh *mesh;
@@ -82,22 +82,23 @@ typedef struct stage {
     bool has_last;
 } stage;
 
-/* A window (glfwInit and its surface are the caller's) or, with NULL, a picture of that size. */
+/* Renders to a window, for which the caller created a surface, or, if it is NULL, to a picture of that size. */
 bool stage_create(stage *s, host_device *device, struct GLFWwindow *window, VkSurfaceKHR surface, uint32_t width,
                   uint32_t height, char *error, size_t error_size);
 void stage_destroy(stage *s);
 
-/* Makes the matrices of a camera for the picture as it is now. */
+/* Computes the matrices of a camera for the current size of the picture. */
 void stage_camera_set(const stage *s, stage_camera *camera);
 
-/* The mesh's materials get descriptor sets. */
+/* Creates descriptor sets for the mesh's materials. */
 bool stage_add(stage *s, const host_mesh *mesh, char *error, size_t error_size);
 
-/* The maps and panorama that the material reads; after stage_create and whenever it returns with *resized. */
+/* Sets the maps and the panorama that the material samples. Needed after stage_create, and when stage_begin sets
+ * *resized. */
 void stage_bind(stage *s, const virga_ground_maps *maps, const host_environment *environment);
 
-/* Begins a frame. *cmd is NULL where none can be drawn now (minimised; or resized, with *resized set: sizes, `depth`
- * and `behind` are others now). */
+/* Begins a frame. *cmd is NULL if none can be drawn now: the window is minimised, or it was resized. Then *resized is
+ * set, and the size, `depth` and `behind` have changed. */
 bool stage_begin(stage *s, VkCommandBuffer *cmd, bool *resized, char *error, size_t error_size);
 void stage_world_begin(stage *s, VkCommandBuffer cmd, const stage_camera *camera, const virga_ground_maps *maps,
                        const virga_lighting *lighting);
@@ -107,7 +108,7 @@ void stage_over_begin(stage *s, VkCommandBuffer cmd);
 void stage_over_end(stage *s, VkCommandBuffer cmd);
 bool stage_end(stage *s, VkCommandBuffer cmd, const stage_camera *camera, bool keep, char *error, size_t error_size);
 
-/* RGBA bytes of the picture that the newest frame with `keep` drew; the device has completed it. */
+/* RGBA bytes of the picture of the newest frame with `keep`, which must have completed. */
 const uint8_t *stage_picture(stage *s);
 
 #endif

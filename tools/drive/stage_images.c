@@ -1,5 +1,5 @@
-/* stage_images.c - the images that a size needs: the window's swapchain or a picture, color, depth, and what is behind
- * water. Made anew when the window's size changes; none while it is minimised. */
+/* stage_images.c - the images whose size is that of the window: the swapchain or a picture, color, depth, and what is
+ * behind water. They are created again when the size changes; there are none while the window is minimised. */
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
@@ -38,7 +38,7 @@ static bool create_swapchain(stage *s, const VkSurfaceCapabilitiesKHR *can, char
         .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
         .preTransform = can->currentTransform,
         .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
-        .presentMode = VK_PRESENT_MODE_FIFO_KHR, /* always there */
+        .presentMode = VK_PRESENT_MODE_FIFO_KHR, /* always supported */
         .clipped = VK_TRUE,
     };
     HOST_TRY(vkCreateSwapchainKHR(s->device->device, &info, NULL, &s->swapchain));
@@ -125,14 +125,14 @@ void stage_images_destroy(stage *s)
     host_buffer_destroy(s->device, &s->copy);
 }
 
-/* All frames in flight use the old images: this one wait is the price of a resize. */
+/* Waits, because frames in flight use the old images. */
 bool stage_images_again(stage *s, bool *resized, char *error, size_t error_size)
 {
     int width = (int)s->width, height = (int)s->height;
     VkSurfaceCapabilitiesKHR can;
     if (!host_wait(s->device, error, error_size))
         return false;
-    HOST_TRY(vkDeviceWaitIdle(s->device->device)); /* presenting too */
+    HOST_TRY(vkDeviceWaitIdle(s->device->device)); /* for presents too */
     stage_images_destroy(s);
     s->has_last = false;
     if (s->window) {

@@ -7,7 +7,8 @@
 /* Chooses s->show_format. */
 bool stage_images_choose(stage *s, char *error, size_t error_size);
 
-/* Makes the images where there are none or the window has another size; *resized then. Waits for the device. */
+/* Creates the images if there are none or the size of the window has changed, and sets *resized. Waits for the device.
+ * */
 bool stage_images_fit(stage *s, bool *resized, char *error, size_t error_size);
 bool stage_images_again(stage *s, bool *resized, char *error, size_t error_size);
 void stage_images_destroy(stage *s);

@@ -13,11 +13,11 @@
 
 typedef struct pass_def {
     VkFormat color;
-    bool depth, load; /* there is depth; what is there is drawn over */
+    bool depth, load; /* has depth; keeps the contents */
     VkImageLayout color_before, color_after;
 } pass_def;
 
-/* What came before a pass and what follows it: broad stages, which a small renderer can afford. */
+/* Dependencies on all commands before and after the pass are simple, and fast enough for a small renderer. */
 static bool create_pass(stage *s, const pass_def *def, VkRenderPass *pass, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[2] = {
@@ -80,7 +80,7 @@ static bool create_bindings(stage *s, char *error, size_t error_size)
 
 /* ---- pipelines */
 
-/* What is behind glass, times the blend constants. Alpha holds a distance and is not blended. */
+/* Multiplies the color behind glass by the blend constants. Alpha is a distance and is not blended. */
 static const VkPipelineColorBlendAttachmentState through = {.blendEnable = VK_TRUE,
                                                             .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
                                                             .dstColorBlendFactor = VK_BLEND_FACTOR_CONSTANT_COLOR,
@@ -119,7 +119,7 @@ static bool create_data(stage *s, char *error, size_t error_size)
     const host_image_def white = {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1, 1}, .name = "drive white"};
     for (uint32_t i = 0; i < HOST_FRAMES; i++)
         if (!host_buffer_create(s->device, sizeof(struct drive_frame_gpu), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                HOST_BUFFER_UPLOAD, "drive frame", &s->numbers[i], error, error_size))
+                                HOST_BUFFER_UPLOAD, "drive frame", &s->uniforms[i], error, error_size))
             return false;
     return host_image_create_with(s->device, &white, texel, sizeof texel, 4, &s->white, error, error_size);
 }
@@ -152,7 +152,7 @@ void stage_destroy(stage *s)
     stage_images_destroy(s);
     for (uint32_t i = 0; i < HOST_FRAMES; i++) {
         vkDestroySemaphore(device, s->acquired[i], NULL);
-        host_buffer_destroy(s->device, &s->numbers[i]);
+        host_buffer_destroy(s->device, &s->uniforms[i]);
     }
     host_image_destroy(s->device, &s->white);
     const VkPipeline pipelines[] = {s->world_pipeline, s->glass_pipeline, s->sky_pipeline, s->show_pipeline};

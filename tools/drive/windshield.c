@@ -5,7 +5,7 @@
 
 const char *const wiper_names[WIPER_SPEEDS] = {"off", "intermittent", "slow", "fast"};
 
-/* The pillars lean in: above, the pane is narrower than below. */
+/* The pillars lean inwards, so the pane is narrower at the top. */
 void mask_pane(drive *d)
 {
     for (int row = 0; row < PANE_TEXELS; row++) {
@@ -24,7 +24,7 @@ static void pane_point(const drive *d, const virga_glass_wiper *w, double along_
     const double y = fmin(fmax(v / (double)CAR_GLASS_HEIGHT_M, 0), 1) * (PANE_POINTS - 1);
     const int column = (int)fmin(x, PANE_POINTS - 2), row = (int)fmin(y, PANE_POINTS - 2);
     const double s = x - column, t = y - row, rake = (double)CAR_GLASS_RAKE_DEG * M_PI / 180;
-    const double below = fmin(v, 0); /* arms begin under the pane's edge */
+    const double below = fmin(v, 0); /* arms begin below the pane's edge */
     double at[3];
     for (int i = 0; i < 3; i++) {
         const float *p = d->pane + 3 * (row * PANE_POINTS + column) + i;
@@ -38,7 +38,7 @@ static void pane_point(const drive *d, const virga_glass_wiper *w, double along_
     out[2] = (float)(car_windshield_m[2] - at[2]);
 }
 
-/* Arms and blades, bent with the glass: 6 bars each. */
+/* Arms and blades follow the curved glass: 6 bars each. */
 void put_wipers(drive *d)
 {
     boxes *b = &d->boxes;
@@ -59,7 +59,7 @@ void put_wipers(drive *d)
     }
 }
 
-/* There and back in two sweeps, then a pause; switched off they finish what they began. */
+/* Two sweeps, up and down, then a pause. When switched off, they finish the cycle. */
 void move_wipers(drive *d, double dt_s)
 {
     static const double sweep_s[WIPER_SPEEDS] = {0.7, 0.7, 0.7, 0.45}, pause_s[WIPER_SPEEDS] = {0, 2.5, 0, 0};

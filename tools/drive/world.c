@@ -1,4 +1,4 @@
-/* world.c - what there is to see: the street, walls that its model lacks, the car and the sky. */
+/* world.c - the drawn world: street, walls that its model does not have, car and sky. */
 #include "game.h"
 
 #include "exr.h"

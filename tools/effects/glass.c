@@ -51,7 +51,7 @@ static const scene_row bumps_rows[] = {
     FILE_NAME(scene_bumps, file, 0, "a PNG of heights"),
     NUMBER(scene_bumps, size_mm, 0.1, 100000, NULL, RESTARTS, "that the picture covers; repeated"),
     NUMBER(scene_bumps, depth_mm, 0, 100, NULL, RESTARTS, "of black under white"),
-    NUMBER(scene_bumps, affinity, 0, 10, "1", RESTARTS, "how much its low places draw drops on"),
+    NUMBER(scene_bumps, affinity, 0, 10, "1", RESTARTS, "how much low parts of it attract drops"),
 };
 static const scene_group bumps_group = SCENE_GROUP(scene_bumps, bumps_rows);
 
@@ -77,7 +77,7 @@ static const scene_row pane_rows[] = {
     OPTIONAL_TEXT(scene_pane, mesh, 200, RESTARTS, "in the name of a mesh or its material"),
     FILE_NAME(scene_pane, mask, OPTIONAL, "a PNG, black where there is no glass"),
     CHOICE(scene_pane, follow, pane_follows, "world", RESTARTS,
-           "whether place and angles are given in the world or from the camera"),
+           "whether position and angles are given in the world or relative to the camera"),
     NUMBER(scene_pane, position_m, -MAX_METERS, MAX_METERS, NULL, LIVE,
            "middle of the lower edge; with the camera: right, up, ahead"),
     NUMBER(scene_pane, yaw_deg, -36000, 36000, "0", LIVE, "to the left seen from above"),

@@ -25,7 +25,7 @@ static const scene_row size_entry_rows[] = {
 static const scene_group size_entry_group = SCENE_GROUP(scene_size_entry, size_entry_rows);
 
 static const scene_row rain_key_rows[] = {
-    NUMBER(scene_rain_key, time_s, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "when they are so"),
+    NUMBER(scene_rain_key, time_s, -MAX_METERS, MAX_METERS, NULL, RESTARTS, "time of the values"),
     NUMBER(scene_rain_key, rate_mm_h, 0, 200, "@rain.rate_mm_h", LIVE, "rain that lands on level ground then"),
     NUMBER(scene_rain_key, wind_m_s, -60, 60, "@rain.wind_m_s", LIVE, "mean wind then"),
 };
@@ -70,7 +70,7 @@ static const scene_row rain_rows[] = {
     WHOLE(scene_rain, occlusion_cascades, 1, 4, "2", RESTARTS, "maps around each other, the widest covers the range"),
     WHOLE(scene_rain, occlusion_slants, 1, 4, "2", RESTARTS, "maps for drops of different slant"),
     WHOLE(scene_rain, occlusion_interval, 1, 16, "1", LIVE,
-          "frames in which the maps are drawn by turns; more is quicker, and late"),
+          "each map is drawn once in so many frames; more is faster, but the maps are older"),
     LIST(scene_rain, keys, key_count, &rain_key_group, 0, 100000, "[]",
          "rate and wind by time, in place of the two settings"),
 };
@@ -302,13 +302,10 @@ static bool record_drops(shot *s, void *state, VkCommandBuffer cmd, char *error,
 static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size)
 {
     rain_state *r = state;
-    const virga_point_gpu *from = shot_finish_read(s, &r->drops, error, error_size);
-    drop *drops = from ? malloc(r->drops.count * sizeof *drops + 1) : NULL;
-    *rows = drops;
+    drop *drops = *rows = shot_finish_rows(s, &r->drops, sizeof *drops, error, error_size);
+    const virga_point_gpu *from = r->drops.buffer.mapped;
     *count = 0;
-    if (!drops)
-        return from && host_fail(error, error_size, "no memory for %u points", r->drops.count);
-    for (uint32_t i = 0; i < r->drops.count; i++) {
+    for (uint32_t i = 0; drops && i < r->drops.count; i++) {
         if (from[i].weight <= 0)
             continue;
         drop *to = &drops[(*count)++];
@@ -319,7 +316,7 @@ static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char 
         to->age_s = from[i].age_s;
         to->weight = from[i].weight;
     }
-    return true;
+    return drops;
 }
 
 static const tool_points points = {

@@ -2,6 +2,7 @@
 #include "shot_state.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 bool shot_ok(const shot *s, virga_result result, const char *what, char *error, size_t error_size)
 {
@@ -80,6 +81,16 @@ const void *shot_finish_read(shot *s, shot_read *read, char *error, size_t error
         return NULL;
     host_buffer_invalidate(&s->device, &read->buffer);
     return read->buffer.mapped;
+}
+
+void *shot_finish_rows(shot *s, shot_read *read, size_t stride, char *error, size_t error_size)
+{
+    if (!shot_finish_read(s, read, error, error_size))
+        return NULL;
+    void *rows = malloc(read->count * stride + 1);
+    if (!rows)
+        host_fail(error, error_size, "no memory for %u points", read->count);
+    return rows;
 }
 
 void shot_read_position(const shot_read *read, const float position[3], float out[3])

@@ -110,6 +110,9 @@ bool shot_record_read(shot *s, VkCommandBuffer cmd, VkBuffer from, VkDeviceSize 
 /* Waits for the device; returns the points. NULL: none were read back. */
 const void *shot_finish_read(shot *s, shot_read *read, char *error, size_t error_size);
 
+/* The same, and allocates `stride` bytes for a row of each point. NULL with a line in `error` on failure. */
+void *shot_finish_rows(shot *s, shot_read *read, size_t stride, char *error, size_t error_size);
+
 /* Converts the position of a point to the world. */
 void shot_read_position(const shot_read *read, const float position[3], float out[3]);
 

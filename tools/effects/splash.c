@@ -180,13 +180,10 @@ static bool record_droplets(shot *s, void *state, VkCommandBuffer cmd, char *err
 static bool read_droplets(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size)
 {
     splash_state *p = state;
-    const virga_droplet_gpu *from = shot_finish_read(s, &p->droplets, error, error_size);
-    droplet *droplets = from ? malloc(p->droplets.count * sizeof *droplets + 1) : NULL;
-    *rows = droplets;
+    droplet *droplets = *rows = shot_finish_rows(s, &p->droplets, sizeof *droplets, error, error_size);
+    const virga_droplet_gpu *from = p->droplets.buffer.mapped;
     *count = 0;
-    if (!droplets)
-        return from && host_fail(error, error_size, "no memory for %u points", p->droplets.count);
-    for (uint32_t i = 0; i < p->droplets.count; i++) {
+    for (uint32_t i = 0; droplets && i < p->droplets.count; i++) {
         if (!(from[i].kind & VIRGA_DROPLET_ALIVE) || from[i].age_s < 0)
             continue;
         droplet *to = &droplets[(*count)++];
@@ -202,7 +199,7 @@ static bool read_droplets(shot *s, void *state, void **rows, uint32_t *count, ch
         to->id = virga_hash2(to->parent, to->index);
         to->water_ul = (float)(from[i].water_nl * 1e-3);
     }
-    return true;
+    return droplets;
 }
 
 static const tool_points points = {

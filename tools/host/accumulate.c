@@ -44,7 +44,7 @@ void host_accumulator_reset(host_accumulator *a)
     a->samples = 0;
 }
 
-/* The first sample is stored, so that a reset costs nothing. */
+/* The first sample is stored instead of added, so that a reset need not clear anything. */
 static void add(float *sum, const float *values, size_t count, bool first)
 {
     if (first) {

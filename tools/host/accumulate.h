@@ -9,15 +9,15 @@ typedef struct host_accumulator {
     uint32_t width, height;
     uint32_t samples;
     float *color; /* RGBA */
-    /* RGBA of outputs from HOST_LAYER on; zero where the newest target has none: pages that are never written, and cost
-     * no memory */
+    /* RGBA of the outputs from HOST_LAYER on. Zero for layers that the newest target does not have; these pages are
+     * never written and cost no memory */
     float *layers[HOST_MAX_LAYERS];
-    uint32_t layer_count, kept_layers; /* as the newest target has them */
-    float *normal;                     /* RGBA: unit length again after finish */
+    uint32_t layer_count, kept_layers; /* of the newest target */
+    float *normal;                     /* RGBA; finish normalises it */
     float *velocity;                   /* XY */
     float *water;                      /* wetness, depth (m) */
-    float *depth;                      /* of one sub-frame: means of depths lie where nothing is */
-    uint32_t *id;                      /* of the same one */
+    float *depth;                      /* of one sub-frame: a mean of depths would be where nothing is */
+    uint32_t *id;                      /* of the same sub-frame */
 } host_accumulator;
 
 bool host_accumulator_create(host_accumulator *accumulator, uint32_t width, uint32_t height, char *error,
@@ -27,8 +27,9 @@ void host_accumulator_destroy(host_accumulator *accumulator);
 /* Back to no samples. */
 void host_accumulator_reset(host_accumulator *accumulator);
 
-/* Adds what was copied out of a target (all outputs), in the same order every time: sums are floats. `keep` takes
- * depth, id and the target's kept layers from this sub-frame; the first one counts if none is marked. */
+/* Adds all outputs that were copied out of a target. Use the same order every time, because sums are floats. With
+ * `keep`, depth, id and the target's kept layers are those of this sub-frame; without any `keep` those of the first
+ * one. */
 void host_accumulator_add(host_accumulator *accumulator, const host_device *device, const host_target *target,
                           bool keep);
 

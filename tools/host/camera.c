@@ -35,7 +35,7 @@ bool host_camera_path_check(const host_camera_path *path, char *error, size_t er
     return true;
 }
 
-/* First and last key of the shot that a time lies in. */
+/* First and last key of the shot at a time. */
 static void find_shot(const host_camera_path *path, double time_s, uint32_t *first, uint32_t *last)
 {
     *first = 0;
@@ -68,8 +68,8 @@ static double slope(const host_camera_path *path, uint32_t i, int c)
     return (channel(b, c) - channel(a, c)) / (b->time_s - a->time_s);
 }
 
-/* Speed at key i: of the parabola through it and its neighbours, which keeps uneven key times smooth (Catmull and
- * Rom 1974, for uneven knots). At the ends of a shot the parabola of the neighbour goes on. */
+/* Speed at key i: that of the parabola through it and its neighbours (Catmull and Rom 1974, for uneven knots). At the
+ * ends of a shot the parabola of the neighbour continues. */
 static double speed(const host_camera_path *path, uint32_t i, uint32_t first, uint32_t last, int c)
 {
     if (i > first && i < last) {
@@ -131,7 +131,7 @@ static bool normalize(double v[3])
     return true;
 }
 
-/* Right, up and back of a camera; any sideways axis will do when it looks straight up or down. */
+/* Right, up and back of a camera. If it looks straight up or down, right is any horizontal axis. */
 static void basis(const double position[3], const double target[3], double roll_deg, double axes[3][3])
 {
     double *right = axes[0], *up = axes[1], *back = axes[2];

@@ -29,13 +29,13 @@ typedef struct host_camera {
     float view_from_world[16];
     float clip_from_view[16];       /* with jitter; Vulkan clip space, y down, depth 0 near to 1 far */
     float clip_from_view_plain[16]; /* without */
-    float jitter_px[2];             /* moves the picture right and down */
-    uint32_t samples; /* pictures of as many jitters that are averaged; 0 is 1, as host_camera_at has it */
+    float jitter_px[2];             /* shifts the picture right and down */
+    uint32_t samples; /* number of jittered pictures that are averaged; 0 means 1, as host_camera_at sets it */
     double near_m, far_m;
     uint32_t width, height;
 } host_camera;
 
-/* One line about what is wrong with a path, or true. */
+/* True, or false with one line in `error` that says what is wrong with the path. */
 bool host_camera_path_check(const host_camera_path *path, char *error, size_t error_size);
 
 /* The camera at a time: cubic in time between the keys of a shot, position and speed continuous; constant before the

@@ -5,10 +5,10 @@
 #include "device.h"
 
 typedef enum host_sampling {
-    HOST_SAMPLE_NEAREST,  /* texels as they are; ends at the edges */
-    HOST_SAMPLE_LINEAR,   /* between texels and levels; ends at the edges */
-    HOST_SAMPLE_PANORAMA, /* the same, but u goes around */
-    HOST_SAMPLE_TEXTURE,  /* repeats; with the device's anisotropy */
+    HOST_SAMPLE_NEAREST,  /* nearest texel; clamped at the edges */
+    HOST_SAMPLE_LINEAR,   /* linear between texels and levels; clamped at the edges */
+    HOST_SAMPLE_PANORAMA, /* the same, but u repeats */
+    HOST_SAMPLE_TEXTURE,  /* linear, repeats, with the device's anisotropy */
     HOST_SAMPLINGS,
 } host_sampling;
 
@@ -19,11 +19,11 @@ bool host_sampler_create(host_device *device, host_sampling sampling, VkSampler 
 bool host_samplers_create(host_device *device, VkSampler samplers[HOST_SAMPLINGS], char *error, size_t error_size);
 void host_samplers_destroy(const host_device *device, const VkSampler samplers[HOST_SAMPLINGS]);
 
-/* What sets hold: one descriptor at each of the bindings 0, 1, 2 and so on. */
+/* The layout of a set: one descriptor at each of the bindings 0, 1, 2 and so on. */
 typedef struct host_set_shape {
     const VkDescriptorType *types;
     uint32_t count;            /* at most HOST_SET_BINDINGS */
-    VkShaderStageFlags stages; /* that see all of them */
+    VkShaderStageFlags stages; /* that can access them */
 } host_set_shape;
 
 #define HOST_SET_BINDINGS 32
@@ -39,7 +39,7 @@ typedef struct host_bindings {
 typedef struct host_bindings_def {
     host_set_shape shape;
     uint32_t set_count;             /* at most 8 */
-    VkShaderStageFlags push_stages; /* that see push constants */
+    VkShaderStageFlags push_stages; /* that can access push constants */
     uint32_t push_bytes;            /* from offset 0 on; 0: none */
     VkDescriptorSetLayout next;     /* the layout of set 1 in pipelines; VK_NULL_HANDLE: none */
 } host_bindings_def;

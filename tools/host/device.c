@@ -7,8 +7,9 @@
 
 #include <virga/vulkan.h>
 
-#define ANISOTROPY          8.0f
-#define ANISOTROPY_SOFTWARE 4.0f /* enough for a road; a plate already takes two to three times as long as without */
+#define ANISOTROPY 8.0f
+#define ANISOTROPY_SOFTWARE \
+    4.0f /* good enough for a road; the plate already costs two to three times as much as without */
 
 /* Enables optional features that the device has. virga_enable_features sets what Virga requires. */
 static void enable_optional(host_device *device, VkPhysicalDeviceFeatures *enabled)
@@ -102,7 +103,7 @@ static void describe(host_device *device, const host_instance *instance, const h
     vkGetPhysicalDeviceMemoryProperties(info->physical, &device->memory);
 }
 
-/* The rest, around a device. */
+/* Gets the queue of a logical device and creates the frames. */
 static bool use_device(host_device *device, VkDevice made, char *error, size_t error_size)
 {
     device->device = made;
@@ -203,7 +204,7 @@ static bool wait_frame(host_device *device, host_frame *frame, char *error, size
     if (frame->index <= device->completed)
         return true;
     HOST_TRY(vkWaitForFences(device->device, 1, &frame->fence, VK_TRUE, UINT64_MAX));
-    device->completed = frame->index; /* one queue: what came before is complete too */
+    device->completed = frame->index; /* one queue: earlier frames are complete too */
     return true;
 }
 

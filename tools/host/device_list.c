@@ -44,7 +44,7 @@ uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const 
     return count;
 }
 
-/* The smallest is chosen. */
+/* The device with the smallest rank is chosen. */
 static int rank(VkPhysicalDeviceType type)
 {
     switch (type) {
@@ -71,7 +71,7 @@ static bool find_queue_family(VkPhysicalDevice physical, uint32_t *family)
     return false;
 }
 
-/* What the host's own targets and textures need beyond what Vulkan guarantees. */
+/* A format that the host's targets and textures need and the device lacks, or NULL. */
 static const char *missing_format(VkPhysicalDevice physical)
 {
     static const struct {

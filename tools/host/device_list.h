@@ -15,7 +15,7 @@ typedef struct host_device_info {
     uint32_t queue_family;     /* graphics and compute */
     VkDeviceSize memory_bytes; /* of device-local heaps */
     bool usable;
-    char reason[256]; /* why not; empty if usable */
+    char reason[256]; /* why it is not usable; empty if it is */
 } host_device_info;
 
 const char *host_device_type_name(VkPhysicalDeviceType type);
@@ -23,13 +23,13 @@ const char *host_device_type_name(VkPhysicalDeviceType type);
 /* Fills `infos`, in the order of the loader, and returns how many there are (at most `capacity`). */
 uint32_t host_devices_list(const host_instance *instance, host_device_info *infos, uint32_t capacity);
 
-/* Chooses: `wanted` NULL takes the best usable (discrete, integrated, virtual, software); else a number of the list,
- * "gpu", "cpu", or part of a name in any case. */
+/* Selects a device. `wanted` is a number of the list, "gpu", "cpu" or part of a name in any case. NULL selects the best
+ * usable one: discrete, integrated, virtual, then software. */
 bool host_device_pick(const host_device_info *infos, uint32_t count, const char *wanted, uint32_t *index, char *error,
                       size_t error_size);
 
-/* The extensions that a device is made with: the swapchain where it is to present, and VK_KHR_portability_subset where
- * the device has it, as it must be enabled then. Returns how many of `names` are set. */
+/* Fills `names` with the extensions to enable and returns their number: the swapchain if the device presents, and
+ * VK_KHR_portability_subset if the device has it, because it must be enabled then. */
 enum { HOST_DEVICE_EXTENSIONS = 2 };
 uint32_t host_device_extensions(VkPhysicalDevice physical, bool presents, const char *names[HOST_DEVICE_EXTENSIONS]);
 

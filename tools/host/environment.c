@@ -7,8 +7,8 @@
 
 #include "panorama.h"
 
-#define SUN_LIMIT     32.0f /* times the mean luminance; more rings in harmonics of degree 2 and speckles in the blur */
-#define SKY_MIN_WIDTH 2048  /* smaller panoramas show their texels: they are upsampled to this */
+#define SUN_LIMIT     32.0f /* times the mean luminance; above, harmonics of degree 2 ring and the blur has speckles */
+#define SKY_MIN_WIDTH 2048  /* smaller panoramas are upsampled to this width, because their texels would show */
 #define SKY_MAX_WIDTH 8192
 #define LIGHT_WIDTH   256 /* harmonics are computed at this size */
 #define BLUR_WIDTH    128 /* size of each reflection level */
@@ -65,14 +65,14 @@ static uint16_t half_from(float value)
     memcpy(&bits, &value, sizeof bits);
     int32_t exponent = (int32_t)(bits >> 23 & 0xff) - 112;
     if (exponent <= 0)
-        return 0; /* light this small does not show */
+        return 0; /* such small values are not visible */
     if (exponent >= 31)
         return 0x7bff;
     uint32_t rounded = ((uint32_t)exponent << 10 | (bits >> 13 & 0x3ff)) + (bits >> 12 & 1);
     return rounded < 0x7bff ? (uint16_t)rounded : 0x7bff;
 }
 
-/* Full floats on software devices, which are fastest with them, where they can be filtered; else half floats. */
+/* Full floats on software devices if they can be filtered, because these are fastest there; else half floats. */
 static bool upload(host_device *device, const float *rgba, VkExtent3D extent, const char *name, host_image *image,
                    char *error, size_t error_size)
 {

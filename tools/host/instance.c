@@ -8,7 +8,7 @@
 #include <virga/vulkan.h>
 
 #define VALIDATION_LAYER      "VK_LAYER_KHRONOS_validation"
-#define MESSAGES_PRINTED      16 /* after that they are counted only */
+#define MESSAGES_PRINTED      16 /* further messages are only counted */
 #define MAX_WINDOW_EXTENSIONS 8
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
@@ -18,7 +18,7 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlag
     (void)severity;
     (void)types;
     host_instance *instance = user;
-    /* The loader reports here too, for example that a driver's manifest is absent: that is not a finding. */
+    /* The loader reports here too, for example a missing driver manifest. Such messages do not count. */
     if (data->pMessageIdName && strcmp(data->pMessageIdName, "Loader Message") == 0)
         return VK_FALSE;
     if (instance->messages == 0)
@@ -71,7 +71,7 @@ bool host_instance_create(host_instance *instance, bool validate, char *error, s
     return host_instance_create_for_window(instance, validate, NULL, 0, error, error_size);
 }
 
-/* Layers and extensions are there, or can be left out. */
+/* Whether the required layers and extensions exist. */
 static bool check_support(const host_instance *instance, char *error, size_t error_size)
 {
     uint32_t version = VK_API_VERSION_1_0;
@@ -167,6 +167,6 @@ void host_instance_destroy(host_instance *instance)
     if (instance->messenger && destroy_messenger)
         destroy_messenger(instance->instance, instance->messenger, NULL);
     vkDestroyInstance(instance->instance, NULL);
-    instance->instance = VK_NULL_HANDLE; /* the message count stays readable */
+    instance->instance = VK_NULL_HANDLE; /* the message count can still be read */
     instance->messenger = VK_NULL_HANDLE;
 }

@@ -1,4 +1,4 @@
-/* materials.h - names of materials, and guesses from the names of meshes what they are made of. */
+/* materials.h - names of materials, and guesses of materials from the names of meshes. */
 #ifndef VIRGA_HOST_MATERIALS_H
 #define VIRGA_HOST_MATERIALS_H
 
@@ -18,7 +18,7 @@ bool host_name_contains(const char *name, const char *part);
 /* Whether people walk on it: not furniture, houses or cars, and not glass, water, leaves, cloth or plastic. */
 bool host_is_ground(const char *name, uint32_t material);
 
-/* Name of such a number; "default" for 0 and for numbers that are not used. */
+/* Name of a material; "default" for 0 and for numbers that are not used. */
 const char *host_material_name(uint32_t material);
 
 #endif

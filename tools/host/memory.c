@@ -1,4 +1,4 @@
-/* memory.c - one allocation for each buffer and image: the host has few of them, and simple is easy to trust. */
+/* memory.c - one allocation for each buffer and image, because the host has few of them. */
 #include "memory.h"
 
 #include <string.h>
@@ -48,7 +48,7 @@ static bool buffer_memory(host_device *device, host_buffer_kind kind, const char
     if (kind != HOST_BUFFER_DEVICE)
         needed = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
     if (kind == HOST_BUFFER_UPLOAD)
-        needed |= VK_MEMORY_PROPERTY_HOST_COHERENT_BIT; /* such a type is guaranteed */
+        needed |= VK_MEMORY_PROPERTY_HOST_COHERENT_BIT; /* Vulkan guarantees such a type */
     if (kind == HOST_BUFFER_READBACK)
         liked = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 

@@ -5,9 +5,9 @@
 #include "device.h"
 
 typedef enum host_buffer_kind {
-    HOST_BUFFER_DEVICE,   /* fast for the device, not mapped */
+    HOST_BUFFER_DEVICE,   /* device memory, not mapped */
     HOST_BUFFER_UPLOAD,   /* written by the CPU */
-    HOST_BUFFER_READBACK, /* read by the CPU: cached where there is such memory */
+    HOST_BUFFER_READBACK, /* read by the CPU; cached if the device has such memory */
 } host_buffer_kind;
 
 typedef struct host_buffer {
@@ -15,29 +15,28 @@ typedef struct host_buffer {
     VkDeviceMemory memory;
     VkDeviceSize size;
     void *mapped;  /* NULL for HOST_BUFFER_DEVICE */
-    bool coherent; /* else invalidate before reading: host_buffer_invalidate */
+    bool coherent; /* false: call host_buffer_invalidate before reading */
 } host_buffer;
 
 bool host_buffer_create(host_device *device, VkDeviceSize size, VkBufferUsageFlags usage, host_buffer_kind kind,
                         const char *name, host_buffer *buffer, char *error, size_t error_size);
 void host_buffer_destroy(host_device *device, host_buffer *buffer);
 
-/* Makes what the device wrote visible to the CPU. */
+/* Makes the device's writes visible to the CPU. */
 void host_buffer_invalidate(const host_device *device, const host_buffer *buffer);
 
-/* Records an update of a device buffer in line with the commands: after `readers` have read what was there, before they
- * read what is. */
+/* Records an update of a device buffer, with barriers before and after it against the stages `readers`. */
 void host_buffer_update(VkCommandBuffer cmd, const host_buffer *buffer, const void *data, VkDeviceSize size,
                         VkPipelineStageFlags readers, VkAccessFlags access);
 
-/* Makes a device buffer with data in it; TRANSFER_DST is added to the usage. Waits until it is there. */
+/* Creates a device buffer with contents. Adds TRANSFER_DST to the usage. Waits until the upload has completed. */
 bool host_buffer_create_with(host_device *device, const void *data, VkDeviceSize size, VkBufferUsageFlags usage,
                              const char *name, host_buffer *buffer, char *error, size_t error_size);
 
 typedef struct host_image {
     VkImage image;
     VkDeviceMemory memory;
-    VkImageView view; /* everything */
+    VkImageView view; /* all levels and layers */
     VkFormat format;
     VkExtent3D extent;
     uint32_t levels, layers;
@@ -59,12 +58,13 @@ bool host_image_create(host_device *device, const host_image_def *def, host_imag
                        size_t error_size);
 void host_image_destroy(host_device *device, host_image *image);
 
-/* Fills all levels of a one-layer image, tightly packed one after another in `data` (`size` bytes, `texel` bytes
- * each), and leaves it in SHADER_READ_ONLY_OPTIMAL. The image needs TRANSFER_DST. Waits until it is there. */
+/* Uploads all levels of an image with one layer and leaves it in SHADER_READ_ONLY_OPTIMAL. `data` has the levels one
+ * after another, tightly packed: `size` bytes, `texel` bytes per texel. The image needs TRANSFER_DST. Waits until the
+ * upload has completed. */
 bool host_image_upload(host_device *device, host_image *image, const void *data, VkDeviceSize size, uint32_t texel,
                        char *error, size_t error_size);
 
-/* The two in one; SAMPLED and TRANSFER_DST are added to the usage. */
+/* Creates an image and uploads its contents. Adds SAMPLED and TRANSFER_DST to the usage. */
 bool host_image_create_with(host_device *device, const host_image_def *def, const void *data, VkDeviceSize size,
                             uint32_t texel, host_image *image, char *error, size_t error_size);
 
@@ -72,11 +72,11 @@ bool host_image_create_with(host_device *device, const host_image_def *def, cons
 bool host_view_create(host_device *device, VkImage image, VkFormat format, uint32_t level, uint32_t layer,
                       VkImageView *view, char *error, size_t error_size);
 
-/* Records that all memory which was accessed so may then be accessed so. */
+/* Records a barrier for all memory. */
 void host_memory_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from_stage, VkAccessFlags from_access,
                          VkPipelineStageFlags to_stage, VkAccessFlags to_access);
 
-/* Records a layout change of a whole image. */
+/* Records a layout transition of a whole image. */
 void host_image_barrier(VkCommandBuffer cmd, const host_image *image, VkImageLayout from, VkImageLayout to,
                         VkPipelineStageFlags from_stage, VkAccessFlags from_access, VkPipelineStageFlags to_stage,
                         VkAccessFlags to_access);

@@ -1,4 +1,4 @@
-/* mesh.c - loads a model file, puts it on the device, and hands it to the rain as occluders. */
+/* mesh.c - loads a model file, uploads it, and lists its occluders for the rain. */
 #include "mesh.h"
 
 #include <assimp/cimport.h>
@@ -12,11 +12,11 @@
 
 #include "mesh_geometry.h"
 
-#define SMOOTHING_ANGLE 40.0f /* degrees; made normals keep edges sharper than this */
+#define SMOOTHING_ANGLE 40.0f /* degrees; generated normals keep sharper edges */
 
 /* ---- cover -------------------------------------------------------------------------------------------------- */
 
-/* Share of a cut-out's surface that its picture leaves standing, weighted by area: seven points a triangle. */
+/* Share of a cut-out's surface that its texture keeps, weighted by area, from seven points per triangle. */
 static float find_cover(const host_mesh_build *build, const host_primitive *primitive, const host_material *material)
 {
     static const float points[7][2] = {{0.33f, 0.33f}, {0.1f, 0.1f},  {0.8f, 0.1f},  {0.1f, 0.8f},
@@ -59,7 +59,7 @@ static void find_covers(host_mesh_build *build)
 
 /* ---- onto the device ---------------------------------------------------------------------------------------- */
 
-/* The cutoff of a picture that some cut-out uses, or -1. */
+/* The cutoff of a texture that a cut-out uses, or -1. */
 static float picture_cutoff(const host_mesh *mesh, uint32_t picture)
 {
     for (uint32_t i = 0; i < mesh->material_count; i++)
@@ -172,7 +172,7 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
     return ok;
 }
 
-/* Appends a primitive's corners, each a vertex of its own. */
+/* Appends the corners of a primitive's triangles, without sharing vertices. */
 static void copy_primitive(const host_mesh_build *build, const host_primitive *primitive, host_vertex *vertices,
                            uint32_t *indices, uint32_t *count)
 {
@@ -290,7 +290,7 @@ uint32_t host_mesh_occluders(const host_mesh *mesh, virga_occluder *occluders, u
             .world_from_mesh = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
             .material = primitive->surface,
             .ground = primitive->ground,
-            .cover = primitive->cover > 0.01f ? primitive->cover : 0.01f, /* 0 would mean 1 */
+            .cover = primitive->cover > 0.01f ? primitive->cover : 0.01f, /* 0 means 1 */
         };
     }
     return mesh->primitive_count;

@@ -16,7 +16,7 @@ typedef struct host_vertex {
 typedef enum host_alpha {
     HOST_ALPHA_OPAQUE = 0,
     HOST_ALPHA_MASK = 1,  /* cut out below the cutoff */
-    HOST_ALPHA_GLASS = 2, /* thin glass: see-through, with reflections */
+    HOST_ALPHA_GLASS = 2, /* thin glass: transparent, with reflections */
 } host_alpha;
 
 typedef struct host_material {
@@ -37,7 +37,7 @@ typedef struct host_primitive {
     uint32_t material;     /* into host_mesh::materials */
     uint32_t surface;      /* host_guess_material of its names: what drops land on */
     bool ground;           /* host_is_ground of its name */
-    float cover;           /* share of the surface that is there; below 1 for cut-outs */
+    float cover;           /* share of the surface that is not cut out; 1 for opaque materials */
     float low[3], high[3]; /* bounds */
 } host_primitive;
 
@@ -52,31 +52,31 @@ typedef struct host_mesh {
     host_image *textures;
     uint32_t texture_count;
     float low[3], high[3];
-    bool apart; /* it moves with the camera: it shades nothing in the skylight and is not mirrored. Default false */
+    bool apart; /* moves with the camera: it casts no shade in the skylight and is not mirrored. Default false */
 } host_mesh;
 
-/* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. Missing normals, UVs
- * and textures are repaired, textures with a warning. Everything else is an error. */
+/* Loads a model. `world_from_model` is 3 x 4, row-major, and may be NULL. Missing normals and UVs are replaced; so are
+ * missing textures, with a warning. Everything else is an error. */
 bool host_mesh_load(host_device *device, const char *path, const float world_from_model[12], host_mesh *mesh,
                     char *error, size_t error_size);
 
-/* Makes a mesh of one opaque primitive from memory. */
+/* Creates a mesh of one opaque primitive from memory. */
 bool host_mesh_create(host_device *device, const host_vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
                       uint32_t index_count, const host_material *material, host_mesh *mesh, char *error,
                       size_t error_size);
 
-/* Records new vertices, as many as the mesh has, outside rendering. */
+/* Records an update of all vertices. Outside a render pass. */
 void host_mesh_move(VkCommandBuffer cmd, const host_mesh *mesh, const host_vertex *vertices);
 
-/* Reads the triangles of a model whose primitive or its material has `name` in its name, in any case: `count`
- * vertices and indices, to be freed by free(). UVs as for pictures whose first row is on top. None found is no
- * error: *count is 0. */
+/* Reads the triangles of primitives whose name, or the name of their material, contains `name`, in any case: `count`
+ * vertices and indices, to be freed by free(). V runs from the top row of a picture down. If nothing matches, *count is
+ * 0, which is no error. */
 bool host_mesh_read(host_device *device, const char *path, const float world_from_model[12], const char *name,
                     host_vertex **vertices, uint32_t **indices, uint32_t *count, char *error, size_t error_size);
 
 void host_mesh_destroy(host_device *device, host_mesh *mesh);
 
-/* Fills up to `capacity` occluders, one a primitive (glass stops drops too), and returns how many there are. */
+/* Fills up to `capacity` occluders, one for each primitive, and returns their total number. Glass stops drops too. */
 uint32_t host_mesh_occluders(const host_mesh *mesh, virga_occluder *occluders, uint32_t capacity);
 
 #endif

@@ -1,4 +1,4 @@
-/* mesh_geometry.c - walks the nodes of a model, moves triangles into the world and repairs what files lack. */
+/* mesh_geometry.c - walks the nodes of a model, transforms triangles into the world and replaces missing data. */
 #include "mesh_geometry.h"
 
 #include <float.h>
@@ -34,7 +34,7 @@ static affine affine_multiply(const affine *a, const affine *b)
     return out;
 }
 
-/* Cofactors of the 3 x 3 part: they turn normals right under any scale. Returns the determinant. */
+/* Cofactors of the 3 x 3 part, which transform normals correctly under any scale. Returns the determinant. */
 static float cofactors(const affine *a, float c[9])
 {
     const float *m = a->m;
@@ -80,7 +80,7 @@ static bool add_vertices(host_mesh_build *build, const struct aiMesh *mesh, cons
                 v->normal[row] = sign * (c[row * 3] * n->x + c[row * 3 + 1] * n->y + c[row * 3 + 2] * n->z);
         }
         if (!normalize(v->normal))
-            memset(v->normal, 0, sizeof v->normal); /* repaired from its triangles below */
+            memset(v->normal, 0, sizeof v->normal); /* computed from its triangles below */
         const struct aiVector3D *uv = mesh->mTextureCoords[0] ? &mesh->mTextureCoords[0][i] : NULL;
         if (uv && isfinite(uv->x) && isfinite(uv->y)) {
             v->uv[0] = uv->x;
@@ -90,7 +90,7 @@ static bool add_vertices(host_mesh_build *build, const struct aiMesh *mesh, cons
     return true;
 }
 
-/* Triangles of a mesh; a mirroring transform turns their winding back. Returns how many indices were added. */
+/* Adds the triangles of a mesh and returns the number of indices. If the transform mirrors, the winding is reversed. */
 static uint32_t add_indices(host_mesh_build *build, const struct aiMesh *mesh, bool mirrored)
 {
     uint32_t added = 0;
@@ -110,7 +110,7 @@ static uint32_t add_indices(host_mesh_build *build, const struct aiMesh *mesh, b
     return added;
 }
 
-/* Normals that a file leaves out or ruins become the area-weighted mean of the triangles around; else up. */
+/* Missing and invalid normals become the area-weighted mean of the adjacent triangles, or up if that is zero. */
 static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_t vertex_count, const uint32_t *indices,
                            uint32_t index_count)
 {
@@ -118,7 +118,7 @@ static void repair_normals(host_vertex *vertices, uint32_t first_vertex, uint32_
     for (uint32_t i = first_vertex; i < first_vertex + vertex_count; i++) {
         const float *n = vertices[i].normal;
         if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) {
-            vertices[i].normal[0] = NAN; /* marks it */
+            vertices[i].normal[0] = NAN; /* marks it as invalid */
             broken++;
         }
     }
@@ -174,7 +174,7 @@ static bool add_primitive(host_mesh_build *build, const struct aiNode *node, uin
         return false;
     uint32_t index_count = add_indices(build, mesh, cofactors(world, c) < 0.0f);
     if (index_count == 0)
-        return true; /* its vertices are written over by the next one */
+        return true; /* the next mesh overwrites its vertices */
 
     host_primitive *primitive = &build->mesh->primitives[build->primitive_count];
     memset(primitive, 0, sizeof *primitive);

@@ -1,4 +1,4 @@
-/* mesh_geometry.h - what mesh.c, mesh_geometry.c and mesh_material.c share while a file is being loaded. */
+/* mesh_geometry.h - shared by mesh.c, mesh_geometry.c and mesh_material.c while a file is loaded. */
 #ifndef VIRGA_HOST_MESH_GEOMETRY_H
 #define VIRGA_HOST_MESH_GEOMETRY_H
 

@@ -41,7 +41,7 @@ static bool decode_embedded(const struct aiTexture *texture, const char *what, h
     return ok || host_fail(error, error_size, "%s: no memory for it", what);
 }
 
-/* Beside the model; backslashes come from other systems. */
+/* The path of a texture beside the model. Backslashes come from other systems. */
 static void resolve(const char *model, const char *name, char *path, size_t size)
 {
     const char *slash = strrchr(model, '/');
@@ -69,7 +69,7 @@ static bool load_picture(host_mesh_build *build, const char *name, host_picture 
     return false;
 }
 
-/* Number of the picture with this name among the mesh's textures, loaded on first use; -1 if it cannot be had. */
+/* Index of the texture with this name, which is loaded on first use; -1 if that fails. */
 static int32_t find_picture(host_mesh_build *build, const char *name)
 {
     host_mesh *mesh = build->mesh;
@@ -89,7 +89,7 @@ static int32_t find_picture(host_mesh_build *build, const char *name)
         return -1;
     host_picture *picture = &pictures[mesh->texture_count];
     memset(picture, 0, sizeof *picture);
-    mesh->texture_count++; /* a failed one keeps its slot, so that there is one warning */
+    mesh->texture_count++; /* a failed texture keeps its entry, so that there is only one warning */
     return load_picture(build, name, picture) ? (int32_t)mesh->texture_count - 1 : -1;
 }
 
@@ -131,7 +131,7 @@ static float clamp01(float value)
 static void read_surface(const struct aiMaterial *in, host_material *out)
 {
     float shininess = get_float(in, AI_MATKEY_SHININESS, 0.0f);
-    /* Files of before physically based materials give a Phong exponent. */
+    /* Older files have a Phong exponent instead of a roughness. */
     float otherwise = shininess > 0.0f ? sqrtf(2.0f / (shininess + 2.0f)) : 0.9f;
     out->roughness = clamp01(get_float(in, AI_MATKEY_ROUGHNESS_FACTOR, otherwise));
     out->metallic = clamp01(get_float(in, AI_MATKEY_METALLIC_FACTOR, 0.0f));
@@ -145,7 +145,7 @@ static void read_surface(const struct aiMaterial *in, host_material *out)
     for (int c = 0; c < 3; c++)
         out->emissive[c] = emissive[c] * fmaxf(strength, 0.0f);
 
-    int two_sided = 1; /* glTF always says; in formats that do not, sheets are meant to be seen from both sides */
+    int two_sided = 1; /* glTF always has it; in formats without it, surfaces are two-sided */
     aiGetMaterialIntegerArray(in, AI_MATKEY_TWOSIDED, &two_sided, NULL);
     out->two_sided = two_sided != 0;
 }
@@ -185,7 +185,7 @@ static void read_material(host_mesh_build *build, const struct aiMaterial *in, h
     if (out->base_texture < 0)
         out->base_texture = find_texture(build, in, aiTextureType_DIFFUSE);
     out->emissive_texture = find_texture(build, in, aiTextureType_EMISSIVE);
-    /* Roughness and metal of a picture count with their mean. Assimp keeps glTF's under "unknown". */
+    /* Roughness and metallic from a texture are its mean. Assimp has glTF's texture as "unknown". */
     int32_t packed = find_texture(build, in, aiTextureType_UNKNOWN);
     if (packed >= 0) {
         float mean[4];

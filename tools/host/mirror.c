@@ -1,4 +1,4 @@
-/* mirror.c - images and render pass of what water mirrors. */
+/* mirror.c - images and render passes of planar reflections. */
 #include "mirror.h"
 
 #include "passes.h"
@@ -41,7 +41,7 @@ static bool create_pass(host_device *device, host_mirror *mirror, char *error, s
         .attachments = attachments,
         .color_count = 2,
         .depth = true,
-        /* After the plate of the frame before has read them. */
+        /* After the plate of the previous frame has sampled them. */
         .before = {READS | DRAWS | HOST_DEPTH_STAGES, HOST_DRAW_WRITES, DRAWS | HOST_DEPTH_STAGES,
                    HOST_DRAW_WRITES | HOST_DRAW_READS},
         .after = {DRAWS | HOST_DEPTH_STAGES, HOST_DRAW_WRITES, READS | DRAWS,

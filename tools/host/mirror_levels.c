@@ -1,4 +1,4 @@
-/* mirror_levels.c - each level from the one before, by one triangle over it. */
+/* mirror_levels.c - draws each mip level from the one before. */
 #include "mirror_levels.h"
 
 #include "pipeline.h"
@@ -32,7 +32,7 @@ static bool create_pass(host_device *device, host_mirror_levels *levels, VkForma
     const host_pass_def def = {
         .attachments = &attachment,
         .color_count = 1,
-        /* After the level before is drawn, and what read this one in the frame before has. */
+        /* After the previous level is drawn, and after the previous frame has sampled this one. */
         .before = {draws | reads, writes, draws | reads, writes | VK_ACCESS_SHADER_READ_BIT},
         .after = {draws, writes, reads, VK_ACCESS_SHADER_READ_BIT},
     };

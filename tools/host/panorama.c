@@ -1,4 +1,4 @@
-/* panorama.c - panoramas on the CPU. They are small (a few hundred pixels across), so plain loops do. */
+/* panorama.c - panoramas on the CPU. They are a few hundred pixels wide, so plain loops are fast enough. */
 #include "panorama.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #define PI           3.14159265358979f
 #define HALF_MAX     65504.0f
-#define BLUR_SAMPLES 192 /* fewer show as speckle on smooth metal */
+#define BLUR_SAMPLES 192 /* fewer give speckles on smooth metal */
 
 bool panorama_alloc(panorama *out, uint32_t width, uint32_t height)
 {
@@ -56,8 +56,8 @@ static const float *texel(const panorama *p, int64_t x, int64_t y)
     return &p->rgba[(y * w + x) * 4];
 }
 
-/* Between four texels in a row or column. The cubic overshoots (dark dots beside what is bright), so the result stays
- * between the middle two. */
+/* Interpolates between four texels in a row or column. Clamped to the middle two, because the cubic overshoots: dark
+ * dots beside bright texels. */
 static void sample_cubic(const float *texels[4], const float w[4], float out[4])
 {
     for (int c = 0; c < 4; c++) {
@@ -213,8 +213,8 @@ void panorama_project(const panorama *p, float rotation, float sh[9][3])
 
 /* ---- blur --------------------------------------------------------------------------------------------------- */
 
-/* Directions around +Z where a mirror lobe of this roughness looks when seen from straight above, with the cosine
- * weight of Karis 2013. */
+/* Reflected directions of a GGX lobe of this roughness around +Z, seen from +Z, with the cosine weight of Karis 2013.
+ * */
 static void lobe(float roughness, float samples[BLUR_SAMPLES][4])
 {
     float a = fmaxf(roughness * roughness, 1e-3f);

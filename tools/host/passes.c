@@ -19,7 +19,7 @@ VkAttachmentDescription host_attachment(VkFormat format, VkImageLayout after)
     };
 }
 
-/* Between two subpasses, one of them VK_SUBPASS_EXTERNAL; none without stages. */
+/* Fills a dependency between two subpasses and returns 1; returns 0 if it has no stages. */
 static uint32_t add_dependency(uint32_t from, uint32_t to, const host_order *order, VkSubpassDependency *dependency)
 {
     *dependency =

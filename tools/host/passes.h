@@ -1,10 +1,10 @@
-/* passes.h - render passes of one subpass and one sample, framebuffers, and their beginning. */
+/* passes.h - render passes with one subpass and one sample, and their framebuffers. */
 #ifndef VIRGA_HOST_PASSES_H
 #define VIRGA_HOST_PASSES_H
 
 #include "memory.h"
 
-/* What comes before is done when what comes after begins. */
+/* A dependency: the first stage completes before the second begins. */
 typedef struct host_order {
     VkPipelineStageFlags from_stage;
     VkAccessFlags from_access;
@@ -16,7 +16,7 @@ typedef struct host_pass_def {
     const VkAttachmentDescription *attachments; /* colors, then depth */
     uint32_t color_count;                       /* at most HOST_PASS_COLORS */
     bool depth;
-    host_order before, after; /* to what is outside the pass; all zero: none */
+    host_order before, after; /* dependencies on commands outside the pass; all zero: none */
 } host_pass_def;
 
 #define HOST_PASS_COLORS 8
@@ -25,7 +25,7 @@ typedef struct host_pass_def {
 #define HOST_DRAW_WRITES  (VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT)
 #define HOST_DRAW_READS   (VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT)
 
-/* An attachment that is cleared, drawn and stored, and left in the layout `after`. */
+/* An attachment that is cleared, drawn and stored, and ends in the layout `after`. */
 VkAttachmentDescription host_attachment(VkFormat format, VkImageLayout after);
 
 bool host_pass_create(host_device *device, const host_pass_def *def, VkRenderPass *pass, char *error,
@@ -45,7 +45,7 @@ bool host_slice_create(host_device *device, VkRenderPass pass, const host_image 
                        host_slice *slice, char *error, size_t error_size);
 void host_slice_destroy(const host_device *device, const host_slice *slice);
 
-/* Begins a pass over all of a framebuffer, viewport and scissor set. What it clears is 0, and depth 1. */
+/* Begins a pass on a whole framebuffer, and sets viewport and scissor. Clears colors to 0 and depth to 1. */
 void host_pass_begin(VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t width, uint32_t height,
                      uint32_t color_count);
 

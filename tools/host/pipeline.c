@@ -24,7 +24,7 @@ static const VkVertexInputAttributeDescription attributes[] = {
     {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(host_vertex, normal)},
 };
 
-/* A stage with a module of its own, which the caller destroys; none for no shader. */
+/* A stage with its own module, which the caller destroys. Without code there is no module. */
 static bool make_stage(host_device *device, host_code code, VkShaderStageFlagBits which,
                        VkPipelineShaderStageCreateInfo *stage, char *error, size_t error_size)
 {

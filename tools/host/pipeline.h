@@ -1,4 +1,4 @@
-/* pipeline.h - pipelines of small renderers: triangles, one sample, viewport and scissor set while recording. */
+/* pipeline.h - pipelines for triangles with one sample. Viewport and scissor are dynamic. */
 #ifndef VIRGA_HOST_PIPELINE_H
 #define VIRGA_HOST_PIPELINE_H
 
@@ -13,7 +13,7 @@ typedef struct host_code {
 #define HOST_CODE(name) ((host_code){name##_spv, sizeof name##_spv})
 
 typedef struct host_graphics_def {
-    host_code vertex, fragment; /* without a fragment shader depth alone is written */
+    host_code vertex, fragment; /* without a fragment shader only depth is written */
     VkPipelineLayout layout;
     VkRenderPass pass;        /* its first subpass */
     uint32_t attribute_count; /* of host_vertex: position at location 0, uv at 2, normal at 1. 0: no vertex buffer */
@@ -23,10 +23,10 @@ typedef struct host_graphics_def {
     VkCompareOp compare; /* (depth_test) */
     const VkPipelineColorBlendAttachmentState *colors;
     uint32_t color_count;
-    bool blend_constants; /* set while recording */
+    bool blend_constants; /* dynamic */
 } host_graphics_def;
 
-/* What replaces what is there, and what is laid over it premultiplied. */
+/* Overwrite; blend with premultiplied alpha. */
 extern const VkPipelineColorBlendAttachmentState host_blend_replace, host_blend_over;
 
 bool host_graphics_create(host_device *device, const host_graphics_def *def, VkPipeline *pipeline, char *error,
@@ -39,7 +39,7 @@ bool host_fullscreen_create(host_device *device, host_code vertex, host_code fra
 bool host_compute_create(host_device *device, host_code code, VkPipelineLayout layout, VkPipeline *pipeline,
                          char *error, size_t error_size);
 
-/* Viewport and scissor of a whole attachment, in texels: these pipelines have neither of their own. */
+/* Sets viewport and scissor to a whole attachment, in texels. */
 void host_set_area(VkCommandBuffer cmd, uint32_t width, uint32_t height);
 
 #endif

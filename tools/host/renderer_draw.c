@@ -4,11 +4,11 @@
 
 #include "renderer_internal.h"
 
-#define MIN_ROUGHNESS 0.04f /* below, a point light's highlight falls between pixels */
+#define MIN_ROUGHNESS 0.04f /* below, highlights of point lights fall between pixels */
 
 /* ---- meshes ------------------------------------------------------------------------------------------------- */
 
-/* Writes the frame's numbers in line with the commands, so that any number of plates may be in one command buffer. */
+/* Updates the uniforms in the command buffer, so that it can have several plates. */
 static void record_frame(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame)
 {
     host_buffer_update(cmd, &r->frame_buffer, frame, sizeof *frame,
@@ -105,7 +105,7 @@ static void find_bounds(const host_renderer *r, float low[3], float high[3])
     }
 }
 
-/* Everything but glass, into the map of one direction of the sky. */
+/* Draws everything but glass into the depth map of one direction of the sky. */
 static void draw_map(const host_renderer *r, VkCommandBuffer cmd, uint32_t direction, bool cutouts)
 {
     const host_skylight *s = &r->skylight;
@@ -154,7 +154,7 @@ static void update_skylight(host_renderer *r, VkCommandBuffer cmd, const host_ca
 
 /* ---- the plate ---------------------------------------------------------------------------------------------- */
 
-/* The world from under the plane, as shaders/scene.vert and mirror_jitter.glsl have it. */
+/* The mirrored view, as in shaders/scene.vert and mirror_jitter.glsl. */
 static virga_view view_of_mirror(const host_renderer *r, const host_camera *camera)
 {
     virga_view view = virga_default_view();
@@ -192,7 +192,7 @@ static void record_mirror_haze(const host_renderer *r, VkCommandBuffer cmd, cons
     vkCmdEndRenderPass(cmd);
 }
 
-/* Begun even where it is not worth drawing: what the plate's shaders may sample has to be in its layout. */
+/* The pass is begun even if nothing is drawn, because the plate's shaders need the images in their layouts. */
 static void record_mirror(const host_renderer *r, VkCommandBuffer cmd, const struct host_frame_gpu *frame,
                           const host_camera *camera)
 {

@@ -4,7 +4,7 @@
 
 #include "renderer_internal.h"
 
-/* Clip from a point relative to the camera: the rotation of the view and the projection. */
+/* Transforms a point relative to the camera into clip space: the rotation of the view, and the projection. */
 static void clip_from_relative(const host_camera *camera, const float clip_from_view[16], float out[16])
 {
     float rotation[16];
@@ -13,7 +13,7 @@ static void clip_from_relative(const host_camera *camera, const float clip_from_
     host_matrix_multiply(clip_from_view, rotation, out);
 }
 
-/* Directions of pixels, from the rows of the view rotation and the projection's scale and jitter. */
+/* Directions of pixels, from the view rotation and the scale and jitter of the projection. */
 static void fill_rays(const host_camera *camera, struct host_frame_gpu *frame)
 {
     const float *view = camera->view_from_world, *p = camera->clip_from_view;
@@ -44,7 +44,7 @@ static void fill_light(const virga_light *light, const host_camera *camera, stru
     out->cone[1] = -light->cos_outer * out->cone[0];
 }
 
-/* Harmonics with the factors of the basis and of the cosine lobe over pi in them (Ramamoorthi and Hanrahan 2001). */
+/* Harmonics times the factors of the basis and of the cosine lobe over pi (Ramamoorthi and Hanrahan 2001). */
 static void fill_irradiance(const float sh[9][3], host_vec4 out[9])
 {
     static const float factor[9] = {0.28209479f, 0.32573501f, 0.32573501f, 0.32573501f, 0.27313711f,
@@ -80,7 +80,7 @@ static void fill_ground(const virga_ground_maps *maps, const host_camera *camera
     frame->ripples[3] = side_m;
 }
 
-/* Worth drawing where there is a ground, and the picture's lower edge looks down at it. */
+/* The mirror is drawn if there is a ground and the lower edge of the picture looks down at it. */
 static void fill_mirror(const host_renderer *r, const host_camera *camera, struct host_frame_gpu *frame)
 {
     const float lowest = frame->ray_z[1] - fabsf(frame->ray_x[1]) - fabsf(frame->ray_y[1]);

@@ -8,11 +8,11 @@
 #include "shaders/frame_gpu.h"
 #include "skylight.h"
 
-/* Each also in a variant that culls what is seen from behind. */
+/* Each has two variants: with and without back-face culling. */
 typedef enum host_pipeline {
     HOST_PIPELINE_DEPTH,  /* opaque, depth only */
     HOST_PIPELINE_CUTOUT, /* cut-out, depth only */
-    HOST_PIPELINE_SHADE,  /* colour of the two, where their depth is equal */
+    HOST_PIPELINE_SHADE,  /* color of the two above, where the depth is equal */
     HOST_PIPELINE_GLASS,  /* blended over it */
     HOST_PIPELINE_SKY,
     HOST_PIPELINE_COUNT,
@@ -39,7 +39,7 @@ extern const host_set_shape host_material_shape;
 typedef struct host_entry { /* a mesh that was added */
     const host_mesh *mesh;
     VkDescriptorPool pool;
-    VkDescriptorSet *sets; /* one a material */
+    VkDescriptorSet *sets; /* one for each material */
     uint32_t first_id;
 } host_entry;
 
@@ -55,7 +55,7 @@ struct host_renderer {
     virga_ground_maps ground; /* cells 0: none */
     host_mirror mirror;       /* width 0: none */
     double mirror_m;          /* height of its plane */
-    host_draw_haze draw_haze; /* over it; NULL: nothing */
+    host_draw_haze draw_haze; /* draws over the mirror; NULL: none */
     void *haze_user;
     host_skylight skylight;
     const host_environment *environment;

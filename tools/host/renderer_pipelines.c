@@ -73,7 +73,7 @@ typedef struct pipeline_set {
     VkPipeline (*pipelines)[2];
 } pipeline_set;
 
-/* Glass changes the colour alone: normal, velocity, id and depth stay those of what is behind it. */
+/* Glass only changes the color. Normal, velocity, id and depth are those of the surface behind it. */
 static void fill_blend(host_pipeline kind, VkPipelineColorBlendAttachmentState states[HOST_PLATE_COLORS])
 {
     memset(states, 0, HOST_PLATE_COLORS * sizeof *states);

@@ -11,11 +11,11 @@
 #include "skylight_vert.spv.h"
 
 #define MAP_SIZE     512
-#define WHOLE_M      160.0f /* scenes up to this wide are held as a whole */
-#define BOX_M        128.0f /* else a box of this width moves with the camera */
+#define WHOLE_M      160.0f /* scenes up to this width are in the volume as a whole */
+#define BOX_M        128.0f /* for others, a box of this width moves with the camera */
 #define BOX_HEIGHT_M 44.0f
-#define BOX_STEP_M   16.0f  /* in steps, so that it is not filled anew each frame */
-#define REACH_M      600.0f /* what is farther away towards the sky casts no shade */
+#define BOX_STEP_M   16.0f  /* in steps, so that it is not filled in every frame */
+#define REACH_M      600.0f /* farther occluders cast no shade */
 
 /* ---- create ------------------------------------------------------------------------------------------------- */
 
@@ -59,7 +59,7 @@ static bool create_images(host_device *device, host_skylight *s, char *error, si
     return true;
 }
 
-/* What the gathering pass is bound to: numbers, the depth maps, the volume. */
+/* Bindings of the gather pass: uniforms, depth maps, volume. */
 static const VkDescriptorType gather_kinds[3] = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
 
@@ -67,10 +67,11 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
 {
     const host_bindings_def def = {.shape = {gather_kinds, 3, VK_SHADER_STAGE_COMPUTE_BIT}, .set_count = 1};
     if (!host_bindings_create(device, &def, &s->bindings, error, error_size) ||
-        !host_sampler_create(device, HOST_SAMPLE_NEAREST, &s->sampler, error, error_size)) /* depth must not be mixed */
+        !host_sampler_create(device, HOST_SAMPLE_NEAREST, &s->sampler, error,
+                             error_size)) /* depth must not be filtered */
         return false;
     const VkDescriptorSet set = s->bindings.sets[0];
-    host_set_write_buffer(device, set, 0, gather_kinds[0], s->numbers.buffer);
+    host_set_write_buffer(device, set, 0, gather_kinds[0], s->uniforms.buffer);
     host_set_write_image(device, set, 1, s->sampler, s->maps.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     host_set_write_image(device, set, 2, VK_NULL_HANDLE, s->volume.view, VK_IMAGE_LAYOUT_GENERAL);
     return true;
@@ -78,7 +79,7 @@ static bool create_set(host_device *device, host_skylight *s, char *error, size_
 
 /* ---- pipelines ---------------------------------------------------------------------------------------------- */
 
-/* Depth from a direction; `fragment` cuts holes where a material has some. */
+/* Draws depth from a direction. `fragment` discards texels of cut-outs; it may be empty. */
 static bool create_draw(host_device *device, host_skylight *s, host_code fragment, VkPipeline *pipeline, char *error,
                         size_t error_size)
 {
@@ -123,7 +124,7 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
     bool ok =
         create_pass(device, s, error, error_size) && create_images(device, s, error, error_size) &&
         host_buffer_create(device, sizeof s->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                           HOST_BUFFER_DEVICE, "skylight numbers", &s->numbers, error, error_size) &&
+                           HOST_BUFFER_DEVICE, "skylight uniforms", &s->uniforms, error, error_size) &&
         create_set(device, s, error, error_size) && create_pipelines(device, material_layout, s, error, error_size);
     if (!ok)
         host_skylight_destroy(device, s);
@@ -142,7 +143,7 @@ void host_skylight_destroy(host_device *device, host_skylight *s)
     for (int i = 0; i < HOST_SKYLIGHT_DIRECTIONS; i++)
         host_slice_destroy(device, &s->slices[i]);
     vkDestroyRenderPass(vk, s->pass, NULL);
-    host_buffer_destroy(device, &s->numbers);
+    host_buffer_destroy(device, &s->uniforms);
     host_image_destroy(device, &s->maps);
     host_image_destroy(device, &s->volume);
     memset(s, 0, sizeof *s);
@@ -150,7 +151,8 @@ void host_skylight_destroy(host_device *device, host_skylight *s)
 
 /* ---- where -------------------------------------------------------------------------------------------------- */
 
-/* The view from a direction of the sky onto the ball around the box: depth 0 at REACH_M above it, 1 at its far side. */
+/* The orthographic view from a direction of the sky onto the sphere around the box. Depth is 0 at REACH_M above the
+ * sphere and 1 at its far side. */
 static void look(const float d[3], const float center[3], float radius, float m[16])
 {
     float side[3] = {d[2], 0.0f, -d[0]}; /* never zero: no direction is straight up */
@@ -217,7 +219,7 @@ void host_skylight_frame(const host_skylight *s, const double camera_m[3], struc
         frame->skylight_scale[i] = 1.0f / s->size[i];
     }
     frame->skylight_low[3] = s->gpu.voxel[0];
-    /* The fade ends where the box may end: half of it, less the half step that the camera is off its middle. */
+    /* The fade ends where the box may end. The camera is up to half a step off its middle. */
     float end = 0.5f * BOX_M - 0.5f * BOX_STEP_M - 2.0f, begin = 0.6f * end;
     frame->skylight_fade[0] = begin;
     frame->skylight_scale[3] = s->whole ? 0.0f : 1.0f / (end - begin);
@@ -227,7 +229,7 @@ void host_skylight_frame(const host_skylight *s, const double camera_m[3], struc
 
 void host_skylight_begin(host_skylight *s, VkCommandBuffer cmd)
 {
-    host_buffer_update(cmd, &s->numbers, &s->gpu, sizeof s->gpu, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+    host_buffer_update(cmd, &s->uniforms, &s->gpu, sizeof s->gpu, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_ACCESS_UNIFORM_READ_BIT);
 }
 

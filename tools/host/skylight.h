@@ -12,19 +12,19 @@
 #include "shaders/frame_gpu.h"
 
 typedef struct host_skylight {
-    host_image maps;                             /* depth, one layer a direction */
-    host_image volume;                           /* xyz: mean direction, 1 up if all the sky is seen; w: its share */
+    host_image maps;   /* depth; a layer for each direction */
+    host_image volume; /* xyz: mean direction of visible sky, (0, 1, 0) if all is visible; w: its share */
     host_slice slices[HOST_SKYLIGHT_DIRECTIONS]; /* of the maps */
     VkRenderPass pass;
-    host_buffer numbers; /* host_skylight_gpu */
+    host_buffer uniforms; /* host_skylight_gpu */
     VkSampler sampler;
-    host_bindings bindings; /* of the pass that gathers */
+    host_bindings bindings; /* of the gather pass */
     VkPipelineLayout draw_layout;
     VkPipeline opaque, cutout, gather;
 
-    bool ready; /* the volume was filled, for: */
+    bool ready; /* the volume is filled, for this box: */
     float low[3], size[3];
-    bool whole; /* it holds the whole scene */
+    bool whole; /* the box holds the whole scene */
     struct host_skylight_gpu gpu;
 } host_skylight;
 
@@ -33,11 +33,12 @@ bool host_skylight_create(host_device *device, VkDescriptorSetLayout material_la
                           char *error, size_t error_size);
 void host_skylight_destroy(host_device *device, host_skylight *skylight);
 
-/* Chooses the box for a camera in a scene of these bounds. Returns whether it must be filled anew. */
+/* Chooses the box for a camera in a scene with these bounds. Returns whether the volume must be filled again. */
 bool host_skylight_place(host_skylight *skylight, const double camera_m[3], const float scene_low[3],
                          const float scene_high[3]);
 
-/* Records filling: begin, then for each direction begin_map, draws with host_skylight_push, end_map, then gather. */
+/* Records how the volume is filled: begin; for each direction begin_map, draws with host_skylight_push, end_map;
+ * gather. */
 void host_skylight_begin(host_skylight *skylight, VkCommandBuffer cmd);
 void host_skylight_begin_map(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction);
 void host_skylight_push(const host_skylight *skylight, VkCommandBuffer cmd, uint32_t direction, float alpha,
@@ -45,7 +46,7 @@ void host_skylight_push(const host_skylight *skylight, VkCommandBuffer cmd, uint
 void host_skylight_end_map(const host_skylight *skylight, VkCommandBuffer cmd);
 void host_skylight_gather(host_skylight *skylight, VkCommandBuffer cmd);
 
-/* What the plate's shader needs to look the volume up. */
+/* Fills what the plate's shaders need to sample the volume. */
 void host_skylight_frame(const host_skylight *skylight, const double camera_m[3], struct host_frame_gpu *frame);
 
 #endif

@@ -1,4 +1,4 @@
-/* target.c - images, the render passes between them, and copies to the CPU. */
+/* target.c - images, render passes and copies to the CPU. */
 #include "target.h"
 
 #include "passes.h"
@@ -18,7 +18,7 @@ static const struct {
     [HOST_DEPTH] = {VK_FORMAT_D32_SFLOAT, 1, "plate depth"},
 };
 
-/* All layers are alike, so that one pass does for them. */
+/* All layers have the same format, so that they share one pass. */
 #define LAYER_FORMAT   VK_FORMAT_R32G32B32A32_SFLOAT
 #define LAYER_CHANNELS 4
 
@@ -27,7 +27,7 @@ static VkFormat format_of(host_output output)
     return output < HOST_LAYER ? outputs_table[output].format : LAYER_FORMAT;
 }
 
-/* What is sampled while layers are drawn, and its layout then. The others are ready to be copied from the start. */
+/* Whether an output is sampled while layers are drawn, and its layout then. The others are in the layout for copies. */
 static bool is_sampled(host_output output, VkImageLayout *layout)
 {
     *layout = output == HOST_DEPTH ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
@@ -42,7 +42,7 @@ uint32_t host_output_channels(host_output output)
 
 /* ---- passes ------------------------------------------------------------------------------------------------- */
 
-/* An attachment that is cleared, drawn, and left ready to be sampled or copied. */
+/* An attachment that is cleared and drawn, and ends in the layout for sampling or copies. */
 static VkAttachmentDescription drawn(host_output output)
 {
     VkImageLayout final;
@@ -64,9 +64,9 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
         .attachments = attachments,
         .color_count = HOST_PLATE_COLORS,
         .depth = true,
-        /* After the copies of the frame before, and its layers' reads. */
+        /* After the copies of the previous frame, and after its layers have sampled. */
         .before = {copying | drawing | READERS, HOST_DRAW_WRITES, drawing, HOST_DRAW_READS | HOST_DRAW_WRITES},
-        /* Before the copies, the layers' depth test and whoever samples depth or color. */
+        /* Before copies, the depth test of layers, and shaders that sample depth or color. */
         .after = {drawing, HOST_DRAW_WRITES, copying | HOST_DEPTH_STAGES | READERS,
                   VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
                       VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT},
@@ -74,8 +74,8 @@ static bool create_plate_pass(host_device *device, host_target *target, char *er
     return host_pass_create(device, &def, &target->plate_pass, error, error_size);
 }
 
-/* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. Were it attached
- * as well, its store at the end would be a write that hazards with those reads; only Vulkan 1.3 can store nothing. */
+/* Layers are tested against the plate's depth in the shader, which samples it for soft edges anyway. An attached depth
+ * would be stored at the end of the pass, a hazard with these reads. Only Vulkan 1.3 has passes that do not store. */
 static bool create_color_pass(host_device *device, const VkAttachmentDescription *attachments, uint32_t count,
                               VkRenderPass *pass, char *error, size_t error_size)
 {
@@ -85,7 +85,7 @@ static bool create_color_pass(host_device *device, const VkAttachmentDescription
     const host_pass_def def = {
         .attachments = attachments,
         .color_count = count,
-        /* Passes are compatible only with the same dependencies: they are those that any of them needs. */
+        /* Compatible passes have the same dependencies, so these are the union of what each pass needs. */
         .before = {copying | drawing, writes | VK_ACCESS_TRANSFER_WRITE_BIT, drawing,
                    VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | writes},
         .after = {drawing, writes, copying | READERS, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT},
@@ -93,7 +93,7 @@ static bool create_color_pass(host_device *device, const VkAttachmentDescription
     return host_pass_create(device, &def, pass, error, error_size);
 }
 
-/* The velocity as the plate has left it, ready to be copied, and so again. */
+/* The velocity is in the layout for copies before and after. */
 static bool create_moving_pass(host_device *device, host_target *target, char *error, size_t error_size)
 {
     VkAttachmentDescription attachments[2] = {drawn(HOST_LAYER), drawn(HOST_VELOCITY)};
@@ -247,7 +247,7 @@ void host_target_end_plate(const host_target *target, VkCommandBuffer cmd)
     vkCmdEndRenderPass(cmd);
 }
 
-/* Between the plate pass, or a reader, and a copy from or to the plate's color. */
+/* A barrier between the plate pass or a reader, and a copy from or to the plate's color. */
 static void color_barrier(const host_target *target, VkCommandBuffer cmd, VkImageLayout from, VkImageLayout to,
                           VkAccessFlags access)
 {
@@ -276,7 +276,7 @@ void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, cons
                   VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
-/* The layers' pass clears; that of what is behind them takes no notice of the clear value. */
+/* The pass of layers clears; the pass of `behind` ignores the clear value. */
 static void begin_pass(const host_target *target, VkCommandBuffer cmd, VkRenderPass pass, VkFramebuffer framebuffer)
 {
     host_pass_begin(cmd, pass, framebuffer, target->width, target->height, 1);
@@ -387,7 +387,7 @@ static void copy_image(const host_target *target, VkCommandBuffer cmd, host_outp
                            &region);
 }
 
-/* To where it can be copied from. */
+/* Into the layout for copies. */
 static void begin_copy(const host_target *target, VkCommandBuffer cmd, host_output output)
 {
     VkImageLayout layout;

@@ -1,4 +1,4 @@
-/* target.h - what a frame is drawn into: the plate, the layers over it, and their way back to the CPU. */
+/* target.h - the images that a frame is drawn into: the plate and the layers over it, and their readback. */
 #ifndef VIRGA_HOST_TARGET_H
 #define VIRGA_HOST_TARGET_H
 
@@ -15,8 +15,8 @@ typedef enum host_output {
     HOST_WATER,    /* XY float: wetness, depth of water (m) */
     HOST_ID,       /* uint32: primitive + 1; the sky is 0 */
     HOST_DEPTH,    /* one float: 0 near to 1 far */
-    /* RGBA float: the first layer over the plate, premultiplied. It is always there; behind it those of
-     * host_target_add_layer */
+    /* RGBA float: the first layer over the plate, premultiplied. It always exists; the layers of host_target_add_layer
+     * follow it */
     HOST_LAYER,
     HOST_OUTPUT_COUNT = HOST_LAYER + HOST_MAX_LAYERS,
 } host_output;
@@ -28,35 +28,36 @@ typedef struct host_target {
     host_image images[HOST_OUTPUT_COUNT];
     host_buffer copies[HOST_OUTPUT_COUNT];
     VkRenderPass plate_pass;  /* clears and draws color, normal, velocity, water, id and depth */
-    VkRenderPass layer_pass;  /* clears a layer; the plate's color and depth may be sampled */
-    VkRenderPass behind_pass; /* draws over what is there; compatible with layer_pass */
+    VkRenderPass layer_pass;  /* clears a layer and draws into it; the plate's color and depth can be sampled */
+    VkRenderPass behind_pass; /* draws into `behind` without clearing it; compatible with layer_pass */
     VkFramebuffer plate_framebuffer, behind_framebuffer;
     VkFramebuffer layer_framebuffers[HOST_MAX_LAYERS];
     uint32_t layer_count;
-    uint32_t kept_layers;     /* bit 1u << layer: one sub-frame's pixels count, means of them have no meaning */
-    VkRenderPass moving_pass; /* draws over the velocity, and a color that nobody keeps; with it: */
+    uint32_t
+        kept_layers; /* bits 1u << layer: layers that are taken from one sub-frame, because their mean has no meaning */
+    VkRenderPass moving_pass; /* draws over the velocity, and a color that is not stored; its framebuffer: */
     VkFramebuffer moving_framebuffer;
     host_image moving;
-    host_image behind; /* RGBA float: the plate with layers in it; there after host_target_add_behind */
+    host_image behind; /* RGBA float: the plate with layers drawn into it; created by host_target_add_behind */
 } host_target;
 
 bool host_target_create(host_device *device, uint32_t width, uint32_t height, host_target *target, char *error,
                         size_t error_size);
 void host_target_destroy(host_device *device, host_target *target);
 
-/* Adds a layer, up to HOST_MAX_LAYERS in all; `layer` gets its output. One virga_target does for all layers. `kept`: of
- * several sub-frames one counts, see host_accumulator_add. */
+/* Adds a layer, up to HOST_MAX_LAYERS in all, and sets `layer` to its output. All layers share one virga_target.
+ * `kept`: it is taken from one sub-frame, see host_accumulator_add. */
 bool host_target_add_layer(host_device *device, host_target *target, const char *name, bool kept, host_output *layer,
                            char *error, size_t error_size);
 
-/* Adds a picture of the plate with layers drawn into it, for effects that show what is behind them. */
+/* Adds an image of the plate with layers drawn into it, for effects that show what is behind them. */
 bool host_target_add_behind(host_device *device, host_target *target, char *error, size_t error_size);
 
-/* Adds the pass that draws the velocity of water over the plate's. It wants a virga_target of its own. */
+/* Adds the pass that draws the velocity of water over the plate's. It needs its own virga_target. */
 bool host_target_add_moving(host_device *device, host_target *target, char *error, size_t error_size);
 
-/* In place of a plate that is drawn: clears its outputs, depth to far, and takes its color from `pixels`, RGBA floats,
- * rows from the top. */
+/* Replaces the drawing of a plate: copies `pixels` into its color (RGBA floats, rows from the top) and clears its other
+ * outputs, depth to 1. */
 void host_target_fill_plate(const host_target *target, VkCommandBuffer cmd, const host_buffer *pixels);
 
 /* Begin and end rendering; viewport and scissor are set to the whole picture. */
@@ -68,8 +69,7 @@ void host_target_begin_behind(const host_target *target, VkCommandBuffer cmd); /
 void host_target_begin_moving(const host_target *target, VkCommandBuffer cmd); /* after host_target_add_moving */
 void host_target_end_layer(const host_target *target, VkCommandBuffer cmd);    /* any of them */
 
-/* The plate's depth and color as Virga sees them while layers are drawn, and the picture of
- * host_target_begin_behind. */
+/* For virga_view, while layers are drawn: the plate's depth and color, and the image of host_target_begin_behind. */
 virga_image host_target_depth(const host_target *target);
 virga_image host_target_color(const host_target *target);
 virga_image host_target_behind(const host_target *target);
@@ -80,7 +80,7 @@ void host_target_describe_layer(const host_target *target, virga_target_def *def
 /* The same for the pass of host_target_add_moving. */
 void host_target_describe_moving(const host_target *target, virga_target_def *def);
 
-/* Records copies of the outputs whose bit (1u << output) is set and that are there. After rendering; once in a command
+/* Records copies of the outputs whose bit (1u << output) is set and that exist. After rendering, once in a command
  * buffer. */
 void host_target_copy_out(const host_target *target, VkCommandBuffer cmd, uint32_t outputs);
 

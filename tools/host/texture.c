@@ -1,5 +1,5 @@
-/* texture.c - pictures of a mesh. Mips average in linear light, weighted by alpha, so that what is cut out does not
- * bleed its colour into edges. */
+/* texture.c - textures of a mesh. Mip levels are averages in linear light, weighted by alpha, so that the color of cut-
+ * out texels does not bleed into edges. */
 #include "texture.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #define STB_IMAGE_STATIC
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
-#pragma GCC diagnostic ignored "-Wunused-function" /* reported at the end of the file, so it stays off */
+#pragma GCC diagnostic ignored "-Wunused-function" /* the warning is reported at the end of the file, so it stays off */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -153,7 +153,7 @@ static float coverage(const uint8_t *texels, size_t count, float cutoff, float s
     return (float)covered / (float)count;
 }
 
-/* Scales the alpha of a level until as large a share passes the cutoff as in the first one (Castano 2010). */
+/* Scales the alpha of a level so that the same share of texels passes the cutoff as in the first one (Castano 2010). */
 static void keep_coverage(uint8_t *texels, size_t count, float cutoff, float wanted)
 {
     float low = 0.0f, high = 8.0f;
@@ -173,7 +173,7 @@ static void keep_coverage(uint8_t *texels, size_t count, float cutoff, float wan
     }
 }
 
-/* Gives texels that are cut out the colour of the level below, coarsest first: bilinear filtering mixes them in. */
+/* Gives cut-out texels the color of the next smaller level, coarsest first, because bilinear filtering mixes it in. */
 static void dilate(uint8_t *level, const uint8_t *below, uint32_t width, uint32_t height)
 {
     uint32_t below_width = half_of(width), below_height = half_of(height);

@@ -1,10 +1,10 @@
-/* texture.h - 8-bit pictures of a mesh: decoding, mips made on the CPU, and the coverage of cut-outs. */
+/* texture.h - 8-bit textures of a mesh: decoding, mip levels made on the CPU, and the coverage of cut-outs. */
 #ifndef VIRGA_HOST_TEXTURE_H
 #define VIRGA_HOST_TEXTURE_H
 
 #include "memory.h"
 
-/* A picture with its mips: RGBA, sRGB-coded colour, levels one after another, each half as wide and high. */
+/* A texture with its mip levels one after another: RGBA, with sRGB-coded color. */
 typedef struct host_picture {
     uint32_t width, height, levels;
     uint8_t *texels;
@@ -12,7 +12,7 @@ typedef struct host_picture {
     bool alpha;  /* some texel is not opaque */
 } host_picture;
 
-/* Decodes PNG, JPEG, BMP, TGA or what else stb_image reads, from memory or from a file, without mips. */
+/* Decodes PNG, JPEG, BMP, TGA and other formats of stb_image, from memory or from a file, without mip levels. */
 bool host_picture_decode(const void *data, size_t size, const char *what, host_picture *picture, char *error,
                          size_t error_size);
 bool host_picture_read(const char *path, host_picture *picture, char *error, size_t error_size);
@@ -20,8 +20,8 @@ bool host_picture_read(const char *path, host_picture *picture, char *error, siz
 /* Copies RGBA bytes. */
 bool host_picture_from_rgba(const uint8_t *rgba, uint32_t width, uint32_t height, host_picture *picture);
 
-/* Builds the mips. `cutoff` >= 0 is the alpha below which a texel is cut out: every level then keeps the share of
- * texels that the first has above it, so that foliage does not thin out with distance; -1: no cut-out. */
+/* Builds the mip levels. `cutoff` >= 0 is the alpha below which a texel is cut out. Each level then keeps the first
+ * level's share of texels above it, so that foliage does not get thinner with distance. -1: no cut-out. */
 bool host_picture_make_mips(host_picture *picture, float cutoff);
 
 /* Alpha [0; 1] at a texture coordinate, nearest texel, repeated. */
@@ -32,7 +32,7 @@ void host_picture_mean(const host_picture *picture, float mean[4]);
 
 void host_picture_free(host_picture *picture);
 
-/* An image of the picture with all its levels, in an sRGB format. */
+/* Creates an image with all levels, in an sRGB format. */
 bool host_picture_upload(host_device *device, const host_picture *picture, const char *name, host_image *image,
                          char *error, size_t error_size);
 

@@ -17,25 +17,25 @@
 #include <string.h>
 
 #define ZIP_LEVEL   4     /* half the time of level 6 for 3 % more bytes */
-#define MAX_THREADS 2     /* an encoder beside a renderer should leave processors to it */
-#define FEW_PIXELS  65536 /* below this a second thread costs more than it brings */
+#define MAX_THREADS 2     /* leaves processors to the renderer */
+#define FEW_PIXELS  65536 /* below this a second thread costs more time than it saves */
 
 typedef struct job {
     const exr_frame *frame;
-    const exr_channel **order; /* the frame's channels sorted by name, as OpenEXR wants them */
+    const exr_channel **order; /* the frame's channels sorted by name, as OpenEXR requires */
     exr_context_t file;
     int32_t lines_per_chunk, chunk_count;
     pthread_mutex_t mutex;
-    pthread_cond_t turn;
+    pthread_cond_t chunk_written;
     int32_t next, written; /* chunks: the next one to pack, and how many are in the file */
     exr_result_t result;   /* of the first chunk that failed */
 } job;
 
-/* What one thread packs with. */
+/* The state of one thread. */
 typedef struct worker {
     job *job;
     exr_encode_pipeline_t pipeline;
-    uint8_t *samples; /* the chunk's channels as they are stored, one after another */
+    uint8_t *samples; /* the chunk's channels in the stored format, one after another */
     int32_t chunk;
     bool started;
 } worker;
@@ -60,7 +60,7 @@ static bool check_name(const char *path, const char *what, const char *name, cha
     return true;
 }
 
-/* Attributes that say how the pixels are stored are OpenEXR's own. */
+/* Attributes that OpenEXR sets itself. */
 static bool reserved(const char *name)
 {
     static const char *const names[] = {
@@ -208,7 +208,7 @@ static uint16_t half_of(float value)
     return imath_float_to_half(value);
 }
 
-/* Samples need not be aligned: they are read by memcpy. */
+/* Samples may be unaligned, so they are read by memcpy. */
 static void gather_row(const exr_channel *channel, uint32_t width, const uint8_t *from, uint8_t *to)
 {
     size_t stride = channel->stride ? channel->stride : 4;
@@ -225,7 +225,7 @@ static void gather_row(const exr_channel *channel, uint32_t width, const uint8_t
     }
 }
 
-/* Converts a chunk's channels to what is stored and points the pipeline at them. */
+/* Converts a chunk's channels to the stored format and sets them as the pipeline's input. */
 static void gather_chunk(worker *worker, int32_t first_line, int32_t lines)
 {
     const exr_frame *frame = worker->job->frame;
@@ -249,19 +249,19 @@ static void gather_chunk(worker *worker, int32_t first_line, int32_t lines)
 }
 
 /* Called by the pipeline between compressing and writing. */
-static exr_result_t wait_for_turn(exr_encode_pipeline_t *pipeline)
+static exr_result_t wait_for_earlier_chunks(exr_encode_pipeline_t *pipeline)
 {
     worker *worker = pipeline->encoding_user_data;
     job *job = worker->job;
-    /* Readers treat a chunk of exactly the raw size as uncompressed, but OpenEXR 3.1.5 leaves the
-     * compressed bytes in place where compressing came out at exactly the raw size. */
+    /* Readers treat a chunk of exactly the raw size as uncompressed. OpenEXR 3.1.5 does not: if the compressed size
+     * equals the raw size, it writes the compressed bytes. */
     if (pipeline->compressed_bytes == pipeline->packed_bytes &&
         pipeline->compressed_buffer != pipeline->packed_buffer &&
         (job->frame->packing == EXR_PACKING_ZIP || job->frame->packing == EXR_PACKING_ZIPS))
         memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
     pthread_mutex_lock(&job->mutex);
     while (job->written != worker->chunk && job->result == EXR_ERR_SUCCESS)
-        pthread_cond_wait(&job->turn, &job->mutex);
+        pthread_cond_wait(&job->chunk_written, &job->mutex);
     exr_result_t result = job->result;
     pthread_mutex_unlock(&job->mutex);
     return result;
@@ -284,7 +284,7 @@ static exr_result_t encode_chunk(worker *worker)
         worker->started = true;
         result = exr_encoding_choose_default_routines(job->file, 0, pipeline);
         pipeline->encoding_user_data = worker;
-        pipeline->yield_until_ready_fn = wait_for_turn;
+        pipeline->yield_until_ready_fn = wait_for_earlier_chunks;
     }
     return result == EXR_ERR_SUCCESS ? exr_encoding_run(job->file, 0, pipeline) : result;
 }
@@ -303,7 +303,7 @@ static void *work(void *data)
             job->written++;
         else if (job->result == EXR_ERR_SUCCESS)
             job->result = result;
-        pthread_cond_broadcast(&job->turn);
+        pthread_cond_broadcast(&job->chunk_written);
     }
     pthread_mutex_unlock(&job->mutex);
     return NULL;
@@ -317,7 +317,7 @@ static size_t chunk_bytes(const job *job)
     return pixel * job->frame->width * (size_t)job->lines_per_chunk;
 }
 
-/* The calling thread is one of the workers, so that a machine that gives no second one still writes. */
+/* The calling thread is one of the workers, so that writing works if no second thread can be created. */
 static exr_result_t write_chunks(job *job)
 {
     worker workers[MAX_THREADS] = {0};
@@ -346,7 +346,7 @@ static exr_result_t write_chunks(job *job)
 
 /* ---- the file ---- */
 
-/* Our own output keeps the system's reason of a failed write, which OpenEXR's result codes lose. */
+/* Our own output keeps errno of a failed write; OpenEXR's result codes do not have it. */
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *data, uint64_t size, uint64_t offset,
                            exr_stream_error_func_ptr_t report)
 {
@@ -396,9 +396,9 @@ bool exr_write(const char *path, const exr_frame *frame, char *error, size_t err
         return false;
     }
     pthread_mutex_init(&job.mutex, NULL);
-    pthread_cond_init(&job.turn, NULL);
+    pthread_cond_init(&job.chunk_written, NULL);
     exr_result_t result = write_picture(&job, path, &output);
-    pthread_cond_destroy(&job.turn);
+    pthread_cond_destroy(&job.chunk_written);
     pthread_mutex_destroy(&job.mutex);
     free(job.order);
     if (result == EXR_ERR_SUCCESS || output.failure)

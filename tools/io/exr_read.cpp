@@ -1,6 +1,5 @@
-// exr_read.cpp - reads OpenEXR pictures of every compression, scan lines or tiles, through the C++ library.
-//
-// This is C++ because OpenEXR's C core knows no DWA. No exception leaves this file.
+// exr_read.cpp - reads OpenEXR pictures of all compressions, scan lines or tiles, with the C++ library. This is C++
+// because OpenEXR's C core does not support DWA. No exception leaves this file.
 #include "exr.h"
 
 #include <ImfChannelList.h>
@@ -31,7 +30,7 @@ struct release {
         std::free(data);
     }
 };
-using bytes = std::unique_ptr<unsigned char, release>; // what the C side will free()
+using bytes = std::unique_ptr<unsigned char, release>; // to be freed by free() in C
 
 struct reader {
     const char *path;
@@ -56,7 +55,7 @@ struct reader {
     }
 };
 
-// OpenEXR begins many reasons with the path, which our line already has.
+// OpenEXR's reasons often begin with the path, which our line already has.
 std::string reason_of(const std::exception &problem, const char *path)
 {
     std::string text = problem.what();
@@ -65,7 +64,7 @@ std::string reason_of(const std::exception &problem, const char *path)
     return at == std::string::npos ? text : text.substr(at + quoted.size());
 }
 
-// OpenEXR's reasons for a missing file, an empty file and a file of another kind are much alike.
+// OpenEXR's reasons hardly distinguish a missing file, an empty file and a file of another format.
 bool check_start(const reader &reader)
 {
     std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(reader.path, "rb"), std::fclose);
@@ -113,7 +112,7 @@ struct picture {
         return file.header().channels().findChannel(name);
     }
 
-    // "R, A, Z": what a person needs to see beside the name of what is missing.
+    // The channels of the file, "R, A, Z", for the error about a missing one.
     std::string channel_names() const
     {
         std::string names;
@@ -264,7 +263,7 @@ bool read_header(const reader &reader, exr_header *header, exr_text *texts, uint
     return true;
 }
 
-// Runs `action` so that whatever is thrown in it becomes an error line.
+// Runs `action`. An exception becomes an error line.
 template <typename action> bool guarded(const reader &reader, action act)
 {
     try {

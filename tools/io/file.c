@@ -54,7 +54,7 @@ static bool hold(int descriptor)
 {
     struct stat info;
     while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR)
-        ; /* where the file system has no locks, file_clean gets none either and keeps the file */
+        ; /* on a file system without locks, file_clean gets none either and keeps the file */
     return fstat(descriptor, &info) == 0 && info.st_nlink > 0;
 }
 
@@ -79,7 +79,7 @@ bool file_start(file_writer *file, const char *path, char *error, size_t error_s
     if (file->path && in_place) {
         file->descriptor = open(path, O_WRONLY | O_CLOEXEC);
     } else if (file->path) {
-        /* A name left behind by a killed process that had our number is passed over. */
+        /* A killed process with the same id may have left a file with this name. */
         for (int tries = 0; tries < 100 && file->descriptor < 0; tries++) {
             free(file->temporary);
             file->temporary = temporary_name(path);
@@ -108,7 +108,7 @@ static bool fail(file_writer *file, int code)
     return false;
 }
 
-/* `at` is NULL where the file continues: a pipe has no offsets. */
+/* Writes at an offset, or, if it is NULL, appends: a pipe has no offsets. */
 static bool write_all(file_writer *file, const char *data, size_t size, const uint64_t *at)
 {
     for (size_t done = 0; done < size;) {
@@ -161,7 +161,8 @@ void file_abandon(file_writer *file)
     release(file);
 }
 
-/* The writer of a file holds its lock. It is removed under the lock, so that no new writer can open it meanwhile. */
+/* The writer of a file holds its lock. The file is removed under the lock, so that no new writer can open it meanwhile.
+ * */
 static bool clean_one(int folder, const char *name)
 {
     struct stat info;
@@ -186,7 +187,7 @@ uint32_t file_clean(const char *folder)
     return count;
 }
 
-/* read() until the end rather than trust the size: a pipe has none. */
+/* Reads until the end, because a pipe has no size. */
 static bool read_all(int descriptor, size_t limit, char **data, size_t *size, int *code)
 {
     size_t room = 0;

@@ -2,7 +2,7 @@
  *
  * A file is written under a temporary name in its folder and renamed when it is whole. A reader never sees half of it,
  * and an older file stays until the new one is complete. What is not a regular file (a pipe, /dev/full) is written
- * directly. Errors are one line: what could not be done, the path, and the system's reason.
+ * directly. Errors are one line: what failed, the path, and the system's reason.
  *
  * A temporary file is locked while it is written. So file_clean can remove those of killed programs and keep those of
  * running ones, also on another machine that shares the folder. */
@@ -15,7 +15,7 @@
 
 typedef struct file_writer {
     char *path;      /* the final name */
-    char *temporary; /* the name while it is written; NULL where the file is written directly */
+    char *temporary; /* its name while it is written; NULL if the file is written directly */
     int descriptor;
     int failure; /* errno of the first write that failed; 0: none */
 } file_writer;
@@ -34,16 +34,17 @@ bool file_start(file_writer *file, const char *path, char *error, size_t error_s
 bool file_write(file_writer *file, const void *data, size_t size);
 bool file_write_at(file_writer *file, const void *data, size_t size, uint64_t offset);
 
-/* Closes and renames; on any failure, also of an earlier write, removes the temporary file and says why. */
+/* Closes and renames the file. On any failure, also of an earlier write, it removes the temporary file and writes the
+ * reason into `error`. */
 bool file_finish(file_writer *file, char *error, size_t error_size);
 
 /* Removes what was written so far. */
 void file_abandon(file_writer *file);
 
-/* Removes from a folder the temporary files that nobody writes any more. Returns how many there were. */
+/* Removes temporary files of killed programs from a folder. Returns their number. */
 uint32_t file_clean(const char *folder);
 
-/* Whole file into malloc'ed memory with a 0 byte behind it. Refuses files larger than `limit` bytes. */
+/* Reads a whole file, to be freed by free(). A 0 byte follows the data. Refuses files larger than `limit` bytes. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, char *error, size_t error_size);
 
 #endif

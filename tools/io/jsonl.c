@@ -16,7 +16,7 @@
 
 /* ---- the file ---- */
 
-/* Length of the file up to and with its last line end. */
+/* Length of the file up to its last line end. */
 static bool whole_lines(int descriptor, off_t size, off_t *length)
 {
     char block[4096];
@@ -48,14 +48,14 @@ static bool cut_half_line(int descriptor)
            (length == info.st_size || ftruncate(descriptor, length) == 0);
 }
 
-/* Moves the lines that may stay to the front of the text and returns their length. */
+/* Moves the kept lines to the front of the text and returns their length. */
 static size_t filter_lines(char *text, size_t size, bool (*keep)(void *user, const char *line), void *user)
 {
     size_t kept = 0;
     for (char *line = text, *stop; (stop = memchr(line, '\n', size - (size_t)(line - text))); line = stop + 1) {
         size_t length = (size_t)(stop - line) + 1;
         *stop = 0;
-        /* A line with a 0 in it is none of ours: some file systems leave zeros where the power went. */
+        /* A line that contains a 0 is invalid. Some file systems leave zeros after a power failure. */
         bool stays = strlen(line) + 1 == length && keep(user, line);
         *stop = '\n';
         if (!stays)
@@ -89,7 +89,7 @@ bool jsonl_filter(const char *path, bool (*keep)(void *user, const char *line), 
 
 bool jsonl_open(jsonl *file, const char *path, jsonl_mode mode, char *error, size_t error_size)
 {
-    /* A pipe cannot be opened for reading too without becoming its own reader. */
+    /* A pipe that is opened for reading as well would be its own reader. */
     struct stat info;
     bool regular = stat(path, &info) != 0 || S_ISREG(info.st_mode);
     int access = mode == JSONL_APPEND && regular ? O_RDWR : O_WRONLY;
@@ -135,7 +135,7 @@ static void put(jsonl *file, const char *text, size_t size)
     file->used += size;
 }
 
-/* Bytes of the UTF-8 character at `s`; 0 if it is none (cut short, longer than needed, half of a pair, too large). */
+/* Bytes of the UTF-8 character at `s`; 0 if it is invalid (truncated, overlong, a surrogate, too large). */
 static size_t utf8_length(const unsigned char *s)
 {
     size_t length = s[0] < 0x80                   ? 1
@@ -273,7 +273,7 @@ void jsonl_end(jsonl *file)
     file->comma = true;
 }
 
-/* Removes a line that was written only in part. */
+/* Writes the line. If that fails, removes the part that was written. */
 static int write_line(const jsonl *file)
 {
     ssize_t done;

@@ -56,7 +56,7 @@ static char *make_header(const ply_property *properties, uint32_t property_count
         return NULL;
     fputs("ply\nformat binary_little_endian 1.0\n", header);
     for (; comments && *comments; comments++)
-        /* A line end would let a comment become a header line of its own. */
+        /* The comment ends at a line end, which would begin another line of the header. */
         fprintf(header, "comment %.*s\n", (int)strcspn(*comments, "\r\n"), *comments);
     fprintf(header, "element vertex %llu\n", (unsigned long long)count);
     for (uint32_t i = 0; i < property_count; i++)
@@ -107,7 +107,7 @@ bool ply_write(const char *path, const ply_property *properties, uint32_t proper
 
 /* ---- reading ---- */
 
-/* A header while it is read. Lines are cut where they are: `line` ends with 0. */
+/* The state while a header is read. Lines are terminated in the buffer: `line` ends with 0. */
 typedef struct header {
     const char *path;
     char *next, *end;

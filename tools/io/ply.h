@@ -17,8 +17,8 @@ typedef struct ply_property {
     size_t offset; /* bytes into a row */
 } ply_property;
 
-/* Writes `count` rows that are `stride` bytes apart, under a temporary name, and renames. `comments` (may be NULL) ends
- * with NULL; each is one line of the header. No rows make a valid file of no points. */
+/* Writes `count` rows that are `stride` bytes apart, under a temporary name, and renames the file. `comments` (may be
+ * NULL) ends with NULL; each is one line of the header. A file without rows is valid. */
 bool ply_write(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
                size_t stride, uint64_t count, const char *const *comments, char *error, size_t error_size);
 
@@ -36,14 +36,14 @@ typedef struct ply_points {
     } * values;
 } ply_points;
 
-/* Reads binary little-endian files whose first element is vertex with float and uint (float32, uint32) properties;
- * elements behind it are left out. */
+/* Reads binary little-endian files whose first element is vertex, with float and uint (float32, uint32) properties.
+ * Other elements are ignored. */
 bool ply_read(const char *path, ply_points *points, char *error, size_t error_size);
 
 /* Index of a property; -1 if there is none. */
 int ply_find(const ply_points *points, const char *name);
 
-/* Frees what ply_read gave; zeroed points are fine. */
+/* Frees the result of ply_read. Accepts points that are all zero. */
 void ply_free(ply_points *points);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* stb declares functions that the switches below leave out; GCC says so at the end of the file, behind any pop. */
+/* stb declares functions that the macros below leave undefined. GCC warns at the end of the file, after any pop. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -42,7 +42,7 @@ bool png_write(const char *path, uint32_t width, uint32_t height, uint32_t chann
     file_writer file;
     if (!width || !height || width > PNG_MAX_SIDE || height > PNG_MAX_SIDE || (channels != 3 && channels != 4))
         return refuse(error, error_size, "write", path, "expected 1 to 16384 pixels on each side, RGB or RGBA");
-    /* stb counts bytes in an int and doubles its buffers. */
+    /* stb has sizes as int and doubles its buffers. */
     if (((uint64_t)width * channels + 1) * height > INT_MAX / 2)
         return refuse(error, error_size, "write", path, "larger than 1 GiB");
     if (!file_start(&file, path, error, error_size))
@@ -63,7 +63,7 @@ bool png_read_memory(const void *data, size_t size, const char *what, uint32_t *
         return refuse(error, error_size, "read", what, "the file is empty");
     if (size > MAX_FILE)
         return refuse(error, error_size, "read", what, "larger than 1 GiB");
-    /* stb knows the format only by trying, and its reasons speak of whichever it tried last. */
+    /* stb tries one format after the other, and its reason is about the last one. */
     if (!stbi_info_from_memory(data, (int)size, &across, &down, &channels))
         return refuse(error, error_size, "read", what,
                       "not a PNG or JPEG picture of at most 16384 pixels on each side");
@@ -93,7 +93,7 @@ bool png_read(const char *path, uint32_t *width, uint32_t *height, uint8_t **rgb
 
 /* ---- numbers */
 
-/* Where a PNG's first chunk says how its pixels are stored, and what it says there. */
+/* Offsets in the first chunk of a PNG, and values there. */
 enum { CHUNKS = 8, DEPTH = 24, COLOR = 25, FIRST_END = 33, GREY = 0, PALETTE = 3 };
 
 static bool is_png(const uint8_t *data, size_t size)
@@ -102,9 +102,9 @@ static bool is_png(const uint8_t *data, size_t size)
     return size >= FIRST_END && !memcmp(data, begins, sizeof begins);
 }
 
-/* stb returns the colours of a palette, never the numbers of its entries. But what is called grey it returns as it is,
- * and it does not look at checksums. The transparency of a palette's entries would be wrong in a grey picture, so its
- * chunk gets a name that nobody reads. */
+/* stb returns the colors of a palette, never its indices. But it returns grey values unchanged, and it does not check
+ * checksums. So this declares the picture as grey. The chunk with the transparency of palette entries would be wrong in
+ * a grey picture, so it gets a name that stb skips. */
 static void call_grey(uint8_t *png, size_t size)
 {
     static const uint8_t unread[4] = {'s', 'k', 'i', 'p'};
@@ -120,8 +120,8 @@ static void call_grey(uint8_t *png, size_t size)
     }
 }
 
-/* The first of the channels of each pixel, in place. Few bits are stretched to 8 by stb where it takes them for grey,
- * which is right for grey, but not for a palette. */
+/* Keeps the first channel of each pixel, in place. stb scales grey values of fewer bits to 8 bits, which is right for
+ * grey, but not for indices. */
 static void keep_first_channel(uint8_t *pixels, size_t count, int channels, int stretch)
 {
     for (size_t i = 0; i < count; i++)

@@ -1,4 +1,4 @@
-/* png.h - 8 bit pictures: PNG out, PNG and JPEG in, PNG as numbers, and the tone curve of previews. */
+/* png.h - 8 bit pictures: writes PNG, reads PNG and JPEG, reads PNG as numbers; and the tone curve of previews. */
 #ifndef VIRGA_IO_PNG_H
 #define VIRGA_IO_PNG_H
 
@@ -12,20 +12,20 @@
 bool png_write(const char *path, uint32_t width, uint32_t height, uint32_t channels, const uint8_t *pixels, char *error,
                size_t error_size);
 
-/* Reads a PNG or JPEG file as RGBA, alpha 255 where it has none, to be freed by free(). */
+/* Reads a PNG or JPEG file as RGBA, to be freed by free(). Alpha is 255 if the file has none. */
 bool png_read(const char *path, uint32_t *width, uint32_t *height, uint8_t **rgba, char *error, size_t error_size);
 
 /* The same from memory; `what` names the picture in errors. */
 bool png_read_memory(const void *data, size_t size, const char *what, uint32_t *width, uint32_t *height, uint8_t **rgba,
                      char *error, size_t error_size);
 
-/* Reads a PNG file whose pixels are numbers rather than colours, one byte each, to be freed by free(): the number of
- * the palette's entry where it has a palette, else the first channel as it stands. 16 bits a channel are refused. */
+/* Reads a PNG file whose pixels are numbers, not colors, one byte each, to be freed by free(). A number is the index
+ * into the palette if there is one, else the value of the first channel. 16 bits per channel are refused. */
 bool png_read_numbers(const char *path, uint32_t *width, uint32_t *height, uint8_t **numbers, char *error,
                       size_t error_size);
 
-/* Display bytes of linear light: exposure in stops, the tone curve of png_tone, sRGB. Alpha is dropped: a preview shows
- * what the camera sees. NaN and negative light show as black. `rgb` holds 3 bytes per pixel. */
+/* Converts linear light to display values: exposure in stops, the tone curve of png_tone, then sRGB. Ignores alpha. NaN
+ * and negative values become black. `rgb` has 3 bytes per pixel. */
 void png_from_linear(const float *rgba, size_t pixels, float exposure_ev, uint8_t *rgb);
 
 /* The tone curve alone: linear light in, linear display light [0; 1] out. Identity up to 0.6, then a rational shoulder

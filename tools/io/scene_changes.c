@@ -1,4 +1,4 @@
-/* scene_changes.c - what has to be overridden in one scene for it to become another. */
+/* scene_changes.c - finds the overrides that turn one scene into another. */
 #include "scene_changes.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 /* ---- lists ---------------------------------------------------------------------------------------------------- */
 
-/* Entries that count: a file must not have those of a list that is not used. */
+/* The number of entries to write: a file must not have entries of an unused list. */
 static uint32_t used_length(const scene_list *list)
 {
     return list->used ? list->count : 0;
@@ -22,14 +22,14 @@ static bool lies_in(const char *path, const char *list_path)
     return !strncmp(path, list_path, length) && path[length] == '.';
 }
 
-/* Calls `visit` for each list that has more or fewer entries than before, until it returns true. */
+/* Calls `visit` for each list whose length has changed, until it returns true. */
 static bool each_change(scene_file *now, scene_file *before,
                         bool (*visit)(const scene_list *list, uint32_t used, void *user), void *user)
 {
     size_t now_count, before_count;
     bool done = false;
     scene_list *new_lists = scene_lists(now, &now_count), *old_lists = scene_lists(before, &before_count);
-    const char *whole = NULL; /* the last one visited: lists inside it are part of it */
+    const char *whole = NULL; /* the newest visited list; lists inside it are part of it */
     for (size_t i = 0; new_lists && old_lists && !done && i < now_count; i++) {
         const scene_list *list = &new_lists[i], *old = scene_lists_find(old_lists, before_count, list->path);
         const uint32_t used = used_length(list);
@@ -58,7 +58,7 @@ typedef struct writing {
 
 static size_t write_entries(const writing *w, size_t at, const char *prefix, uint32_t used);
 
-/* Writes the settings under a prefix from `at` on as "key: value". Returns the index behind them. */
+/* Writes the settings under a prefix, from index `at` on, as "key: value". Returns the next index. */
 static size_t write_fields(const writing *w, size_t at, const char *prefix)
 {
     const size_t length = strlen(prefix);
@@ -66,7 +66,7 @@ static size_t write_fields(const writing *w, size_t at, const char *prefix)
     while (at < w->setting_count && !strncmp(w->settings[at].path, prefix, length)) {
         const scene_setting *setting = &w->settings[at];
         const char *key = setting->path + length, *dot = strchr(key, '.');
-        char value[SCENE_SETTING_ROOM], inside[120];
+        char value[SCENE_SETTING_BYTES], inside[120];
         if (dot) {
             snprintf(inside, sizeof inside, "%.*s", (int)(dot - setting->path), setting->path);
             const scene_list *list = scene_lists_find(w->lists, w->list_count, inside);
@@ -83,8 +83,8 @@ static size_t write_fields(const writing *w, size_t at, const char *prefix)
     return at;
 }
 
-/* Writes "[{...}, {...}]" of the settings from `at` on whose paths begin with `prefix` and a number: the first `used`
- * entries. Returns the index behind all entries. */
+/* Writes the first `used` entries of a list as "[{...}, {...}]": the settings from index `at` on whose paths begin with
+ * `prefix` and a number. Returns the index after all entries. */
 static size_t write_entries(const writing *w, size_t at, const char *prefix, uint32_t used)
 {
     const size_t length = strlen(prefix);
@@ -137,7 +137,7 @@ static size_t write_lists(FILE *out, scene_file *now, scene_file *before)
 /* ---- settings ------------------------------------------------------------------------------------------------- */
 
 typedef struct texts {
-    char *memory; /* one behind the other, each with its 0 */
+    char *memory; /* one after another, each ends with 0 */
     size_t size, count;
 } texts;
 
@@ -146,15 +146,15 @@ static bool append_change(FILE *out, const char *path, const char *value)
     return fprintf(out, "%s=%s", path, value) > 0 && fputc(0, out) != EOF;
 }
 
-/* Writes settings that differ. Those in lists that have more or fewer entries were written with their lists. */
+/* Writes settings that differ. Those in lists whose length has changed were written with their lists. */
 static size_t write_changes(FILE *out, scene_file *now_scene, scene_file *before_scene, const scene_setting *now,
                             size_t now_count, scene_setting *before, size_t before_count)
 {
     size_t changes = 0;
     for (size_t i = 0; i < now_count; i++) {
-        char value[SCENE_SETTING_ROOM], old[SCENE_SETTING_ROOM];
+        char value[SCENE_SETTING_BYTES], old[SCENE_SETTING_BYTES];
         const scene_setting *was = scene_settings_find(before, before_count, now[i].path);
-        if (!was || now[i].kind == SCENE_SETTING_TEXT) /* of such a list; or not to be changed at all */
+        if (!was || now[i].kind == SCENE_SETTING_TEXT) /* in such a list, or it can not change */
             continue;
         scene_setting_print(&now[i], value, sizeof value);
         scene_setting_print(was, old, sizeof old);
@@ -164,7 +164,7 @@ static size_t write_changes(FILE *out, scene_file *now_scene, scene_file *before
     return changes;
 }
 
-/* An array of pointers, and the texts behind it. */
+/* An array of pointers, followed by the texts. */
 static char **gather_texts(const texts *from)
 {
     char **pointers = malloc((from->count + 1) * sizeof *pointers + from->size);

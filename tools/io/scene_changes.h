@@ -1,4 +1,4 @@
-/* scene_changes.h - what was changed in a loaded scene, and how it becomes a scene file again. */
+/* scene_changes.h - lists the changes of a loaded scene, and saves them as a scene file. */
 #ifndef VIRGA_IO_SCENE_CHANGES_H
 #define VIRGA_IO_SCENE_CHANGES_H
 
@@ -8,13 +8,12 @@
 extern "C" {
 #endif
 
-/* What has to be overridden in `before` for it to become `now`: `*count` texts "path=value" in one piece of memory, to
- * be freed by free(). Lists that have more or fewer entries (see scene_lists.h) are written whole. NULL without
- * memory. */
+/* The overrides that turn `before` into `now`: `*count` texts "path=value" in one allocation, to be freed by free(). A
+ * list whose length has changed (see scene_lists.h) is written as a whole. NULL if there is no memory. */
 char **scene_settings_changes(scene_file *now, scene_file *before, size_t *count);
 
-/* Writes a scene file: the keys of the file `source`, with overrides as in scene_file_load. The result must pass the
- * check. Names of files become absolute where the new file is in another folder. Comments are lost. */
+/* Writes a scene file: the keys of the file `source`, with overrides as in scene_file_load. The result must be valid.
+ * Names of files become absolute if the new file is in another folder. Comments are lost. */
 bool scene_settings_save(const char *source, const scene_section *const *sections, const char *const *overrides,
                          size_t override_count, const char *path, char *error, size_t error_size);
 

@@ -1,4 +1,4 @@
-/* scene_check.c - walks a document and the schema together, and says what is wrong with line, range and suggestion. */
+/* scene_check.c - checks a document against the schema. Errors have a line, the expected range and a suggestion. */
 #include "scene_check.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 #define MAX_PATH 256
 #define MAX_KEYS 96
 
-/* Where the walk is. */
+/* The state of the walk. */
 typedef struct walk {
     scene_document *document;
     const scene_format *format;
-    char path[MAX_PATH]; /* "lights.0.range_m", for people */
+    char path[MAX_PATH]; /* "lights.0.range_m", for error lines */
 } walk;
 
-/* Appends to the path, and returns the length to go back to. */
+/* Appends to the path and returns its previous length. */
 static size_t enter_key(walk *at, const char *key)
 {
     const size_t back = strlen(at->path);
@@ -87,7 +87,7 @@ static const char *same_but_unit(const char *key, const char *const *keys, size_
     return NULL;
 }
 
-/* Finds a key of that name elsewhere in the schema; `path` gets it as "rain.rate_mm_h". */
+/* Finds a key of that name elsewhere in the schema, and writes its path, e.g. "rain.rate_mm_h". */
 static bool find_elsewhere(const scene_group *group, const char *above, const char *key, char path[MAX_PATH])
 {
     for (uint32_t i = 0; i < group->count; i++) {
@@ -129,7 +129,7 @@ static bool unknown_key(walk *at, int key_node, const scene_group *group)
 
 /* ---- single values -------------------------------------------------------------------------------------------- */
 
-/* strtod alone would take "inf", "nan" and "0x1p4". */
+/* strtod alone would accept "inf", "nan" and "0x1p4". */
 static bool read_number(const char *text, double *value)
 {
     char *end;
@@ -224,7 +224,7 @@ static bool check_list(walk *at, int node, const scene_row *row)
                                    row->min_count, row->max_count, count);
     for (size_t i = 0; i < count; i++) {
         const size_t back = enter_entry(at, i);
-        /* Defaults are added on the way, and that moves nodes: look it up anew. */
+        /* Adding defaults moves nodes, so the node is looked up again. */
         int entry = node_of(at, node)->data.sequence.items.start[i];
         if (!(row->group ? check_group(at, entry, row->group) : check_text(at, entry, row)))
             return false;
@@ -260,8 +260,8 @@ static bool check_keys(walk *at, int node, const scene_group *group)
     return true;
 }
 
-/* Adds the default where a key is missing. Groups and lists that were left empty count as missing, and are removed
- * where there is no default. `rate_mm_h:` with nothing behind it does not count as missing: a number was forgotten. */
+/* Adds the default of a missing key. Empty groups and lists count as missing, and are removed if there is no default.
+ * `rate_mm_h:` without a value does not count as missing, because the number was forgotten. */
 static bool fill_in(walk *at, int node, const scene_row *row)
 {
     const bool nested = row->type == SCENE_TYPE_GROUP || row->type == SCENE_TYPE_LIST;

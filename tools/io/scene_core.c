@@ -59,7 +59,7 @@ static const scene_row camera_rows[] = {
            "width of the lens's opening: streaks out of focus are blurred by it"),
     NUMBER(scene_camera, focus_m, 0, 1e6, "0", LIVE, "distance at which streaks are sharp; 0: infinity"),
     LIST(scene_camera, keys, key_count, &camera_key_group, 1, 100000, NULL,
-         "places on the camera's path, by rising time"),
+         "positions on the camera's path, in order of time"),
 };
 static const scene_group camera_group = SCENE_GROUP(scene_camera, camera_rows);
 
@@ -111,7 +111,7 @@ static bool check_camera(const scene_file *scene, char *error, size_t error_size
         }
         if (!memcmp(now->position_m, now->look_at_m, sizeof now->position_m)) {
             snprintf(key, sizeof key, "camera.keys.%u.look_at_m", i);
-            return scene_file_refuse(scene, key, error, error_size, "expected another place than position_m");
+            return scene_file_refuse(scene, key, error, error_size, "expected another position than position_m");
         }
     }
     return true;

@@ -10,17 +10,17 @@
 
 /* ---- where a node comes from ---------------------------------------------------------------------------------- */
 
-/* A node that came from an override has this, minus the override's number, instead of its offset into the file. */
+/* Nodes of an override have this value minus the override's index, instead of an offset into the file. */
 #define OVERRIDE_MARK SIZE_MAX
 #define MAX_OVERRIDES 65536
-#define MAX_DEPTH     100 /* brackets in brackets; scenes need 4 */
+#define MAX_DEPTH     100 /* nested brackets; scenes need 4 */
 
 static yaml_node_t *get(const scene_document *document, int node)
 {
     return node ? yaml_document_get_node((yaml_document_t *)&document->yaml, node) : NULL;
 }
 
-/* Bytes that would break the line or the terminal become '?'; UTF-8 stays. */
+/* Replaces control characters by '?'. UTF-8 is not changed. */
 static void make_printable(char *text)
 {
     for (; *text; text++)
@@ -44,7 +44,7 @@ bool scene_document_fail(const scene_document *document, int node, const char *f
     char where[4200] = "";
     const yaml_node_t *at = get(document, node);
     if (!document->path)
-        ; /* the value of an override, whose name comes before it */
+        ; /* the value of an override; the caller writes its name */
     else if (at && OVERRIDE_MARK - at->start_mark.index < MAX_OVERRIDES)
         snprintf(where, sizeof where, "--set %.120s", document->overrides[OVERRIDE_MARK - at->start_mark.index]);
     else if (at)
@@ -97,7 +97,7 @@ static bool fail_on_line(const scene_document *document, size_t line, const char
     return false;
 }
 
-/* libyaml's own reason, with the line where it stopped. The end of the file counts as the last line. */
+/* libyaml's reason, with the line where it stopped. The end of the file counts as the last line. */
 static bool parse_problem(const scene_document *document, const yaml_parser_t *parser, const char *text, size_t size)
 {
     bool context = parser->context && parser->error != YAML_READER_ERROR;
@@ -110,7 +110,7 @@ static bool parse_problem(const scene_document *document, const yaml_parser_t *p
                         context ? ", " : "", context ? parser->context : "");
 }
 
-/* Every node may stand in one place only, which also rules out cycles and files that unfold to more than memory. */
+/* Every node may be referenced only once. This also excludes cycles, and files that expand to more than memory. */
 static bool count_reference(const scene_document *document, int node, unsigned char *seen)
 {
     if (seen[node])
@@ -142,8 +142,8 @@ static bool refuse_aliases(const scene_document *document)
     return ok;
 }
 
-/* Offset of the bracket that opens too many levels, or `size`. libyaml has a limit of its own, but comes to it only
- * after a time that grows with the square of the levels. Brackets in quotes count too, as nobody writes so many. */
+/* Offset of the bracket that opens too many levels, or `size`. libyaml has its own limit, but reaches it in a time that
+ * grows with the square of the levels. Brackets in quotes count too, because no scene has that many. */
 static size_t find_deep_nesting(const char *text, size_t size)
 {
     size_t depth = 0;
@@ -276,7 +276,7 @@ int scene_document_member(scene_document *document, int mapping, const char *key
     return pair ? pair->value : 0;
 }
 
-/* A list index, or -1 for what is none. */
+/* A list index; -1 if the step is not a number. */
 static long list_index(const char *step)
 {
     if (!*step || strlen(step) > 6 || strspn(step, "0123456789") != strlen(step))
@@ -284,7 +284,7 @@ static long list_index(const char *step)
     return strtol(step, NULL, 10);
 }
 
-/* Copies the first step of a path and moves the path behind its dot. False for an empty or overlong step. */
+/* Copies the first step of a path and advances the path past its dot. False if the step is empty or too long. */
 static bool next_step(const char **path, char step[64])
 {
     size_t length = strcspn(*path, ".");
@@ -322,8 +322,8 @@ static int add_scalar(scene_document *document, const char *text, size_t length,
     return yaml_document_add_scalar(&document->yaml, NULL, (const yaml_char_t *)text, (int)length, style);
 }
 
-/* Copies a tree, every node with the mark; 0 without memory. `from` may be the document's own: adding nodes moves the
- * old ones, so they are looked up anew after each. */
+/* Copies a tree and sets the mark of all its nodes; 0 if there is no memory. `from` may be the document itself. Adding
+ * a node moves the others, so they are looked up again after each. */
 static int copy_tree(scene_document *document, yaml_document_t *from, int node, const yaml_mark_t *mark)
 {
     yaml_node_t source = *yaml_document_get_node(from, node);
@@ -354,7 +354,7 @@ static int copy_tree(scene_document *document, yaml_document_t *from, int node, 
     return copy;
 }
 
-/* Parses a value and copies it in. `problem` gets what is wrong with it. */
+/* Parses a value and adds a copy. `problem` gets the error line. */
 static int add_value(scene_document *document, const char *text, const yaml_mark_t *mark, char *problem, size_t room)
 {
     scene_document value = {.error = problem, .error_size = room};
@@ -391,7 +391,7 @@ static bool append_pair(scene_document *document, int mapping, const char *key, 
     return yaml_document_append_mapping_pair(&document->yaml, mapping, name, value);
 }
 
-/* Puts a node under a key; an empty value in the file gives way. */
+/* Sets the value of a key. It replaces an empty value. */
 static bool put_member(scene_document *document, int mapping, const char *key, int node, const yaml_mark_t *mark)
 {
     yaml_node_pair_t *pair = find_pair(document, mapping, key);
@@ -431,10 +431,10 @@ void scene_document_remove(scene_document *document, int mapping, const char *ke
 
 /* ---- overrides ------------------------------------------------------------------------------------------------ */
 
-/* What a step of an override's path leads to: an existing node, or a slot to put one into. */
+/* The result of a step of an override's path: an existing node, or the slot for a new one. */
 typedef struct slot {
     int parent;    /* mapping or list */
-    int node;      /* what is there now, or 0 */
+    int node;      /* the existing node, or 0 */
     char step[64]; /* key or index */
 } slot;
 
@@ -476,7 +476,7 @@ static bool put(scene_document *document, const slot *at, int node, const yaml_m
     return true;
 }
 
-/* Makes the list or mapping that the next step needs. */
+/* Creates the list or mapping that the next step needs. */
 static int make_room(scene_document *document, const slot *at, const char *next, const yaml_mark_t *mark)
 {
     char step[64];

@@ -1,4 +1,5 @@
-/* scene_document.h - a YAML document as a tree whose nodes know where they come from. Internal to scene files. */
+/* scene_document.h - a YAML document whose nodes have their origin: a line of the file, or an override. Internal to
+ * scene files. */
 #ifndef VIRGA_IO_SCENE_DOCUMENT_H
 #define VIRGA_IO_SCENE_DOCUMENT_H
 
@@ -20,8 +21,8 @@ typedef struct scene_document {
 bool scene_document_fail(const scene_document *document, int node, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Parses a file's text: one document of a mapping, without aliases and doubled keys. After success call
- * scene_document_free. The pointers are kept. */
+/* Parses a file's text: one document, which is a mapping, without aliases and duplicate keys. After success call
+ * scene_document_free. The document keeps the pointers. */
 bool scene_document_parse(scene_document *document, const char *path, const char *text, size_t size, char *error,
                           size_t error_size);
 void scene_document_free(scene_document *document);
@@ -29,10 +30,10 @@ void scene_document_free(scene_document *document);
 /* Copies the path and the overrides, so that the document can outlive them. */
 bool scene_document_keep(scene_document *document, size_t override_count);
 
-/* Sets the values of overrides; creates lists and mappings that are missing on the way. */
+/* Sets the values of overrides. Creates missing lists and mappings on their paths. */
 bool scene_document_override(scene_document *document, const char *const *overrides, size_t count);
 
-/* Adds a value, given as YAML, under a key that the mapping lacks; the errors about it point at the mapping. */
+/* Adds a value, given as YAML, under a key that the mapping does not have. Errors refer to the mapping's line. */
 bool scene_document_add(scene_document *document, int mapping, const char *key, const char *value);
 
 /* The same with a copy of the value at a path. */
@@ -44,13 +45,13 @@ void scene_document_remove(scene_document *document, int mapping, const char *ke
 /* Node at a path such as "rain.keys.0.time_s", or 0. */
 int scene_document_find(scene_document *document, const char *path);
 
-/* Value of a mapping's key, or 0; `key_node` (may be NULL) gets the key's own node. */
+/* Value of a mapping's key, or 0. `key_node` (may be NULL) is set to the node of the key. */
 int scene_document_member(scene_document *document, int mapping, const char *key, int *key_node);
 
 /* Text of a scalar node; NULL for others. */
 const char *scene_document_text(scene_document *document, int node);
 
-/* Whether a node is an empty value: nothing, ~ or null, without quotes. */
+/* Whether a node is null: empty, ~ or null, without quotes. */
 bool scene_document_is_null(scene_document *document, int node);
 
 #endif

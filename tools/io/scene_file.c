@@ -42,7 +42,7 @@ bool scene_file_refuse(const scene_file *scene, const char *key, char *error, si
     return scene_document_fail(source, scene_document_find(source, key), "%s: %s", key, text);
 }
 
-/* What the ranges of single values cannot say. */
+/* Checks what ranges of single values can not express. */
 static bool check_sections(const scene_file *scene, char *error, size_t error_size)
 {
     if (!scene_core_section.check(scene, error, error_size))
@@ -63,7 +63,7 @@ static uint64_t hash_of(const void *text, size_t size, const char *const *overri
     return hash;
 }
 
-/* Reads a parsed document. On success the document is the scene's. */
+/* Reads a parsed document. On success the scene owns the document. */
 static bool read_document(scene_document *document, const scene_section *const *sections, const char *const *overrides,
                           size_t count, scene_file **scene)
 {

@@ -22,14 +22,14 @@ extern "C" {
 #define SCENE_FILE_MAX_LIGHTS 16 /* as many as the rain reads */
 
 typedef struct scene_mesh {
-    char *file; /* as it can be opened: joined with the scene file's folder */
+    char *file; /* path, joined with the scene file's folder */
     double position_m[3];
     double rotation_deg[3]; /* about the world's X, then Y, then Z axis */
     double scale;
 } scene_mesh;
 
 typedef struct scene_environment {
-    char *file; /* a panorama, as it can be opened; NULL: a sky is made from the colours */
+    char *file; /* path of a panorama; NULL: the sky is a gradient of the three colours */
     double intensity;
     double rotation_deg; /* around +Y, counter-clockwise seen from above */
     double zenith[3], horizon[3], ground[3];
@@ -58,7 +58,7 @@ typedef struct scene_camera_key {
 typedef struct scene_camera {
     double fov_deg; /* of the picture's height */
     double near_m, far_m;
-    double aperture_mm, focus_m; /* of rain's streaks; 0: all is sharp, and sharp at infinity */
+    double aperture_mm, focus_m; /* for the focus of streaks; aperture 0: all is sharp; focus 0: sharp at infinity */
     scene_camera_key *keys;      /* at least 1, by rising time */
     uint32_t key_count;
 } scene_camera;
@@ -68,7 +68,7 @@ typedef struct scene_frames {
     uint32_t first, last; /* frame `first` is at time 0 */
     double shutter_deg;
     uint32_t size[2];
-    double preroll_s; /* it rains for so long before the first frame, in whole frames */
+    double preroll_s; /* length of the rain before the first frame, rounded to whole frames */
 } scene_frames;
 
 typedef struct scene_preview {
@@ -91,7 +91,7 @@ typedef struct scene_file {
     scene_preview preview;
     uint64_t hash;                 /* see scene_file_hash */
     struct scene_document *source; /* for scene_file_refuse */
-    scene_format *format;          /* by which it was loaded */
+    scene_format *format;          /* the format that it was loaded with */
 } scene_file;                      /* settings of effects follow, see scene_file_section */
 
 /* Loads and checks a scene. `sections` are the keys of effects; the list ends with NULL and outlives the scene.
@@ -104,18 +104,17 @@ bool scene_file_load(const char *path, const scene_section *const *sections, con
 /* Accepts NULL. */
 void scene_file_free(scene_file *scene);
 
-/* Writes one line about the value of a key ("ground.materials.0.material") that only those can judge who use it, as
- * scene_file_load would: with file and line, or with the override that brought it. Returns false. */
+/* Writes one line about the value of a key ("ground.materials.0.material") that the schema can not check, in the format
+ * of scene_file_load: with file and line, or with the override that set it. Returns false. */
 bool scene_file_refuse(const scene_file *scene, const char *key, char *error, size_t error_size, const char *format,
                        ...) __attribute__((format(printf, 5, 6)));
 
-/* 64-bit FNV-1a of the file's bytes, the overrides and the bytes of the meshes, the environment, the material map
- * and the pictures of panes that it names: the same for the same scene anywhere, another one where any of them was
- * changed. Included files of a mesh (textures beside it) do not count. Of each file of a sequence of particles, its
- * size and three parts of 4096 bytes count. */
+/* 64-bit FNV-1a of the file's bytes, the overrides, and the bytes of the files that it names: meshes, environment,
+ * material map, pictures of panes. It does not depend on where the files are. Files that a mesh includes (textures
+ * beside it) are not hashed. Of each file of a sequence of particles, the size and three parts of 4096 bytes are. */
 uint64_t scene_file_hash(const scene_file *scene);
 
-/* The settings of an effect: a struct of the section's size. NULL where the scene was loaded without the section. */
+/* The settings of an effect: a struct of the section's size. NULL if the scene was loaded without the section. */
 void *scene_file_section(const scene_file *scene, const scene_section *section);
 
 #ifdef __cplusplus

@@ -82,7 +82,7 @@ uint64_t scene_hash_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
-/* A file that cannot be read adds nothing: loading it reports why, later. */
+/* A file that can not be read adds nothing. Loading it reports the error later. */
 static void hash_file(uint64_t *hash, const char *name)
 {
     unsigned char bytes[65536];

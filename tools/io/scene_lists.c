@@ -10,7 +10,7 @@
 
 /* ---- finding them --------------------------------------------------------------------------------------------- */
 
-/* Only the scene file can give names. */
+/* Lists whose entries contain names can not change their length. */
 static bool has_names(const scene_row *list)
 {
     for (uint32_t i = 0; list->group && i < list->group->count; i++)
@@ -64,7 +64,7 @@ static bool find_one(scene_file *scene, const char *path, scene_list *list, char
 
 /* ---- growing and shrinking ------------------------------------------------------------------------------------ */
 
-/* Bytes behind the pointer that a row has in an entry. */
+/* Size of the memory that a pointer in an entry points to. */
 static size_t pointed_size(const scene_row *row, const char *entry)
 {
     switch (row->type) {
@@ -111,7 +111,7 @@ static void advance(scene_setting *setting)
  * its rate), else 0. */
 static void set_first(const scene_list *list, scene_setting *setting, scene_setting *all, size_t count)
 {
-    char path[120], value[SCENE_SETTING_ROOM], ignored[200];
+    char path[120], value[SCENE_SETTING_BYTES], ignored[200];
     if (scene_setting_reset(setting, all, count))
         return;
     const char *dot = strrchr(list->path, '.'), *key = strrchr(setting->path, '.');

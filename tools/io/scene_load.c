@@ -6,7 +6,7 @@
 
 /* ---- single values -------------------------------------------------------------------------------------------- */
 
-/* Points to memory of its own for an optional value, else to the member itself. NULL without memory. */
+/* The memory of a value: allocated for an optional value, else the member itself. NULL if there is no memory. */
 static void *value_memory(const scene_row *row, char *member, size_t size)
 {
     if (!(row->flags & SCENE_ROW_OPTIONAL))

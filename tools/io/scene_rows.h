@@ -6,14 +6,14 @@
 
 #include <stddef.h>
 
-#define MAX_METERS 1e6 /* of positions: beyond it floats on the device would step by centimetres */
+#define MAX_METERS 1e6 /* of positions: beyond it, steps of floats on the device are centimetres */
 #define UINT32_TOP 4294967295.0
 
 /* Flags. */
 #define LIVE     0 /* a change shows at once */
 #define RESTARTS SCENE_ROW_RESTARTS
 
-/* Every key has the name of its member. Defaults are YAML; NULL: the key must be given. */
+/* A key has the name of its member. Defaults are YAML; NULL: the key is required. */
 #define MEMBER(owner, name) (((owner *)0)->name)
 #define ROW(owner, name, kind, bits, ...)                                                       \
     {                                                                                           \
@@ -36,7 +36,7 @@
 #define GROUP(owner, name, rows_of, bits, text) \
     ROW(owner, name, SCENE_TYPE_GROUP, bits, .group = rows_of, .initial = "{}", .help = text)
 
-/* Without a default: the member is a pointer, NULL where the key was left out. A group is all zero then. */
+/* Optional keys have no default. The member is a pointer, NULL if the key is missing. A missing group is all zero. */
 #define OPTIONAL SCENE_ROW_OPTIONAL
 #define OPTIONAL_NUMBER(owner, name, min, max, bits, text) \
     ROW(owner, name, SCENE_TYPE_NUMBER, OPTIONAL | (bits), .components = 1, .low = min, .high = max, .help = text)

@@ -11,7 +11,7 @@
 #include "scene_files.h"
 #include "scene_settings.h"
 
-/* The folder that a file lies in, without links on the way: to free(). */
+/* The folder of a file without symbolic links, to be freed by free(). */
 static char *folder_of(const char *path)
 {
     char folder[4096];
@@ -20,7 +20,7 @@ static char *folder_of(const char *path)
     return realpath(folder, NULL);
 }
 
-/* A name in quotes, as YAML has it. */
+/* Writes a name as a quoted YAML string. */
 static void quote(const char *name, char *text, size_t size)
 {
     size_t used = 0;
@@ -34,7 +34,7 @@ static void quote(const char *name, char *text, size_t size)
     text[used] = 0;
 }
 
-/* Overrides the name of a file by one that can be read from anywhere. */
+/* The absolute path of a file, or of a pattern of files. */
 static char *real_path(const scene_item *item, const char *name)
 {
     char *folder, *joined = NULL;
@@ -48,6 +48,7 @@ static char *real_path(const scene_item *item, const char *name)
     return joined;
 }
 
+/* Overrides the name of a file by its absolute path. */
 static bool make_absolute(const scene_item *item, char **name, void *user)
 {
     char *real = real_path(item, *name), quoted[8200], override[8400];
@@ -63,7 +64,7 @@ static int write_bytes(void *file, unsigned char *bytes, size_t size)
     return file_write(file, bytes, size);
 }
 
-/* Ends the document: libyaml frees it while it writes. */
+/* Writes the document and frees it, because libyaml frees it while it writes. */
 static bool write_document(scene_document *document, const char *source, const char *path, char *error,
                            size_t error_size)
 {
@@ -91,7 +92,7 @@ static bool write_document(scene_document *document, const char *source, const c
     return file_fail(error, error_size, "cannot write %s", path);
 }
 
-/* `scene` is what comes out, checked. */
+/* `scene` is the result, which is valid. */
 static bool save_checked(scene_file *scene, const char *source, const char *const *overrides, size_t count,
                          const char *path, char *error, size_t error_size)
 {

@@ -1,4 +1,4 @@
-/* scene_schema.c - joins the sections of a format, and walks scenes by them. */
+/* scene_schema.c - joins the sections of a format, and walks the rows of a scene. */
 #include "scene_schema.h"
 
 #include <stdio.h>
@@ -115,7 +115,7 @@ static bool walk_entries(const walk *w, const scene_item *list)
     return good;
 }
 
-/* Whether an optional group was left out: its first key, the name of a file, has no value. */
+/* Whether an optional group is missing: its first key, the name of a file, has no value. */
 static bool is_left_out(const scene_item *item)
 {
     return (item->row->flags & SCENE_ROW_OPTIONAL) && item->row->group->rows[0].type == SCENE_TYPE_TEXT &&

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* Types of keys, and what the struct has for them. */
+/* Types of keys, with the type of the struct's member. */
 typedef enum scene_type {
     SCENE_TYPE_NUMBER, /* double, or double[] for a vector; optional: double * */
     SCENE_TYPE_WHOLE,  /* uint32_t, or uint32_t[] */
@@ -66,11 +66,11 @@ struct scene_group {
 
 struct scene_section {
     scene_group group; /* no rows: the effect has no settings */
-    /* What the range of a single value cannot say. Reports with scene_file_refuse. May be NULL. */
+    /* Checks what ranges of single values can not express. Reports with scene_file_refuse. May be NULL. */
     bool (*check)(const scene_file *scene, char *error, size_t error_size);
 };
 
-/* Sections put together. A loaded scene is one block of memory: scene_file, then the struct of each section. */
+/* All sections. A loaded scene is one block of memory: scene_file, then the struct of each section. */
 struct scene_format {
     const scene_section *const *sections; /* behind the first; ends with NULL */
     scene_group root;                     /* of the whole block */
@@ -80,7 +80,7 @@ struct scene_format {
 /* The section of tools/io; its struct is scene_file. */
 extern const scene_section scene_core_section;
 
-/* Needs free(); NULL without memory. `sections` must outlive it. */
+/* To be freed by free(); NULL if there is no memory. `sections` must outlive it. */
 scene_format *scene_format_create(const scene_section *const *sections);
 
 /* ---- walking a scene */
@@ -88,7 +88,7 @@ scene_format *scene_format_create(const scene_section *const *sections);
 /* One row, and its value in a scene. */
 typedef struct scene_item {
     const scene_row *row;
-    const scene_group *group; /* that the row is in */
+    const scene_group *group; /* of the row */
     char *owner;              /* struct of the group */
     char *value;              /* in that */
     char path[96];            /* "glass.0.wipers.1.sweep_s" */
@@ -96,15 +96,16 @@ typedef struct scene_item {
 } scene_item;
 
 typedef enum scene_order {
-    SCENE_ORDER_ROWS,         /* as the rows stand */
+    SCENE_ORDER_ROWS,         /* the order of the tables */
     SCENE_ORDER_GROUPS_FIRST, /* groups and lists come before the other rows beside them */
 } scene_order;
 
-/* Calls `visit` for every row, for each entry of a list anew, until one call returns false; returns the last result.
- * Leaves out what is in optional groups that were left out. */
+/* Calls `visit` for every row, and in lists for every entry, until a call returns false. Returns the last result. Skips
+ * the rows of optional groups that are missing. */
 bool scene_walk(scene_file *scene, scene_order order, bool (*visit)(const scene_item *item, void *user), void *user);
 
-/* An array for free(), NULL without memory, with `size` bytes for each row that `fill` returns true for. */
+/* An array for free(), with an entry of `size` bytes for each row for which `fill` returns true. NULL if there is no
+ * memory. */
 void *scene_collect(scene_file *scene, size_t size, bool (*fill)(const scene_item *item, void *entry), size_t *count);
 
 /* (list) */
@@ -116,7 +117,7 @@ size_t scene_list_entry_size(const scene_row *list);
 /* (list) Whether its entries are read, see scene_row.used_where. */
 bool scene_list_is_used(const scene_item *list);
 
-/* The name of a value, "" where none has it. */
+/* The keyword of a value; "" if there is none. */
 const char *scene_keyword_name(const scene_keyword *keywords, uint32_t value);
 
 /* Copies a key without its unit ("rate" of "rate_mm_h") and returns the unit for people, NULL if it has none. */

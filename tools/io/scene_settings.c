@@ -1,4 +1,4 @@
-/* scene_settings.c - all settings of a loaded scene as a list: print, parse, reset, assign. */
+/* scene_settings.c - all settings of a loaded scene as an array: print, parse, reset, assign. */
 #include "scene_settings.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ scene_setting *scene_settings_find(scene_setting *settings, size_t count, const 
     return NULL;
 }
 
-const char *scene_setting_word(const scene_setting *setting, uint32_t index, uint32_t *value)
+const char *scene_setting_keyword(const scene_setting *setting, uint32_t index, uint32_t *value)
 {
     for (uint32_t i = 0; setting->keywords && setting->keywords[i].name; i++) {
         if (i < index)
@@ -109,9 +109,9 @@ static void print_choice(const scene_setting *setting, char *text, size_t size)
 {
     uint32_t value;
     snprintf(text, size, "%u", *(const uint32_t *)setting->value);
-    for (uint32_t i = 0; scene_setting_word(setting, i, &value); i++)
+    for (uint32_t i = 0; scene_setting_keyword(setting, i, &value); i++)
         if (value == *(const uint32_t *)setting->value)
-            snprintf(text, size, "%s", scene_setting_word(setting, i, NULL));
+            snprintf(text, size, "%s", scene_setting_keyword(setting, i, NULL));
 }
 
 void scene_setting_print(const scene_setting *setting, char *text, size_t size)
@@ -191,10 +191,10 @@ static bool parse_choice(scene_setting *setting, const char *text, char *error, 
 {
     char all[200] = "";
     uint32_t value;
-    for (uint32_t i = 0; scene_setting_word(setting, i, &value); i++) {
+    for (uint32_t i = 0; scene_setting_keyword(setting, i, &value); i++) {
         const size_t used = strlen(all);
-        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", scene_setting_word(setting, i, NULL));
-        if (!strcmp(text, scene_setting_word(setting, i, NULL))) {
+        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", scene_setting_keyword(setting, i, NULL));
+        if (!strcmp(text, scene_setting_keyword(setting, i, NULL))) {
             *(uint32_t *)setting->value = value;
             return true;
         }
@@ -202,7 +202,7 @@ static bool parse_choice(scene_setting *setting, const char *text, char *error, 
     return file_fail(error, error_size, "%s: expected one of %s, got '%.40s'", setting->path, all, text);
 }
 
-/* An optional value: memory of malloc behind a pointer, or NULL. */
+/* An optional value: a pointer to allocated memory, or NULL. */
 static bool parse_optional(scene_setting *setting, const char *text, char *error, size_t error_size)
 {
     void **value = setting->value;
@@ -250,7 +250,7 @@ bool scene_setting_parse(scene_setting *setting, const char *text, char *error, 
 
 bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t count)
 {
-    char text[SCENE_SETTING_ROOM], ignored[256];
+    char text[SCENE_SETTING_BYTES], ignored[256];
     const bool maybe = setting->kind == SCENE_SETTING_MAYBE_NUMBER || setting->kind == SCENE_SETTING_MAYBE_SWITCH;
     if (!setting->initial && !maybe)
         return false;
@@ -266,7 +266,7 @@ bool scene_setting_reset(scene_setting *setting, scene_setting *all, size_t coun
 
 /* ---- assignments ---------------------------------------------------------------------------------------------- */
 
-/* Whether a path matches a pattern, in which a '*' stands for any number. */
+/* Whether a path matches a pattern. '*' stands for any number. */
 static bool path_matches(const char *path, const char *pattern)
 {
     while (*path && *pattern) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Units that end the names of keys; longer ones before those that they end in. */
+/* Units at the end of keys. A unit comes before others that are its ending. */
 static const struct {
     const char *ending, *unit;
 } units[] = {

@@ -1,4 +1,4 @@
-/* suggest.c - edit distance (Damerau 1964, Levenshtein 1966; neighbours swapped once count as one step). */
+/* suggest.c - edit distance (Damerau 1964, Levenshtein 1966). Swapping neighbours is one step. */
 #include "suggest.h"
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ static bool same_letter(char a, char b)
 
 unsigned suggest_distance(const char *one, const char *other)
 {
-    unsigned rows[3][MAX_LENGTH + 1]; /* the newest row of the table and the two before it, in turn */
+    unsigned rows[3][MAX_LENGTH + 1]; /* the newest three rows of the table, used as a ring */
     size_t height = strnlen(one, MAX_LENGTH), width = strnlen(other, MAX_LENGTH);
     for (size_t x = 0; x <= width; x++)
         rows[0][x] = (unsigned)x;
@@ -44,7 +44,7 @@ const char *suggest_nearest(const char *word, const char *const *list, size_t co
     for (size_t i = 0; i < count; i++) {
         unsigned distance = suggest_distance(word, list[i]);
         if (length >= 3 && strncasecmp(word, list[i], length) == 0 && distance > 1)
-            distance = 1; /* the rest was left out, as in "res" for "resume" */
+            distance = 1; /* an abbreviation, as "res" for "resume" */
         if (distance < strlen(list[i]) && (distance < best || (!nearest && distance == best))) {
             best = distance;
             nearest = list[i];

@@ -176,7 +176,7 @@ static void print_result(const bench_result *r)
            r->step * 1e6 / r->slots);
     printf("  impacts    %8.3f ms  %6.2f x bare kernel  %6.2f ns a drop\n", r->impacts, r->impacts / r->bare,
            r->impacts * 1e6 / r->slots);
-    printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)  %8.3f in %d turns\n", r->occlusion,
+    printf("  occlusion  %8.3f ms  (4 maps of 1024 x 1024, a floor)  %8.3f a frame over %d frames\n", r->occlusion,
            r->occlusion_by_interval, OCCLUSION_INTERVAL);
     for (int i = 0; i < BENCH_SIZES; i++) {
         const draw_result *d = &r->draws[i];

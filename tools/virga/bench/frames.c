@@ -1,5 +1,5 @@
-/* frames.c - `virga bench frames`: what a player would feel - how long a scene takes to start, with and without
- * what drivers remember, and how even its frames are. */
+/* frames.c - `virga bench frames`: how long a scene takes to start, with and without pipeline caches, and how even its
+ * frame times are. */
 #include "bench/frames.h"
 #include "bench/spread.h"
 #include "options.h"
@@ -13,8 +13,8 @@
 #include <time.h>
 
 #define FRAMES  2000
-#define CONTROL 1000000 /* texels of 16 bytes that the control reads and writes */
-#define WARM_UP 240     /* frames: rings, splashes and drops have come to a level */
+#define CONTROL 1000000 /* elements of 16 bytes that the control kernel reads and writes */
+#define WARM_UP 240     /* frames until rings, splashes and drops are in a steady state */
 
 /* ---- a scene of all effects */
 
@@ -47,7 +47,7 @@ static void drop_scene(bench *b, virga_scene **scene)
     virga_scene_destroy(scene);
 }
 
-/* Steady rain on a street that has been wet for long. */
+/* Steady rain on a wet street. */
 static bool set_rain(virga_scene *scene)
 {
     virga_rain_settings rain = virga_default_rain_settings();
@@ -65,7 +65,7 @@ static bool set_rain(virga_scene *scene)
  * of frames differs. */
 typedef struct frame_times {
     double record, whole, record_cpu, whole_cpu;
-    double bare; /* a kernel that does the same each time, after the frame: how even the machine itself is */
+    double bare; /* a kernel after the frame with the same work every time: it shows how even the machine is */
 } frame_times;
 
 static double now_ms(clockid_t clock)
@@ -85,7 +85,7 @@ static bool record_frame(bench *b, virga_scene *scene, VkCommandBuffer cmd, cons
     return drawn;
 }
 
-/* One frame of it: what recording takes, and all of it. */
+/* Measures one frame: the time of recording, and of the whole frame. */
 static bool run_frame(bench *b, virga_scene *scene, const virga_view *view, frame_times *times)
 {
     VkCommandBuffer cmd;
@@ -131,7 +131,7 @@ static bool keep_blob(bench *b)
     return blob && virga_pipeline_cache_get(b->context, &blob_size, blob) == VIRGA_OK;
 }
 
-/* A process of its own would be the same: the device is opened anew, and drivers read these then. */
+/* Opens the device again, because drivers read these variables then. The result is that of a new process. */
 static bool reopen(bench *b, const char *device, const start_case *one)
 {
     setenv("MESA_SHADER_CACHE_DISABLE", one->driver_cache ? "false" : "true", 1);
@@ -161,7 +161,7 @@ static bool measure_start(bench *b, const char *device, const start_case *one)
     return kept;
 }
 
-/* In steps: what create and attach take without pipelines, and the longest of them. */
+/* Deferred pipelines: the time of create and attach without them, and the longest build. */
 static bool measure_steps(bench *b, const char *device)
 {
     virga_scene *scene = NULL;
@@ -194,7 +194,7 @@ static bool measure_starts(bench *b, const char *device)
     static const start_case cases[] = {
         {"nothing remembered", false, false},
         {"Virga's blob (virga_pipeline_cache_get)", false, true},
-        {NULL, true, false}, /* fills it */
+        {NULL, true, false}, /* fills the driver's cache */
         {"the driver's own cache on disk", true, false},
         {"the driver's own cache and the blob", true, true},
     };
@@ -230,7 +230,7 @@ static void print_spread(const quantity *q, const double *times)
 {
     static double sorted[FRAMES];
     const spread s = spread_of(times, FRAMES, sorted);
-    printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  worst %8.3f: %.2f of the median\n", q->name, s.median,
+    printf("  %-28s median %8.3f ms  99 %% %8.3f  99.9 %% %8.3f  max %8.3f: %.2f of the median\n", q->name, s.median,
            s.percent_99, s.percent_99_9, s.max, s.max / s.median);
 }
 
@@ -287,7 +287,7 @@ static bool print_frames(const frame_times *runs, uint32_t count)
            print_common(&bare, runs, count);
 }
 
-/* All frames from the first, on a device opened anew. */
+/* Measures all frames from the first, on a new device. */
 static bool run_frames(bench *b, const char *device, frame_times *frames)
 {
     limits *machine = NULL;

@@ -1,4 +1,4 @@
-/* spread.c - how even frames are, and how much of that is their own. */
+/* spread.c - the spread of frame times, and how much of it the frames themselves cause. */
 #include "bench/spread.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ spread spread_of(const double *times, uint32_t count, double *sorted)
                     .max = sorted[count - 1]};
 }
 
-/* How far each frame is from the median of those around it, as a share of that. */
+/* Relative deviation of each frame from the median of the frames around it. */
 static void find_deviations(const double *times, uint32_t count, double *deviations)
 {
     double sorted[SPREAD_AROUND];

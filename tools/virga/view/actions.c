@@ -38,7 +38,7 @@ bool view_assign(viewer *v, const char *assignment)
     return false;
 }
 
-/* The command line's overrides, and what was tuned since: to free(), the pointers alone. NULL where it can not be. */
+/* The command line's overrides and all changes since. Only the array is for free(). NULL with a message on failure. */
 static const char **all_changes(viewer *v, char ***changes, size_t *count)
 {
     size_t tuned = 0;
@@ -81,7 +81,7 @@ bool view_check(viewer *v)
     return good;
 }
 
-/* Whether the effect of a list starts again where the list has another length. */
+/* Whether the effect of a list restarts when the length of the list changes. */
 static bool list_restarts(const char *path)
 {
     for (uint32_t i = 0; tool_effects[i]; i++) {
@@ -92,7 +92,7 @@ static bool list_restarts(const char *path)
     return false;
 }
 
-/* Tried on a copy first. */
+/* Changes the length of a list; tries it on a copy first. */
 static bool change_list(viewer *v, const char *path,
                         bool (*change)(scene_file *scene, const char *path, char *error, size_t error_size))
 {

@@ -18,7 +18,7 @@ static void direction_of(const view_camera *c, double out[3])
     out[2] = -cos(c->yaw) * cos(c->pitch);
 }
 
-/* Takes over from where the camera of the path is. */
+/* Starts at the current camera of the path. */
 static void set_free(viewer *v)
 {
     view_camera *c = &v->camera;
@@ -109,7 +109,7 @@ void view_camera_move(viewer *v, double wall_s, double dt_s)
         now.position_m[i] = c->position_m[i];
         now.look_at_m[i] = c->position_m[i] + ahead[i];
     }
-    /* Two keys a frame apart, so that what moves the camera shows as motion. */
+    /* Two keys a frame apart, so that the camera's motion is visible as motion blur. */
     const double frame_s = 1 / s->scene->frames.fps;
     const bool moved = c->last.look_at_m[0] != 0 || c->last.look_at_m[1] != 0 || c->last.look_at_m[2] != 0;
     s->eye_keys[0] = moved ? c->last : now;

@@ -1,4 +1,4 @@
-/* frame.c - one frame of the window: time goes on, the scene is drawn, the panel over it, numbers are read. */
+/* frame.c - one frame of the window: advances time, draws the scene and the panel over it, and reads statistics. */
 #include "view/view.h"
 
 #include "frame/files.h"
@@ -16,7 +16,7 @@
 
 /* ---- where the picture lies */
 
-/* As large as fits beside the panel, in the shape of the scene's frames. */
+/* The largest rectangle beside the panel with the aspect ratio of the scene's frames. */
 static void fit_picture(const viewer *v, float area[4])
 {
     const double room = (double)v->window.width - (v->panel ? fmin(VIEW_PANEL_PX, 0.5 * v->window.width) : 0);
@@ -38,7 +38,7 @@ static bool fit_shot(viewer *v, const float area[4])
 
 /* ---- pictures to disk */
 
-/* The hash of the scene as it is tuned, for the picture's attributes. */
+/* Sets the hash of the changed scene, for the picture's attributes. */
 static void note_hash(viewer *v)
 {
     char ignored[256];
@@ -138,7 +138,7 @@ static void read_numbers(viewer *v, double wall_s)
 
 /* ---- the frame */
 
-/* How much time passes: with a script a frame of the scene, so that it comes out the same everywhere. */
+/* The time of a frame. With a script it is a frame of the scene, so that results are the same on all machines. */
 static double time_of_frame(viewer *v, double wall_s)
 {
     const double frame_s = 1 / v->scene->frames.fps;
@@ -166,7 +166,7 @@ static bool record(viewer *v, VkCommandBuffer cmd, double dt_s, const view_shown
     return !v->window_shot[0] || view_window_copy(&v->window, cmd, error, size);
 }
 
-/* What has to wait for the device. */
+/* Actions that need an idle device. */
 static bool between_frames(viewer *v, const float area[4])
 {
     if (v->restart) {

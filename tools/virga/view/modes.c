@@ -1,4 +1,4 @@
-/* modes.c - the one list of what the viewer can show: the picture and its plate, and what effects add to them. */
+/* modes.c - the list of all view modes: those of the plate, and those of effects. */
 #include "view/modes.h"
 
 #include <stdio.h>

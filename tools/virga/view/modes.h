@@ -1,4 +1,4 @@
-/* modes.h - the one list of what the viewer can show. */
+/* modes.h - the list of all view modes. */
 #ifndef VIRGA_VIEW_MODES_H
 #define VIRGA_VIEW_MODES_H
 
@@ -25,20 +25,20 @@ typedef struct view_mode_row {
     const tool_view *view;   /* one of its views */
 } view_mode_row;
 
-/* The mode with an index; NULL behind the last. The first is the picture. */
+/* The mode with an index; NULL after the last. The first is the picture. */
 const view_mode_row *view_mode(uint32_t mode);
 
-/* The index of a name; that behind the last where there is none. */
+/* The index of a name; view_mode_count() if there is none. */
 uint32_t view_mode_find(const char *name);
 uint32_t view_mode_count(void);
 
-/* How many items of a mode (layers, maps, panes) there are to choose from in this shot; 0: it shows nothing here. */
+/* Number of items of a mode (layers, maps, panes) in this shot. 0: the mode shows nothing here. */
 uint32_t view_mode_items(const shot *s, uint32_t mode);
 
-/* Text of the control that chooses one, with %d for its number. */
+/* Text of the control that selects an item, with %d for its number. */
 void view_mode_print_item(const shot *s, uint32_t mode, uint32_t item, char *text, size_t size);
 
-/* Colors that a mode shows by number, and what they stand for; NULL behind the last. */
+/* The legend of a mode: sets a color and returns its meaning. NULL after the last. */
 const char *view_mode_legend(uint32_t mode, uint32_t index, float color[3]);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// panel.cpp - the panel as a whole: its look, its order, and how Dear ImGui draws it. C++ as Dear ImGui is.
+// panel.cpp - the whole panel: style, order of its parts, and drawing with Dear ImGui. C++ because Dear ImGui is.
 #include "view/panel_parts.h"
 
 #include <backends/imgui_impl_glfw.h>
@@ -80,7 +80,7 @@ void set_look()
     style.Colors[ImGuiCol_PlotHistogram] = COLOR_GOOD;
     const char *font = find_font();
     ImGuiIO &io = ImGui::GetIO();
-    io.IniFilename = nullptr; /* nothing is left behind on disk */
+    io.IniFilename = nullptr; /* no file on disk */
     if (font)
         io.Fonts->AddFontFromFileTTF(font, 14);
 }
@@ -142,7 +142,7 @@ void panel(viewer *v)
     ImGui::End();
 }
 
-/* What was just done, and the keys, at the lower edge of the picture. */
+/* The newest message and the keys, at the lower edge of the picture. */
 void foot(viewer *v)
 {
     const bool message = v->message[0] && glfwGetTime() < v->message_s;
@@ -177,7 +177,7 @@ bool create_pool(const viewer *v, char *error, size_t error_size)
     return made == VK_SUCCESS || host_fail(error, error_size, "vkCreateDescriptorPool gave %s", host_result_name(made));
 }
 
-/* Takes the font to the device, by a command buffer of its own. */
+/* Uploads the font in its own command buffer. */
 bool upload_font(viewer *v, char *error, size_t error_size)
 {
     VkCommandBuffer cmd;
@@ -210,7 +210,7 @@ bool view_panel_open(viewer *v, char *error, size_t error_size)
     info.Queue = v->shot.device.queue;
     info.DescriptorPool = pool;
     info.MinImageCount = 2;
-    info.ImageCount = VIEW_MAX_IMAGES; /* of vertex buffers that it keeps: more than frames in flight */
+    info.ImageCount = VIEW_MAX_IMAGES; /* number of vertex buffers; more than frames in flight */
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     ImGui_ImplVulkan_Init(&info, v->window.pass);
     return upload_font(v, error, error_size);

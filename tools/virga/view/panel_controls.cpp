@@ -1,4 +1,4 @@
-// panel_controls.cpp - time, presets, weather, views, camera and files: the parts that are more than a list.
+// panel_controls.cpp - the parts for time, presets, weather, views, camera and files.
 #include "view/panel_parts.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ static void scrub(viewer *v, const char *path)
         edit_setting(v, *s);
 }
 
-/* What one reaches for first. */
+/* The most important settings. */
 void part_weather(viewer *v)
 {
     const char *hint;
@@ -156,25 +156,27 @@ void part_camera(viewer *v)
     tooltip("C");
 }
 
+/* A name, and a button beside it. */
+static bool name_and_button(const char *id, char *name, size_t size, const char *button)
+{
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.6f);
+    ImGui::InputText(id, name, size);
+    ImGui::SameLine();
+    return ImGui::Button(button, ImVec2(-1, 0));
+}
+
 void part_files(viewer *v)
 {
     static char picture[256] = "virga.exr", scene[256] = "tuned.yaml";
     int samples = (int)v->samples;
-    const float width = ImGui::GetContentRegionAvail().x;
-    ImGui::SetNextItemWidth(width * 0.6f);
-    ImGui::InputText("##picture", picture, sizeof picture);
-    ImGui::SameLine();
-    if (ImGui::Button("Screenshot", ImVec2(-1, 0)))
+    if (name_and_button("##picture", picture, sizeof picture, "Screenshot"))
         view_shoot(v, picture);
     tooltip("the scene as it stands, .exr with all layers or .png, as virga render writes them (P)");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderInt("##samples", &samples, 1, 64, "%d sub-frames", ImGuiSliderFlags_AlwaysClamp))
         v->samples = (uint32_t)samples;
     tooltip("of screenshots: anti-aliasing and motion blur");
-    ImGui::SetNextItemWidth(width * 0.6f);
-    ImGui::InputText("##scene", scene, sizeof scene);
-    ImGui::SameLine();
-    if (ImGui::Button("Save scene", ImVec2(-1, 0)))
+    if (name_and_button("##scene", scene, sizeof scene, "Save scene"))
         view_save(v, scene);
     tooltip("the scene file with what was changed; its comments are lost (F2)");
 }

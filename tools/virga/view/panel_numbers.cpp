@@ -1,4 +1,4 @@
-// panel_numbers.cpp - what is measured: graphs of times and counts, and the budget of water.
+// panel_numbers.cpp - measurements: graphs of times and counts, and the budget of water.
 #include "view/panel_parts.h"
 
 #include <algorithm>

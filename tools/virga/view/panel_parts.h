@@ -1,4 +1,4 @@
-// panel_parts.h - what the files of the panel share: its parts, and a few words of its look.
+// panel_parts.h - shared by the files of the panel: its parts, and helpers for controls.
 #ifndef VIEW_PANEL_PARTS_H
 #define VIEW_PANEL_PARTS_H
 
@@ -13,17 +13,17 @@ const ImVec4 COLOR_HINT(0.62f, 0.66f, 0.72f, 1), COLOR_WARN(1.0f, 0.72f, 0.3f, 1
 
 /* ---- panel.cpp */
 
-/* Of what was laid out last. */
+/* The tooltip of the newest control. */
 void tooltip(const char *text);
 
-/* A part of the panel: whether it is open. Scripts open and close them too. */
+/* Begins a part of the panel and returns whether it is open. Scripts open and close parts too. */
 bool part(viewer *v, const char *title, bool open);
 
 /* ---- panel_settings.cpp: what is in the scene's schema, as controls */
 
 void edit_setting(viewer *v, scene_setting &s);
 
-/* All of them, in parts of their own. */
+/* The settings of the scene, in parts of their own. */
 void sections(viewer *v);
 
 /* ---- panel_controls.cpp: the parts that are more than a list */

@@ -13,7 +13,7 @@ namespace view_panel
 
 /* ---- one setting */
 
-/* Path, description, range, default: what the schema says. */
+/* The tooltip of a setting: path, description, range, default. */
 static void describe(viewer *v, const scene_setting &s)
 {
     if (!ImGui::IsItemHovered())
@@ -46,7 +46,7 @@ static ImGuiSliderFlags slider_flags(const scene_setting &s)
     return ImGuiSliderFlags_AlwaysClamp | (powers ? ImGuiSliderFlags_Logarithmic : 0);
 }
 
-/* As many digits as the range deserves. */
+/* A format with enough digits for the range. */
 static const char *format_of(const scene_setting &s)
 {
     const double width = s.high - s.low;
@@ -86,11 +86,11 @@ static bool edit_choice(scene_setting &s)
     uint32_t *value = (uint32_t *)s.value, of_word;
     const char *shown = "?";
     bool changed = false;
-    for (uint32_t i = 0; scene_setting_word(&s, i, &of_word); i++)
-        shown = of_word == *value ? scene_setting_word(&s, i, nullptr) : shown;
+    for (uint32_t i = 0; scene_setting_keyword(&s, i, &of_word); i++)
+        shown = of_word == *value ? scene_setting_keyword(&s, i, nullptr) : shown;
     if (!ImGui::BeginCombo("##value", shown))
         return false;
-    for (uint32_t i = 0; const char *word = scene_setting_word(&s, i, &of_word); i++)
+    for (uint32_t i = 0; const char *word = scene_setting_keyword(&s, i, &of_word); i++)
         if (ImGui::Selectable(word, of_word == *value)) {
             *value = of_word;
             changed = true;
@@ -99,7 +99,7 @@ static bool edit_choice(scene_setting &s)
     return changed;
 }
 
-/* Left to something else, or a number of its own. */
+/* An optional value: unset, or a value. */
 static bool edit_maybe(scene_setting &s)
 {
     void **value = (void **)s.value;
@@ -190,7 +190,7 @@ void edit_setting(viewer *v, scene_setting &s)
 
 /* ---- trees of settings */
 
-/* Settings from `first` on whose paths begin with `prefix`. */
+/* Index after the settings whose paths begin with `prefix`. */
 static size_t end_of(const viewer *v, size_t first, const char *prefix)
 {
     const size_t length = std::strlen(prefix);
@@ -219,7 +219,7 @@ static std::string title_of(const std::string &prefix, const std::string &branch
     return name.substr(0, dot) + " " + std::to_string(std::atoi(name.c_str() + dot + 1) + 1);
 }
 
-/* What of a path behind a prefix leads to a branch: "wipers.0" of "wipers.0.sweep_s"; empty for a leaf. */
+/* The branch of a path after a prefix: "wipers.0" of "wipers.0.sweep_s"; empty for a leaf. */
 static std::string branch_of(const char *path, size_t prefix)
 {
     const std::string rest(path + prefix);
@@ -265,7 +265,7 @@ static void edit_length(growing *g, const scene_list &list)
     ImGui::PopID();
 }
 
-/* Of the lists at a prefix, or of the one that it is. */
+/* Buttons for the lengths of the lists under a prefix, or of the list at the prefix. */
 static void edit_lengths(growing *g, const std::string &prefix)
 {
     for (size_t i = 0; i < g->count; i++) {
@@ -308,7 +308,7 @@ static void section(viewer *v, growing *g, const char *title, const char *prefix
         edit_branch(v, g, prefix);
 }
 
-/* One, or one for each entry of its list. */
+/* The section of an effect, or one for each entry of its list. */
 static void effect_sections(viewer *v, growing *g, const tool_effect *effect)
 {
     char title[80];

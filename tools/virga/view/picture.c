@@ -166,7 +166,7 @@ static void fill(const shot *s, const host_camera *camera, const view_shown *sho
     out->picture[0] = (float)s->target.width;
     out->picture[1] = (float)s->target.height;
     out->picture[2] = exp2f(shown->exposure_ev);
-    out->picture[3] = 20; /* pixels a frame that show in full */
+    out->picture[3] = 20; /* pixels per frame at full brightness */
     out->mode[0] = mode->view ? mode->view->mode : mode->shader;
     out->mode[1] = mode->layer ? layer_of(s, mode->layer) : shown->item;
     fill_camera(camera, out);
@@ -214,7 +214,7 @@ static void write_set(const view_picture *p, const shot *s, const tool_view_data
 
 /* ---- recording */
 
-/* Outputs that the plate and layer passes left to be copied. */
+/* Transitions outputs that are in the layout for copies. */
 static void make_readable(VkCommandBuffer cmd, const shot *s)
 {
     const VkPipelineStageFlags drawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;

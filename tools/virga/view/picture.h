@@ -1,4 +1,4 @@
-/* picture.h - what the window shows beside the panel: the picture of a shot, or what it is made of. */
+/* picture.h - draws the picture beside the panel: that of a shot, or one of its views. */
 #ifndef VIRGA_VIEW_PICTURE_H
 #define VIRGA_VIEW_PICTURE_H
 
@@ -10,7 +10,7 @@ typedef struct view_picture {
     VkSampler nearest, linear;
     host_bindings bindings; /* a set for each frame in flight */
     VkPipeline picture;
-    VkPipeline views[VIEW_MAX_MODES], quads[VIEW_MAX_MODES]; /* of modes that have a shader of their own */
+    VkPipeline views[VIEW_MAX_MODES], quads[VIEW_MAX_MODES]; /* of modes with their own shaders */
     host_buffer uniforms[HOST_FRAMES];
     host_image blank, blank_array;
     host_buffer blank_buffer;
@@ -23,18 +23,19 @@ void view_picture_destroy(view_picture *picture); /* the device must be idle */
 
 typedef struct view_shown {
     uint32_t mode, item;
-    float area[4]; /* where in the window, pixels: low corner, size */
+    float area[4]; /* rectangle in the window, in pixels: low corner, size */
     float exposure_ev;
 } view_shown;
 
-/* Lets a frame overwrite what the one before has shown: first of all in its command buffer. */
+/* Barrier against the previous frame, at the start of a command buffer: this frame may overwrite what that one sampled.
+ * */
 void view_picture_begin(VkCommandBuffer cmd);
 
-/* Makes what the shot has drawn ready to be sampled. Outside rendering, after shot_live_record. */
+/* Makes the outputs of the shot ready for sampling. Outside a render pass, after shot_live_record. */
 void view_picture_prepare(view_picture *picture, VkCommandBuffer cmd, shot *s, const host_camera *camera,
                           const view_shown *shown);
 
-/* Draws it, all over the window. Inside rendering. */
+/* Draws the picture on the whole window. Inside a render pass. */
 void view_picture_draw(const view_picture *picture, VkCommandBuffer cmd, const shot *s, const view_window *window,
                        const view_shown *shown);
 

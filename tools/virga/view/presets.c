@@ -1,4 +1,4 @@
-/* presets.c - the presets: a line each for what they set. '*' stands for every pane and every wiper. */
+/* presets.c - the presets and their settings. '*' stands for every pane or wiper. */
 #include "view/presets.h"
 
 static const view_preset presets[] = {

@@ -1,4 +1,4 @@
-/* presets.h - kinds of weather to begin from. */
+/* presets.h - presets of weather. */
 #ifndef VIRGA_VIEW_PRESETS_H
 #define VIRGA_VIEW_PRESETS_H
 
@@ -9,10 +9,10 @@
 typedef struct view_preset {
     const char *name; /* for scripts: one word */
     const char *title, *help;
-    const char *settings[VIEW_PRESET_SETTINGS]; /* as scene_settings_assign takes them; NULL behind the last */
+    const char *settings[VIEW_PRESET_SETTINGS]; /* for scene_settings_assign; NULL after the last */
 } view_preset;
 
-/* All of them, `*count`; static data. */
+/* All presets, `*count` of them; static data. */
 const view_preset *view_presets(size_t *count);
 
 #endif

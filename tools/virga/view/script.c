@@ -1,5 +1,4 @@
-/* script.c - a viewer driven by lines of a file: for pictures of tuned scenes, for
- * demonstrations, and for tests. */
+/* script.c - runs the viewer by commands in a file: for pictures of changed scenes, demonstrations and tests. */
 #include "view/view.h"
 
 #include "file.h"
@@ -18,7 +17,7 @@
 typedef struct script_line {
     uint32_t number; /* in the file, from 1 */
     uint32_t command, argument_count;
-    char *arguments[MAX_ARGUMENTS]; /* behind the command */
+    char *arguments[MAX_ARGUMENTS]; /* after the command */
 } script_line;
 
 struct view_script {
@@ -206,7 +205,7 @@ static bool do_divide(viewer *v, const script_line *line)
     return read_count(v, line->arguments[0], 1, 4, &v->divide);
 }
 
-/* Until the user has brought about a state: it is for demonstrations, and for tests with real keys. */
+/* Waits until the user has reached a state: for demonstrations, and for tests with real keys. */
 static bool do_await(viewer *v, const script_line *line)
 {
     const struct {
@@ -219,7 +218,7 @@ static bool do_await(viewer *v, const script_line *line)
             continue;
         if (!states[i].there) {
             v->script->wait = 1;
-            v->script->next--; /* this line again */
+            v->script->next--; /* run this line again */
         }
         return true;
     }
@@ -302,7 +301,7 @@ static bool refuse(const char *path, uint32_t number, const char *word, char *er
                      near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
-/* Words of a line, up to a '#'. */
+/* Splits a line at spaces, up to a '#'. */
 static bool read_line(const char *path, char *text, script_line *line, char *error, size_t error_size)
 {
     char *at = NULL, *word = strtok_r(text, " \t\r", &at);

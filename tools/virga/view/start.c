@@ -33,7 +33,7 @@ bool view_remember_start(viewer *v)
     return true;
 }
 
-/* Settings of lists that are not there any more are left out. */
+/* Skips settings of list entries that no longer exist. */
 static void restore_settings(viewer *v)
 {
     char error[400];

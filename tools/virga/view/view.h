@@ -27,7 +27,7 @@ extern "C" {
 #include "view/presets.h"
 #include "view/window.h"
 
-#define VIEW_HISTORY    180 /* frames that graphs go back */
+#define VIEW_HISTORY    180 /* frames that graphs show */
 #define VIEW_MAX_TIMES  64
 #define VIEW_MAX_COUNTS 32
 #define VIEW_PANEL_PX   430
@@ -56,12 +56,12 @@ typedef struct view_numbers {
 
 /* The free camera. */
 typedef struct view_camera {
-    bool free; /* else on the scene's path */
+    bool free; /* false: on the scene's path */
     double position_m[3];
-    double yaw, pitch; /* rad: 0 looks along -Z, to the left, up */
+    double yaw, pitch; /* rad; 0 looks along -Z, positive is to the left and up */
     double speed_m_s;
-    host_camera_key last; /* where it was a frame ago */
-    bool looking;         /* the mouse turns it */
+    host_camera_key last; /* its position a frame ago */
+    bool looking;         /* the mouse rotates it */
     double mouse[2];
 } view_camera;
 
@@ -69,13 +69,13 @@ typedef struct view_script view_script;
 typedef struct view_started view_started;
 
 typedef struct viewer {
-    scene_file *scene, *loaded; /* as tuned, and as the file and the command line have it */
+    scene_file *scene, *loaded; /* as changed by the user; as loaded from the file and the command line */
     const char *path;           /* of the file */
     const char *const *overrides;
     size_t override_count;
     scene_setting *settings; /* of `scene` */
     size_t setting_count;
-    view_started *started; /* those that count from a start on, as the rain last started with them */
+    view_started *started; /* settings that need a restart, with their values at the newest start */
     size_t started_count;
 
     shot shot;
@@ -87,29 +87,29 @@ typedef struct viewer {
 
     /* Time. */
     bool paused;
-    uint32_t steps; /* frames to go on for, while paused */
-    double speed;   /* [0.05; 1] of real time */
-    double wall_s;  /* when the last frame began */
+    uint32_t steps; /* frames to advance while paused */
+    double speed;   /* relative to real time, [0.05; 1] */
+    double wall_s;  /* start of the newest frame */
 
     /* What is shown. */
     uint32_t mode, item; /* see modes.h */
     bool panel;
-    uint32_t divide; /* 1, 2 or 4: the picture has that many fewer pixels along each side than the window */
-    char unfold[40]; /* part of the panel to open or close, by its title; and which of both */
+    uint32_t divide; /* 1, 2 or 4: the picture's sides are the window's divided by it */
+    char unfold[40]; /* title of a part of the panel to open or close; true: open */
     bool unfold_open;
     char message[512]; /* one line for the user */
-    double message_s;  /* until when */
+    double message_s;  /* time at which it disappears */
 
     /* Work to do between frames. */
     bool restart, quit;
     bool needs_restart;     /* a changed setting needs a restart */
-    char window_shot[1024]; /* name for a picture of the window, or empty */
-    char shot_file[1024];   /* for one of the scene */
-    uint32_t shots;         /* saved by key so far; numbers their names */
+    char window_shot[1024]; /* file for a picture of the window, or empty */
+    char shot_file[1024];   /* file for a picture of the scene, or empty */
+    uint32_t shots;         /* screenshots saved by key so far; part of their names */
     uint32_t samples;       /* of screenshots */
 
     view_script *script; /* NULL: none */
-    uint64_t frame;      /* drawn so far */
+    uint64_t frame;      /* frames drawn so far */
     char error[1024];
     bool failed;
 } viewer;
@@ -119,17 +119,18 @@ typedef struct viewer {
 void view_print(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool view_assign(viewer *v, const char *assignment);
 
-/* The scene as a file would have it that was saved now; NULL with one line in `error` where that would be none. */
+/* Loads the scene with all changes, as a saved file would have them. NULL with one line in `error` if it is not valid.
+ * */
 scene_file *view_load_tuned(viewer *v, char *error, size_t error_size);
 
-/* Whether what was tuned is a scene that a file could hold; says why not. */
+/* Whether the changed scene is valid. Shows the reason if not. */
 bool view_check(viewer *v);
 
-/* One entry more or fewer at the end of a list, where the scene stays one that a file could hold. */
+/* Appends or removes an entry at the end of a list, if the scene stays valid. */
 bool view_list_add(viewer *v, const char *path);
 bool view_list_drop(viewer *v, const char *path);
 
-/* Whether keys of the scene animate settings, and a line that says so; and the end of that. */
+/* Whether keys of the scene animate settings, with a hint for the user; stops the animation. */
 bool view_is_animated(const viewer *v, const char **hint);
 void view_stop_animation(viewer *v);
 
@@ -138,21 +139,21 @@ bool view_show(viewer *v, const char *mode, uint32_t item);
 void view_show_next(viewer *v, int step);
 bool view_save(viewer *v, const char *path);
 
-/* Takes a picture of the scene at the next opportunity: "name.png" or "name.exr". */
+/* Saves a picture of the scene between frames: "name.png" or "name.exr". */
 bool view_shoot(viewer *v, const char *path);
 
 /* A key, by its GLFW number. */
 void view_key(viewer *v, int key, bool shift);
 
-/* The keyboard help, a line each; NULL behind the last. */
+/* A line of the keyboard help; NULL after the last. */
 const char *view_key_help(uint32_t line);
 
-/* The list of settings anew, after lists of the scene have changed. */
+/* Lists the settings again, after lists of the scene have changed. */
 bool view_list_settings(viewer *v);
 
 /* ---- start.c */
 
-/* Keeps what the rain has started with. False: v->error says why not. */
+/* Stores the settings that the rain has started with. False: v->error has the reason. */
 bool view_remember_start(viewer *v);
 
 /* Restarts the rain between frames. If it can not start with the changed settings, it starts with the previous ones and
@@ -169,8 +170,7 @@ bool view_frame(viewer *v);
 void view_camera_to_path(viewer *v);
 void view_camera_place(viewer *v, const double position_m[3], double yaw_deg, double pitch_deg);
 
-/* Moves it by keys and mouse over `wall_s` of the user's time, and puts it into the shot, whose time
- * goes on by `dt_s`. */
+/* Moves the camera by keys and mouse for `wall_s` of real time, and sets it in the shot, which advances by `dt_s`. */
 void view_camera_move(viewer *v, double wall_s, double dt_s);
 
 /* ---- script.c */
@@ -179,7 +179,7 @@ void view_camera_move(viewer *v, double wall_s, double dt_s);
 bool view_script_load(const char *path, view_script **script, char *error, size_t error_size);
 void view_script_free(view_script *script);
 
-/* Does what is next, before a frame is drawn. False: v->error says which line failed. */
+/* Runs the next lines, before a frame is drawn. False: v->error names the line that failed. */
 bool view_script_run(viewer *v);
 void view_script_help(void);
 
@@ -188,11 +188,11 @@ void view_script_help(void);
 bool view_panel_open(viewer *v, char *error, size_t error_size);
 void view_panel_close(viewer *v);
 
-/* Lays out the panel of this frame; what the user did in it is done. */
+/* Builds the panel of this frame, and carries out the user's input. */
 void view_panel_build(viewer *v);
 void view_panel_draw(VkCommandBuffer cmd);
 
-/* Whether the panel takes the mouse and the keyboard now. */
+/* Whether the panel uses the mouse or the keyboard now. */
 bool view_panel_has_mouse(void);
 bool view_panel_has_keys(void);
 

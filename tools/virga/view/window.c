@@ -49,7 +49,7 @@ void view_window_close(view_window *window)
 
 /* ---- what the surface can */
 
-/* 8 bits that are shown as they are: the shaders and the panel write display values. */
+/* 8 bits without conversion: the shaders and the panel write display values. */
 static bool choose_format(view_window *w, char *error, size_t error_size)
 {
     VkSurfaceFormatKHR formats[64];
@@ -121,7 +121,7 @@ static uint32_t clamp_side(uint32_t wanted, uint32_t low, uint32_t high)
     return wanted < low ? low : wanted > high ? high : wanted;
 }
 
-/* The size that the surface has, or that the window asks for where the surface leaves it open. */
+/* The size of the surface, or, if the surface has none, that of the window. */
 static void choose_size(view_window *w, const VkSurfaceCapabilitiesKHR *can)
 {
     int width = 0, height = 0;
@@ -168,13 +168,13 @@ static bool create_swapchain(view_window *w, const VkSurfaceCapabilitiesKHR *can
     return true;
 }
 
-/* Makes a swapchain of the size that the window has now; none while it has no size. */
+/* Creates a swapchain with the current size of the window; none while the size is 0. */
 static bool remake(view_window *w, char *error, size_t error_size)
 {
     VkSurfaceCapabilitiesKHR can;
     if (!host_wait(w->device, error, error_size))
         return false;
-    HOST_TRY(vkQueueWaitIdle(w->device->queue)); /* presents, which no fence tells of */
+    HOST_TRY(vkQueueWaitIdle(w->device->queue)); /* for presents, which have no fence */
     drop_images(w);
     HOST_TRY(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(w->device->physical, w->surface, &can));
     choose_size(w, &can);

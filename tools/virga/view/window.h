@@ -14,14 +14,14 @@ typedef struct view_window {
     VkInstance instance;
     VkSurfaceKHR surface;
     VkSwapchainKHR swapchain;
-    VkSurfaceFormatKHR format; /* of 8 bits, shown as they are written */
-    uint32_t width, height;    /* of the swapchain; 0: there is none now */
-    VkRenderPass pass;         /* clears nothing, leaves the image ready to present */
+    VkSurfaceFormatKHR format; /* 8 bits, without conversion */
+    uint32_t width, height;    /* of the swapchain; 0: there is none */
+    VkRenderPass pass;         /* clears nothing; ends in the layout for presents */
     uint32_t image_count, image;
     VkImage images[VIEW_MAX_IMAGES];
     host_slice slices[VIEW_MAX_IMAGES];
     VkSemaphore acquired[HOST_FRAMES], drawn[VIEW_MAX_IMAGES];
-    bool stale;       /* the swapchain no longer fits */
+    bool stale;       /* the swapchain must be created again */
     bool copyable;    /* its images can be copied */
     host_buffer copy; /* see view_window_copy */
 } view_window;
