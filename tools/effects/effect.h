@@ -243,6 +243,9 @@ typedef struct tool_effect {
     .open = open_state, .close = close_state, .layers = layers, .layer_count = sizeof layers / sizeof layers[0],    \
     .bench = &effect##_bench
 
+/* The fields of an effect that only some scenes use. */
+#define TOOL_USED_IF(function, what_is_missing) .is_used = function, .missing = what_is_missing
+
 /* A table and its number of rows: TOOL_ROWS(view, rain_views) sets .views and .view_count. */
 #define TOOL_ROWS(row, table) .row##s = table, .row##_count = sizeof table / sizeof table[0]
 

@@ -153,6 +153,8 @@ static const scene_row glass_section[] = {
                  "panes that drops run down"),
 };
 
+TOOL_SECTION_OF(glass)
+
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
 static bool check_wiper(const scene_file *scene, const scene_wiper *wiper, const char *at, char *error,
@@ -451,13 +453,10 @@ static void print(const scene_file *scene)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-TOOL_SECTION_OF(glass)
-
 const tool_effect glass_effect = {
     TOOL_EFFECT(glass, "Panes"),
     .scene = {.group = SCENE_GROUP(scene_glass, glass_section), .check = check_panes},
-    .is_used = is_used,
-    .missing = "panes; expected a list of them, glass",
+    TOOL_USED_IF(is_used, "panes; expected a list of them, glass"),
     .check = glass_check,
     .check_files = glass_check_files,
     .apply = glass_apply,

@@ -57,6 +57,8 @@ static const scene_group ground_group = SCENE_GROUP(scene_ground, ground_rows);
 /* The section has one key: all of the struct. */
 static const scene_row ground_section[] = {SECTION_GROUP("ground", &ground_group, "ground that gets wet")};
 
+TOOL_SECTION_OF(ground)
+
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
 static bool check_material_map(const scene_file *scene, char *error, size_t error_size)
@@ -390,13 +392,10 @@ static void write_totals(shot *s, void *state, jsonl *stats)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-TOOL_SECTION_OF(ground)
-
 const tool_effect ground_effect = {
     TOOL_EFFECT(ground, "Ground"),
     .scene = {.group = SCENE_GROUP(scene_ground, ground_section), .check = check_material_map},
-    .is_used = is_used,
-    .missing = "ground; expected ground.on: true",
+    TOOL_USED_IF(is_used, "ground; expected ground.on: true"),
     .check = check,
     .check_files = check_files,
     .mark_mesh = mark_mesh,

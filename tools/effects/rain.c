@@ -79,6 +79,8 @@ static const scene_group rain_group = SCENE_GROUP(scene_rain, rain_rows);
 /* The section has one key: all of the struct. */
 static const scene_row rain_section[] = {SECTION_GROUP("rain", &rain_group, "what falls")};
 
+TOOL_SECTION_OF(rain)
+
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
 static bool check_table(const scene_file *scene, const scene_rain *rain, char *error, size_t error_size)
@@ -395,8 +397,6 @@ static void print_state(const scene_file *scene, char *text, size_t size)
 }
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
-
-TOOL_SECTION_OF(rain)
 
 const tool_effect rain_effect = {
     TOOL_EFFECT(rain, "Rain"),

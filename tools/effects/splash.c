@@ -48,6 +48,8 @@ static const scene_group splash_group = SCENE_GROUP(scene_splash, splash_rows);
 /* The section has one key: all of the struct. */
 static const scene_row splash_section[] = {SECTION_GROUP("splash", &splash_group, "splashes on the ground")};
 
+TOOL_SECTION_OF(splash)
+
 /* ---- what one value alone does not show ----------------------------------------------------------------------- */
 
 static bool check_splash(const scene_file *scene, char *error, size_t error_size)
@@ -295,15 +297,12 @@ static uint64_t water_nl(const void *state)
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */
 
-TOOL_SECTION_OF(splash)
-
 extern const tool_bench splash_bench; /* splash/bench.c */
 
 const tool_effect splash_effect = {
     TOOL_EFFECT(splash, "Splashes"),
     .scene = {.group = SCENE_GROUP(scene_splash, splash_section), .check = check_splash},
-    .is_used = is_used,
-    .missing = "splashes; expected splash.on: true",
+    TOOL_USED_IF(is_used, "splashes; expected splash.on: true"),
     .apply = apply,
     .prepare = prepare,
     .points = &points,

@@ -156,13 +156,7 @@ bool host_mesh_load(host_device *device, const char *path, const float world_fro
     if (!scene)
         return false;
     host_mesh_build build = {
-        .device = device,
-        .scene = scene,
-        .path = path,
-        .mesh = mesh,
-        .error = error,
-        .error_size = error_size,
-    };
+        .device = device, .scene = scene, .path = path, .mesh = mesh, .error = error, .error_size = error_size};
     mesh->path = strdup(path);
     bool ok = run_build(&build, world_from_model);
     end_build(&build);
