@@ -2,7 +2,6 @@
 #include "scene_file.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,20 +25,6 @@ void scene_file_free(scene_file *scene)
     free(scene->source);
     free(scene->format);
     free(scene);
-}
-
-bool scene_file_refuse(const scene_file *scene, const char *key, char *error, size_t error_size, const char *format,
-                       ...)
-{
-    char text[1024];
-    scene_document *source = scene->source;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    source->error = error;
-    source->error_size = error_size;
-    return scene_document_fail(source, scene_document_find(source, key), "%s: %s", key, text);
 }
 
 /* Checks what ranges of single values can not express. */

@@ -86,7 +86,7 @@ typedef struct splash_bench_row {
     double paper_fps[PAPER_COUNTS];
 } splash_bench_row;
 
-/* ---- bench.c */
+/* ---- bench_rows.c */
 
 extern const splash_bench_row splash_bench_rows[ROWS];
 extern const uint32_t splash_bench_counts[COUNTS]; /* of splashes; the first are the paper's */

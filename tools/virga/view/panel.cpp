@@ -11,32 +11,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-namespace view_panel
-{
-
-void tooltip(const char *text)
-{
-    if (!ImGui::IsItemHovered() || !*text)
-        return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
-bool part(viewer *v, const char *title, bool open)
-{
-    const size_t length = std::strlen(v->unfold);
-    if (length && !std::strncmp(title, v->unfold, length)) {
-        ImGui::SetNextItemOpen(v->unfold_open);
-        v->unfold[0] = 0;
-    }
-    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
-
-} // namespace view_panel
-
 namespace
 {
 
@@ -246,15 +220,5 @@ void view_panel_build(viewer *v)
 void view_panel_draw(VkCommandBuffer cmd)
 {
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), cmd);
-}
-
-bool view_panel_has_mouse(void)
-{
-    return opened && ImGui::GetIO().WantCaptureMouse;
-}
-
-bool view_panel_has_keys(void)
-{
-    return opened && ImGui::GetIO().WantTextInput;
 }
 }

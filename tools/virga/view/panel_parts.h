@@ -11,7 +11,7 @@ namespace view_panel
 
 const ImVec4 COLOR_HINT(0.62f, 0.66f, 0.72f, 1), COLOR_WARN(1.0f, 0.72f, 0.3f, 1), COLOR_GOOD(0.45f, 0.8f, 1.0f, 1);
 
-/* ---- panel.cpp */
+/* ---- panel_parts.cpp */
 
 /* The tooltip of the newest control. */
 void tooltip(const char *text);

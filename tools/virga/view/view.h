@@ -192,7 +192,7 @@ void view_panel_close(viewer *v);
 void view_panel_build(viewer *v);
 void view_panel_draw(VkCommandBuffer cmd);
 
-/* Whether the panel uses the mouse or the keyboard now. */
+/* panel_parts.cpp: whether the panel uses the mouse or the keyboard now. */
 bool view_panel_has_mouse(void);
 bool view_panel_has_keys(void);
 
