@@ -219,7 +219,7 @@ static void half_given_callbacks_are_refused(void **state)
     assert_int_equal(virga_host_heap_init(&heap, &callbacks), VIRGA_OK);
 }
 
-/* ---- places, rotations, vectors ---- */
+/* ---- positions, rotations, vectors ---- */
 
 static void places_end_where_floats_are_coarse(void **state)
 {

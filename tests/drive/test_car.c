@@ -75,8 +75,8 @@ static double dot(const float a[3], const float b[3])
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
-/* All four turn about axles that point out of the car, at one height; a wheel's lowest point, fixed to the wheel, moves
- * as far backwards as the car moves on: it does not slide. */
+/* All four rotate about axles that point out of the car, at one height. A wheel's lowest point, fixed to the wheel,
+ * moves backwards as far as the car moves forwards: it does not slide. */
 static void wheels_roll(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void wheels_roll(void **state)
     track_free(&t);
 }
 
-static void parts_are_told_by_material(void **state)
+static void parts_are_found_by_material(void **state)
 {
     (void)state;
     assert_int_equal(car_part_of("paint"), CAR_BODY);
@@ -134,7 +134,7 @@ int main(void)
         cmocka_unit_test(the_car_keeps_to_its_way),
         cmocka_unit_test(velocity_is_that_of_the_way),
         cmocka_unit_test(wheels_roll),
-        cmocka_unit_test(parts_are_told_by_material),
+        cmocka_unit_test(parts_are_found_by_material),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* test_glass_blades.c - where blades are and what they pass over: opposed wipers, arms whose blades turn. */
+/* test_glass_blades.c - where blades are and what they pass over: opposed wipers, arms whose blades rotate. */
 #include "glass_fixture.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ static void opposed_wipers_mirror_each_other(void **unused)
 }
 
 /* On an arm at the angle p that was at p0 at its low end, a blade set at d has the angle p + d - turn (p - p0). */
-static void a_blade_turns_on_its_arm(void **unused)
+static void a_blade_rotates_on_its_arm(void **unused)
 {
     (void)unused;
     glass_fixture_open(&f, NULL);
@@ -66,8 +66,8 @@ static void a_blade_turns_on_its_arm(void **unused)
     glass_fixture_close(&f);
 }
 
-/* How far a place is from what a blade of a parallel linkage passes over, negative within: the blade keeps its
- * direction (up) while its middle goes along a circle about the pivot; looked at every 0.05 degrees. */
+/* Distance of a point from the area that a blade of a parallel linkage sweeps, negative inside. The blade keeps its
+ * direction (up) while its centre moves on a circle about the pivot, in steps of 0.05 degrees. */
 static double from_swept(const virga_glass_wiper *wiper, const double at[2])
 {
     double min = 1;
@@ -124,7 +124,7 @@ static void a_parallel_linkage_sweeps_what_its_upright_blade_passes_over(void **
     glass_fixture_close(&f);
 }
 
-/* The angle of a wiper has no jumps, and its speed none where it turns. */
+/* The angle of a wiper has no jumps, and its speed none where it reverses. */
 static void wipers_turn_back_smoothly(void **unused)
 {
     (void)unused;
@@ -147,7 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(opposed_wipers_mirror_each_other),
-        cmocka_unit_test(a_blade_turns_on_its_arm),
+        cmocka_unit_test(a_blade_rotates_on_its_arm),
         cmocka_unit_test(a_parallel_linkage_sweeps_what_its_upright_blade_passes_over),
         cmocka_unit_test(wipers_turn_back_smoothly),
     };

@@ -241,14 +241,14 @@ static double drawn_together(double x)
     return within - 0.2 * beyond / (0.2 + fabs(beyond));
 }
 
-/* How far a place is beyond the borders, in pictures. */
+/* How far a point is beyond the borders, in widths of the picture. */
 static double beyond_borders(double x, double y)
 {
     return hypot(fmax(fabs(x - 0.5) - 0.5, 0), fmax(fabs(y - 0.5) - 0.5, 0));
 }
 
-/* Whether what a drop shows of a place by Snell is compared: well inside, or beyond one border only. Copies have no
- * texels beyond the borders, and along one that a place lies just within they are of another place. */
+/* Whether a point that a drop shows by Snell is compared: well inside, or beyond one border only. Copies have no texels
+ * beyond the borders; for a point just within a border the copy shows another point. */
 static bool is_compared(double x, double y)
 {
     const bool well_in_x = x > 0.16 && x<0.84, well_in_y = y> 0.16 && y < 0.84;
@@ -323,7 +323,7 @@ static void the_scene_hides_what_is_behind_it(void **state)
     shot_close(&s);
 }
 
-/* Vectors of what lies to the right of a pillar over the left columns: none says a place on it, to two pixels. */
+/* Vectors of what lies to the right of a pillar over the left columns: none points at it, to two pixels. */
 static int count_open(shot *s, int post)
 {
     const float *vectors = shot_draw(s, true);

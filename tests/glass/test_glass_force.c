@@ -65,7 +65,7 @@ static void acceleration_of_the_car_sets_drops_in_motion(void **unused)
     }
 }
 
-/* A pane that lies flat and turns about its corner: w^2 r outwards. */
+/* A pane that lies flat and rotates about its corner: w^2 r outwards. */
 static void a_turning_pane_throws_drops_outwards(void **unused)
 {
     (void)unused;
@@ -139,7 +139,7 @@ static void drops_on_a_windshields_side_run_outwards(void **unused)
     glass_fixture_close(&f);
 }
 
-/* A blade lies on the surface: it wipes the same places of a bent pane as of a flat one. */
+/* A blade lies on the surface: it wipes the same cells of a bent pane as of a flat one. */
 static void a_blade_follows_a_bent_pane(void **unused)
 {
     (void)unused;
@@ -246,9 +246,9 @@ static void cells_know_the_bump_maps_normal(void **unused)
     glass_fixture_close(&f);
 }
 
-/* Low places draw drops on: a cell's affinity, in standard deviations, is the glass's less
+/* Hollows attract drops: a cell's affinity, in standard deviations, is the glass's less
  * `pull` times its height's. */
-static void low_places_have_more_affinity(void **unused)
+static void hollows_have_more_affinity(void **unused)
 {
     (void)unused;
     float heights[BUMPS * BUMPS];
@@ -272,7 +272,7 @@ static void low_places_have_more_affinity(void **unused)
 
 /* Equation 14: of the force F the part F - (N . F) N is left. On a slope of k both ways, with F = (0, -1, 0) and
  * N = (-k, -k, 1) / sqrt(1 + 2 k^2), its direction is (k^2, -1 - k^2) along the pane. */
-static void a_slope_of_the_bump_map_turns_the_force(void **unused)
+static void a_slope_of_the_bump_map_deflects_the_force(void **unused)
 {
     (void)unused;
     float heights[BUMPS * BUMPS];
@@ -340,8 +340,8 @@ int main(void)
         cmocka_unit_test(a_blade_follows_a_bent_pane),
         cmocka_unit_test(drops_on_a_mesh_run_along_its_own_axes),
         cmocka_unit_test(cells_know_the_bump_maps_normal),
-        cmocka_unit_test(low_places_have_more_affinity),
-        cmocka_unit_test(a_slope_of_the_bump_map_turns_the_force),
+        cmocka_unit_test(hollows_have_more_affinity),
+        cmocka_unit_test(a_slope_of_the_bump_map_deflects_the_force),
         cmocka_unit_test(drops_gather_in_grooves),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -61,7 +61,7 @@ static double smooth(double low, double high, double x)
     return t * t * (3 - 2 * t);
 }
 
-/* Density and height at a place; see shaders/glass/draw/height.glsl. */
+/* Density and height at a point; see shaders/glass/draw/height.glsl. */
 static void reference(const shot *s, const ball *balls, int count, double u, double v, double *density, double *height)
 {
     const int kind = s->settings.density;
@@ -166,7 +166,7 @@ static void a_drop_alone_is_a_cap(void **state)
     shot_close(&s);
 }
 
-/* Two in one place weigh one half each, so together they are as one (to 1e-5). */
+/* Two at one position weigh one half each, so together they equal one (to 1e-5). */
 static void weights_sum_to_one(void **state)
 {
     (void)state;
@@ -202,7 +202,7 @@ static void merged_drops_have_no_crease(void **state)
         const ball a = ball_of(&s, shot_drop(&s, 0.041, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
         const ball b = ball_of(&s, shot_drop(&s, 0.055, 70.5 * 0.064 / 140, shot_water(&s, 10e-3)));
         shot_draw(&s, false);
-        double worst = 0, crease = 0, last[3] = {0}, plain[3] = {0};
+        double max_bend = 0, crease = 0, last[3] = {0}, plain[3] = {0};
         for (uint32_t column = 67; column < 130; column++) {
             const double u = texel_u(&s, column), xa = (u - a.middle[0]) / a.radius, xb = (u - b.middle[0]) / b.radius;
             memmove(last, last + 1, sizeof last - sizeof last[0]);
@@ -211,13 +211,13 @@ static void merged_drops_have_no_crease(void **state)
             plain[2] = a.height * fmax(1 - xa * xa, 1 - xb * xb);
             if (column < 69)
                 continue;
-            worst = fmax(worst, fabs(last[0] - 2 * last[1] + last[2]));
+            max_bend = fmax(max_bend, fabs(last[0] - 2 * last[1] + last[2]));
             crease = fmax(crease, fabs(plain[0] - 2 * plain[1] + plain[2]));
         }
         /* Weights end with a kink; a profile cut off at the rims' is above 1. */
         const double limit = i % 2 ? 0.55 : 0.12;
-        if (worst > limit * crease)
-            fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, worst, crease);
+        if (max_bend > limit * crease)
+            fail_msg("density %d blend %d: bends by %g m, a crease by %g m", i / 2, i % 2, max_bend, crease);
     }
     shot_close(&s);
 }

@@ -350,8 +350,8 @@ static void the_largest_drops_keep_their_direction_as_they_merge(void **unused)
     glass_fixture_close(&f);
 }
 
-/* Five as a wiper gathers them, of which the heaviest in the middle takes in the others: the momenta of two of those
- * together are more than a whole number of nl mm/s holds. */
+/* Five drops as a wiper gathers them. The heaviest, in the middle, merges the others into itself. The momenta of two of
+ * them together do not fit into an integer, in nl mm/s. */
 static void momenta_of_many_large_drops_add_up(void **unused)
 {
     (void)unused;
@@ -373,8 +373,8 @@ static void momenta_of_many_large_drops_add_up(void **unused)
     glass_fixture_close(&f);
 }
 
-/* Four in a row, each heavier than the next. The first takes the second in, which draws it away from the third; that
- * and the fourth were to be taken in by drops that were taken in themselves, and look again. */
+/* Four in a row, each heavier than the next. The first merges the second into itself, which moves it away from the
+ * third. The third and the fourth were to merge into drops that have merged themselves, so they look again. */
 static void a_drop_whose_captor_is_gone_looks_again(void **unused)
 {
     (void)unused;
@@ -429,7 +429,7 @@ static void drops_at_rest_do_not_touch(void **unused)
     glass_fixture_close(&f);
 }
 
-static void the_surface_is_told_cell_by_cell(void **unused)
+static void the_surface_has_one_value_per_cell(void **unused)
 {
     (void)unused;
     virga_glass_buffer surface;
@@ -462,7 +462,7 @@ int main(void)
         cmocka_unit_test(momenta_of_many_large_drops_add_up),
         cmocka_unit_test(a_drop_whose_captor_is_gone_looks_again),
         cmocka_unit_test(drops_at_rest_do_not_touch),
-        cmocka_unit_test(the_surface_is_told_cell_by_cell),
+        cmocka_unit_test(the_surface_has_one_value_per_cell),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -7,7 +7,7 @@ static uint32_t particle_water(void)
     return (uint32_t)(2 * M_PI / 3 * pow((double)f.settings.particle_radius_mm * 1e-3, 3) * NL_OF_M3);
 }
 
-/* One blade across a pane that is 0.16 m wide, which the host turns. */
+/* One blade across a pane that is 0.16 m wide, which the host moves. */
 static void open_blade(float from_deg)
 {
     open_even(NULL);

@@ -1,9 +1,9 @@
 /* test_glass_same.c - the same bits: every time, with heights and without, and however a device adds up. */
 #include "glass_ball_fixture.h"
 
-#define OWN_LANES UINT32_MAX /* those that the device was found to have */
+#define OWN_LANES UINT32_MAX /* as many as the device has */
 
-/* Drops in one place, of which more reach a tile than a workgroup takes at once. */
+/* Drops close together: more of them reach a tile than a workgroup handles at once. */
 static void crowd(shot *s)
 {
     for (int i = 0; i < 150; i++)

@@ -55,8 +55,8 @@ static void put_drop(pane *p, double u, double v, double radius_m)
 
 /* ---- the pane itself */
 
-/* A painted panel that moves and turns before a camera that moves too: each pixel of its drop has come from where that
- * place of the panel was. Half floats, and a drop's height of some pixels' hundredths: 0.05 px. */
+/* A painted panel moves and rotates in front of a camera that moves too. Each pixel of its drop was before where that
+ * point of the panel was, to 0.05 px: vectors are half floats, and the drop's height is some hundredths of a pixel. */
 static void a_drop_on_a_panel_moves_with_it(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void give_motion(pane *p, float x, float y)
     free(vectors);
 }
 
-/* The place of the picture that a pixel shows, as virga_glass_draw_refraction has it. */
+/* The point of the picture that a pixel shows, as virga_glass_draw_refraction has it. */
 static void shown_at(const float *refraction, size_t pixel, double position[2])
 {
     position[0] = (double)(pixel % WIDTH) + 0.5 + (double)refraction[4 * pixel];
@@ -173,7 +173,7 @@ static void what_a_drop_shows_moves_as_much_as_the_drop_shrinks_it(void **state)
     close_pane(&p);
 }
 
-/* ---- a resolve: a car turns, with its windshield and the camera in it */
+/* ---- a resolve: a car drives through a bend, with its windshield and the camera in it */
 
 typedef struct car_scene {
     resolve_scene scene; /* first */

@@ -96,7 +96,7 @@ static void assert_blades(const virga_glass_tick_gpu *tick)
     }
 }
 
-#define EDGE_M 1e-7f /* what rounding of a mean of two places makes at most */
+#define EDGE_M 1e-7f /* the largest rounding error of the mean of two positions */
 
 static void assert_on_pane(const uint8_t *mask, uint32_t mask_columns)
 {

@@ -101,9 +101,9 @@ class Module:
         self.names, self.member_names, self.offsets, self.strides, self.blocks = {}, {}, {}, {}, set()
         self.structs, self.arrays, self.scalars, self.vectors, self.constants = {}, {}, {}, {}, {}
         for line in text.splitlines():
-            self.take(line.strip())
+            self.parse(line.strip())
 
-    def take(self, line):
+    def parse(self, line):
         match = re.match(r'OpName (%\w+) "([^"]*)"', line)
         if match:
             self.names[match.group(1)] = match.group(2)
@@ -253,7 +253,7 @@ def main():
             checker.check(built_shaders.name_of(header), Module(built_shaders.disassemble(header)))
     for text in checker.failures:
         print("layouts.py: " + text, file=sys.stderr)
-    used = sum(len(places) > 1 for places in checker.seen.values())
+    used = sum(len(users) > 1 for users in checker.seen.values())
     print("layouts.py: %d structs, %d of them in %d passes: %d members and %d blocks compared, %d wrong"
           % (len(structs), used, len(shaders), checker.members, checker.blocks, len(checker.failures)))
     if used < len(structs) // 2:

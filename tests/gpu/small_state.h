@@ -200,7 +200,7 @@ static inline void small_state_glass(small_state *s, const virga_glass *pane, co
         small_state_wrong(s, "%llu nl landed on a pane, %llu nl are there or went", (unsigned long long)g->landed_nl,
                           (unsigned long long)is);
     if ((uint64_t)g->drops + g->particles > slots)
-        small_state_wrong(s, "%u drops and %u particles in %u places of a pane", g->drops, g->particles, slots);
+        small_state_wrong(s, "%u drops and %u particles in %u slots of a pane", g->drops, g->particles, slots);
 }
 
 /* Call it after the frame has completed, once per stepped frame. Returns false and fills `wrong` if a condition

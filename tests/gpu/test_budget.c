@@ -1,7 +1,7 @@
 /* test_budget.c - the memory budget of a context: never passed, not wasted, and what gives way for it. */
 #include "gpu_fixture.h"
 
-/* Whatever the budget, no more is taken than it, and a failure takes nothing. */
+/* Memory stays within every budget, and a failure allocates nothing. */
 static void budget_is_never_passed(void **state)
 {
     gpu_fixture *f = *state;
@@ -118,7 +118,7 @@ static virga_result make_scene(gpu_fixture *f, const virga_scene_def *scene_def,
     return result;
 }
 
-/* A budget of what a scene says that it takes is enough for all of it, though pages are larger than what is in them. */
+/* The estimate of a scene is a sufficient budget for it, though pages are larger than the buffers in them. */
 static void estimate_of_a_scene_is_enough(void **state)
 {
     const virga_glass_def pane = virga_default_glass_def();

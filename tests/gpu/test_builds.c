@@ -7,7 +7,7 @@
 
 enum { MAX_JOBS = 256 };
 
-/* A host's job system that does nothing until it is told to. */
+/* A host's job system. Its jobs run when the test runs them. */
 typedef struct job_list {
     struct {
         void (*job)(void *data);
@@ -55,7 +55,7 @@ static virga_result try_step(gpu_fixture *f, virga_context *context, virga_rain 
     return result;
 }
 
-static void steps_build_as_many_as_they_are_told(void **state)
+static void steps_build_as_many_as_requested(void **state)
 {
     gpu_fixture *f = *state;
     virga_context *context = make_context(f, VIRGA_PIPELINES_DEFERRED, NULL);
@@ -227,7 +227,7 @@ static void definitions_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        gpu_test(steps_build_as_many_as_they_are_told),
+        gpu_test(steps_build_as_many_as_requested),
         gpu_test(draws_wait_for_their_target),
         gpu_test(jobs_build_on_another_thread),
         gpu_test(jobs_of_a_dead_effect_do_nothing),

@@ -1,5 +1,5 @@
-/* test_definitions.c - what create is told: every field of every definition, one at a time, with numbers that it should
- * take and numbers that it should not. Nothing is built: the first call of Vulkan after the checks fails. */
+/* test_definitions.c - every field of every definition, one at a time, with valid and with invalid numbers. Nothing is
+ * built: the first call of Vulkan after the checks fails. */
 #include "fields.h"
 #include "small_scene.h"
 

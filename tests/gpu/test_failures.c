@@ -66,7 +66,7 @@ static virga_result build_scene(build *b)
     return result;
 }
 
-/* Attached again until it is: a failed attach must leave the place free. */
+/* Attached again until it succeeds: a failed attach must leave the target's slot free. */
 static virga_result build_rain_attach(build *b)
 {
     return virga_rain_attach(virga_scene_rain(b->scene), b->target);
@@ -82,7 +82,7 @@ static virga_result build_glass_attach(build *b)
     return virga_glass_attach(virga_scene_glass(b->scene, 0), b->target);
 }
 
-/* Sets that make buffers: shapes, each in place of the one before. */
+/* Setting a shape makes buffers, and replaces the shape before. */
 static virga_result build_flat_shape(build *b)
 {
     return small_shape_set(virga_scene_glass(b->scene, 0), 0);

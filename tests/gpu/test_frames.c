@@ -19,7 +19,7 @@ static void step_before_the_first_frame_is_refused(void **state)
     virga_context_destroy(&context);
 }
 
-/* Occlusion too records with what belongs to a frame: its timers and its place in the rings. */
+/* Recording occlusion too needs a frame: its timers, and its part of the rings. */
 static void occlusion_before_the_first_frame_is_refused(void **state)
 {
     gpu_fixture *f = *state;

@@ -52,7 +52,7 @@ static void memory_get_accepts_null(void **state)
     virga_memory_get(NULL, NULL);
 }
 
-/* The estimate is what a host plans with: rain takes hardly more, and less only by frames that are not in flight. */
+/* The estimate is what a host plans with. Rain allocates hardly more, and less only by frames that are not in flight. */
 static void estimate_is_what_rain_takes(void **state)
 {
     gpu_fixture *f = *state;
@@ -164,7 +164,7 @@ static void lie_half_a_mib(VkPhysicalDeviceProperties *properties)
     properties->limits.maxStorageBufferRange = 1u << 19;
 }
 
-/* Splashes take what there is room for: every buffer that a droplet has a share of, the widest too. */
+/* Splashes shrink to what a storage buffer can hold: in every buffer with a row per droplet, also the widest. */
 static void splashes_fit_what_storage_buffers_hold(void **state)
 {
     gpu_fixture *f = *state;
@@ -234,7 +234,7 @@ static void rain_waits_for_the_frames_before_it_alone(void **state)
     stage_close(f, &s);
 }
 
-/* A context that ends takes with it what still waits. */
+/* Destroying a context also destroys what waits for its frames. */
 static void context_takes_the_waiting_with_it(void **state)
 {
     gpu_fixture *f = *state;
@@ -243,7 +243,7 @@ static void context_takes_the_waiting_with_it(void **state)
     stage_open(f, &def, &s);
     run_frame(f, &s);
     gpu_wait(f);
-    virga_rain_destroy(&s.rain); /* the context has not been told that the frame is complete */
+    virga_rain_destroy(&s.rain); /* the context does not know yet that the frame has completed */
     gpu_picture_close(f, &s.picture);
     virga_context_destroy(&s.context);
     assert_int_equal(watch_sum(watch.live), 0);

@@ -28,7 +28,7 @@ typedef struct ground_fixture {
     uint32_t drop_count;
     float origin[3];          /* of their positions, in the world */
     VkDeviceSize list_offset; /* offset of the drops in their buffer, which then has exactly their size */
-    uint32_t told;            /* drops according to the list's head; 0: the actual number */
+    uint32_t list_count;      /* drops according to the list's head; 0: the actual number */
     double camera[3];
     float open_rain_mm_h, open_drop_m; /* rain on ground where no drops are counted */
     float impacts_reach_m;
@@ -207,7 +207,7 @@ static inline void ground_fixture_step(ground_fixture *f, uint32_t ticks)
 {
     virga_impacts_gpu *head = (virga_impacts_gpu *)((char *)f->impacts.mapped + f->list_offset);
     memset(head, 0, sizeof *head);
-    head->count = f->told ? f->told : f->drop_count;
+    head->count = f->list_count ? f->list_count : f->drop_count;
     head->group_count[0] = (f->drop_count + 63) / 64;
     head->group_count[1] = head->group_count[2] = 1;
     for (uint32_t i = 0; i < f->drop_count; i++)

@@ -126,7 +126,7 @@ static void test_under_a_roof_it_comes_in_dry(void **state)
     end();
 }
 
-static void test_what_moves_leaves_no_dry_place(void **state)
+static void test_what_moves_leaves_no_dry_cell(void **state)
 {
     (void)state;
     begin(ROUGH);
@@ -265,7 +265,7 @@ static void check_texel(uint32_t x, uint32_t y, float wet, float depth_mm, float
     assert_float_equal(from_half(texel[2]), variance, 2e-5 + 1e-3 * fabs(variance));
 }
 
-/* The texel of a place in the world. */
+/* The texel at a position in the world. */
 static uint32_t texel_of(double x_m, int axis)
 {
     virga_ground_maps maps;
@@ -431,7 +431,7 @@ int main(void)
         cmocka_unit_test(test_what_comes_in_has_stood_in_the_rain),
         cmocka_unit_test(test_what_comes_back_is_as_it_was),
         cmocka_unit_test(test_under_a_roof_it_comes_in_dry),
-        cmocka_unit_test(test_what_moves_leaves_no_dry_place),
+        cmocka_unit_test(test_what_moves_leaves_no_dry_cell),
         cmocka_unit_test(test_what_falls_beside_a_roof_stays_out),
         cmocka_unit_test(test_without_rain_it_comes_in_as_at_the_start),
         cmocka_unit_test(test_hollows_come_in_with_what_fell),

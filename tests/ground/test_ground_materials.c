@@ -10,7 +10,7 @@
 static ground_fixture f;
 static host_image picture;
 
-/* A level floor of asphalt 100 m wide around a place, and a window of cells in its middle. */
+/* A level floor of asphalt 100 m wide around a point, and a window of cells in its middle. */
 static void begin_with(double x, double z, uint32_t cells)
 {
     virga_ground_def def = virga_default_ground_def();
@@ -70,7 +70,7 @@ static uint32_t material_at(int x, int z)
     return f.floors[ground_fixture_index(&f, x, z)].material;
 }
 
-/* What the header says of a place. */
+/* The material at a position by the rule in the header. */
 static uint32_t expected_at(const uint32_t *texels, uint32_t width, uint32_t height, double x_m, double z_m)
 {
     const virga_ground_material_map *map = &f.materials;
@@ -101,7 +101,7 @@ static uint32_t check_all(const uint32_t *texels, uint32_t width, uint32_t heigh
 
 /* All different, so that rows and columns cannot be mistaken for one another; one is the mesh's. */
 static const uint8_t bytes[6] = {5, 15, NONE, 6, 2, 31};
-static const uint32_t words[6] = {5, 15, NONE, 6, 2, 31};
+static const uint32_t expected_materials[6] = {5, 15, NONE, 6, 2, 31};
 
 static void test_texels_lie_where_their_corners_say(void **state)
 {
@@ -110,7 +110,7 @@ static void test_texels_lie_where_their_corners_say(void **state)
     put_picture(VK_FORMAT_R8_UINT, 3, 2, bytes, 1);
     put_corners(-1.3, -0.7, 0.2, 0.3); /* texels of 50 cm */
     ground_fixture_step(&f, 0);
-    assert_int_equal(check_all(words, 3, 2), 5 * 100);
+    assert_int_equal(check_all(expected_materials, 3, 2), 5 * 100);
     /* By hand: the first texel at low_m, the next in its row along x. */
     assert_int_equal(material_at(-26, -14), 5);
     assert_int_equal(material_at(-27, -14), MESH);
@@ -132,11 +132,11 @@ static void test_far_from_the_origin_they_lie_as_exactly(void **state)
     put_picture(VK_FORMAT_R8_UINT, 3, 2, bytes, 1);
     put_corners(10000 - 0.8, -7000 - 0.7, 10000 + 0.7, -7000 + 0.3);
     ground_fixture_step(&f, 0);
-    assert_int_equal(check_all(words, 3, 2), 5 * 100);
+    assert_int_equal(check_all(expected_materials, 3, 2), 5 * 100);
     end();
 }
 
-/* 8192 texels in a row, one a cell, 100 km away: there are few bits for a place in a texel far along in it. */
+/* 8192 texels in a row, one a cell, 100 km away: few bits are left for a position in a texel at its far end. */
 static void test_a_wide_picture_is_as_exact(void **state)
 {
     (void)state;
@@ -296,7 +296,7 @@ static void test_corners_that_are_no_numbers_are_refused(void **state)
         refuse(&f.materials.high_m[axis], INFINITY, "materials.high_m");
     }
     ground_fixture_step(&f, 0);
-    assert_int_equal(check_all(words, 3, 2), 5 * 100);
+    assert_int_equal(check_all(expected_materials, 3, 2), 5 * 100);
     end();
 }
 

@@ -62,7 +62,7 @@ static float half_to_float(uint16_t half)
     return (float)(half & 0x8000 ? -value : value);
 }
 
-/* Slope away from a place, at a texel. */
+/* Slope away from a point, at a texel. */
 static double radial(int x, int y, double from_x, double from_z)
 {
     const uint16_t *texel = (const uint16_t *)picture.mapped + (y * 256 + x) * 2;
@@ -85,16 +85,16 @@ static void check_waves(double share, uint32_t ticks, int first_x, int end_x)
     read_back();
     const double age = (ticks - share) / 60, open = fmin(age / VIRGA_RING_OPENS_S, 1);
     const double crater = 0.5 * 2.5e-3 * open * open * (3 - 2 * open);
-    double worst = 0, highest = 0;
+    double max_error = 0, highest = 0;
     for (int x = first_x; x < end_x; x++) {
         const double r = hypot((x + 0.5 - 128) * 0.004, 0.002);
         const double expected = crater * ring_table_slope(table, 0.005, r, age);
-        worst = fmax(worst, fabs(radial(x, 128, 0, 0) - expected));
+        max_error = fmax(max_error, fabs(radial(x, 128, 0, 0) - expected));
         highest = fmax(highest, fabs(expected));
     }
     assert_true(highest > 0.002);
-    if (!(worst <= 0.02 * highest))
-        fail_msg("off by %g where waves are %g", worst, highest);
+    if (!(max_error <= 0.02 * highest))
+        fail_msg("off by %g where waves are %g", max_error, highest);
     free(table);
     end();
 }
@@ -159,7 +159,7 @@ static void test_a_list_that_tells_of_any_number_of_drops_is_read_as_far_as_it_c
     begin(5);
     for (int i = 0; i < 10; i++)
         ground_fixture_drop(&f, i, 0, 0, 4000);
-    f.told = 0xffffff01u;
+    f.list_count = 0xffffff01u;
     ground_fixture_step(&f, 1);
     read_back();
     assert_int_equal(((const virga_rings_gpu *)records.mapped)->total, 10);
@@ -183,7 +183,7 @@ static void test_a_cloudburst_never_lives_longer_than_there_is_room(void **state
     const double in_a_life = head->total * (VIRGA_RING_TIME_S * 60) / 60;
     assert_true(in_a_life <= VIRGA_MAX_RINGS && in_a_life > 0.75 * VIRGA_MAX_RINGS);
     /* There is room for pieces that begin a tenth of a second later, too. */
-    /* In the order of time: the place after the newest holds the oldest. */
+    /* In the order of time: the slot after the newest holds the oldest. */
     for (uint32_t i = 1; i < head->total && i < VIRGA_MAX_RINGS; i++)
         assert_true(rings[(head->total - i) % VIRGA_MAX_RINGS].tick >=
                         rings[(head->total - i - 1) % VIRGA_MAX_RINGS].tick ||
@@ -220,7 +220,7 @@ static void test_rings_that_are_drawn_bring_the_waves_of_all_drops(void **state)
         drawn += rings[i].crater_m * rings[i].crater_m;
         shown += rings[i].id & 1;
     }
-    assert_int_equal(shown, large); /* twenty a tick, where there are places for 81 */
+    assert_int_equal(shown, large); /* twenty a tick, where there are slots for 81 */
     /* 1800 small ones are drawn, each for the same share: 0.35 of all, off by 1 / sqrt(1800) of it. */
     if (fabs(drawn / brought - 1) > 0.03)
         fail_msg("%g of the variance that drops bring is drawn", drawn / brought);

@@ -150,7 +150,7 @@ static void test_a_dry_cell_keeps_the_drop_until_it_is_saturated(void **state)
     ground_fixture_close(&f);
 }
 
-static void test_what_a_drop_meets_is_told_by_the_water_before_it(void **state)
+static void test_a_drop_lands_on_the_water_from_before_the_tick(void **state)
 {
     (void)state;
     begin(VIRGA_MATERIAL_CUSTOM);
@@ -262,7 +262,7 @@ int main(void)
         cmocka_unit_test(test_on_a_hump_of_the_plane_each_neighbour_gets_a_quarter),
         cmocka_unit_test(test_drops_of_a_tick_on_one_cell_count_as_one),
         cmocka_unit_test(test_a_dry_cell_keeps_the_drop_until_it_is_saturated),
-        cmocka_unit_test(test_what_a_drop_meets_is_told_by_the_water_before_it),
+        cmocka_unit_test(test_a_drop_lands_on_the_water_from_before_the_tick),
         cmocka_unit_test(test_ten_thousand_drops_lose_no_nanolitre),
         cmocka_unit_test(test_an_impact_of_thousands_wets_all_around),
         cmocka_unit_test(test_the_order_of_drops_does_not_matter),

@@ -11,7 +11,7 @@
 
 #define CELLS 16
 #define BITS  (8 * CELLS)
-#define SIDE  1024 /* places along the square that is read */
+#define SIDE  1024 /* points along an edge of the square that is read */
 
 /* As spots.comp has it. */
 typedef struct square {
@@ -108,7 +108,7 @@ static int end(void **state)
     return fixture_end(&f.gpu) ? -1 : 0;
 }
 
-/* Eight places a bit over the whole map. */
+/* Eight points per bit, over the whole map. */
 static const square whole = {.apart = 1.0f / 64, .first = {1.0f / 128, 1.0f / 128}, .cells = CELLS};
 
 static double mean_of(const float *found)
@@ -131,7 +131,7 @@ static void spots_by_themselves_cover_as_much_as_their_bits(void **state)
     assert_float_equal(mean, 0.984, 0.06);
 }
 
-/* Else it would have a straight edge there, where the bits around a place are others: nothing shows just before. */
+/* Otherwise it would have a straight edge there, where other bits are around a point: just before, nothing shows. */
 static void no_spot_reaches_a_bit_from_its_middle(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void no_spot_reaches_a_bit_from_its_middle(void **state)
         set_bit(i % 32 * 4 + 1, i / 32 * 4 + 1);
     put_map();
     square s = whole;
-    s.first[0] = s.first[1] = 0.124f / 8; /* every 32nd place from the 19th on is 0.999 bits beyond a middle */
+    s.first[0] = s.first[1] = 0.124f / 8; /* every 32nd point from the 19th on is 0.999 bits beyond a centre */
     const float *found = read_square(&s);
     for (int line = 19; line < SIDE; line += 32)
         for (int i = 0; i < SIDE; i++) {
@@ -158,7 +158,7 @@ static void bits_side_by_side_have_no_gap(void **state)
         assert_float_equal((double)found[i], 1, 0);
 }
 
-/* A window that has moved by whole cells: a place's spots stay as they were. */
+/* A window that has moved by whole cells: the spots at a position stay as they were. */
 static void spots_stay_where_they_are_when_the_window_moves(void **state)
 {
     (void)state;

@@ -137,7 +137,7 @@ static void test_entries_are_the_integral(void **state)
     }
 }
 
-/* Halfway between entries in both directions, where reading linearly is worst, and at uneven places. */
+/* Halfway between entries in both directions, where linear interpolation errs most, and at irregular points. */
 static void test_reading_between_entries_is_within_6_percent(void **state)
 {
     (void)state;

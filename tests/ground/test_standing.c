@@ -158,7 +158,7 @@ static void test_spots_come_and_go(void **state)
     assert_true(cells[PLAIN].spots == 0);
 }
 
-static void test_the_device_is_told_shares(void **state)
+static void test_the_device_gets_shares(void **state)
 {
     (void)state;
     virga_standing_gpu out[GROUND_STANDING];
@@ -180,7 +180,7 @@ int main(void)
         cmocka_unit_test_setup(test_what_sinks_faster_than_it_rains_leaves_none, begin),
         cmocka_unit_test_setup(test_a_drain_holds_nothing, begin),
         cmocka_unit_test_setup(test_spots_come_and_go, begin),
-        cmocka_unit_test_setup(test_the_device_is_told_shares, begin),
+        cmocka_unit_test_setup(test_the_device_gets_shares, begin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

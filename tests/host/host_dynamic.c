@@ -342,7 +342,7 @@ static struct {
     bool expects_motion[WORLD_PIXELS];
 } seen;
 
-static void take_pictures(const engine *e)
+static void capture_pictures(const engine *e)
 {
     const uint16_t *motion = e->reads[MOTION].block.mapped, *opaque = e->opaque_motion.block.mapped;
     const uint8_t *reactive = e->reads[REACTIVE].block.mapped;
@@ -354,11 +354,11 @@ static void take_pictures(const engine *e)
         }
         seen.reactive[i] = (float)reactive[i] / 255;
     }
-    bits_take(&e->state, &seen.bits);
+    read_bits(&e->state, &seen.bits);
 }
 
-/* The offline picture has a sample where each of the four is (Vulkan's standard places): moving the picture by a
- * jitter moves what a sample sees the other way. Motion is that of the middle of the pixel. */
+/* The offline picture has a sample where each of the four is (Vulkan's standard sample locations). A jitter of the
+ * picture moves what a sample sees the other way. Motion is that of the middle of the pixel. */
 static void draw_offline(void)
 {
     static const float positions[4][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
@@ -393,7 +393,7 @@ static int run_both(void **state)
     for (uint32_t number = 1; number <= WORLD_FRAMES; number++)
         run_frame(&e, number);
     VK_REQUIRE(vkDeviceWaitIdle(e.gpu.device));
-    take_pictures(&e);
+    capture_pictures(&e);
     engine_close(&e);
     draw_offline();
     world_save("host_dynamic", seen.picture);

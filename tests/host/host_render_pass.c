@@ -1,5 +1,5 @@
 /* host_render_pass.c - a host as engines of Vulkan 1.2 are: render passes with subpasses, depth 0 to 1, fences, two
- * frames in flight, and an allocator of its own for host and device memory, which Virga takes from too. It wires the
+ * frames in flight, and an allocator of its own for host and device memory, which Virga uses too. It wires the
  * effects by hand, without virga/scene.h's functions for that. */
 #include "offline.h"
 
@@ -488,7 +488,7 @@ static void state_and_picture_are_those_of_the_offline_renderer(void **state)
         run_frame(&e, number);
     VK_REQUIRE(vkDeviceWaitIdle(e.gpu.device));
     world_rgb_from_halves(e.picture.block.mapped, picture);
-    bits_take(&e.state, &bits);
+    read_bits(&e.state, &bits);
     engine_close(&e);
     offline_open(&o, 1);
     offline_run(&o, &offline_bits);

@@ -295,7 +295,7 @@ static void *run_world(void *data)
     const float *rgba = w->read.block.mapped;
     for (size_t i = 0; i < WORLD_PIXELS * 3; i++)
         w->picture[i] = rgba[i / 3 * 4 + i % 3];
-    bits_take(&w->state, &w->bits);
+    read_bits(&w->state, &w->bits);
     world_close(w);
     return NULL;
 }

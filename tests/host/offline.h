@@ -118,7 +118,7 @@ static inline void offline_run(offline *o, world_bits *bits)
         o->low[i] = INFINITY;
         o->high[i] = -INFINITY;
     }
-    bits_take(&o->state, bits);
+    read_bits(&o->state, bits);
 }
 
 static inline void offline_layers(offline *o, VkCommandBuffer cmd)

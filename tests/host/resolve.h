@@ -186,20 +186,20 @@ static inline void resolve_save(const resolve_scene *scene, const char *kind, co
     const uint32_t width = scene->now.width, height = scene->now.height, zoom = 4, gap = 2;
     if (!folder)
         return;
-    const uint32_t wide = (uint32_t)count * (width * zoom + gap) - gap;
-    uint8_t *rgb = malloc((size_t)wide * height * zoom * 3);
-    memset(rgb, 255, (size_t)wide * height * zoom * 3);
+    const uint32_t total_width = (uint32_t)count * (width * zoom + gap) - gap;
+    uint8_t *rgb = malloc((size_t)total_width * height * zoom * 3);
+    memset(rgb, 255, (size_t)total_width * height * zoom * 3);
     for (int part = 0; part < count; part++)
         for (uint32_t y = 0; y < height * zoom; y++)
             for (uint32_t x = 0; x < width * zoom; x++) {
                 const float light = lights[part][y / zoom * width + x / zoom];
                 const float rgba[4] = {light, light, light, 1};
                 png_from_linear(rgba, 1, 0.5f,
-                                &rgb[3 * ((size_t)y * wide + (uint32_t)part * (width * zoom + gap) + x)]);
+                                &rgb[3 * ((size_t)y * total_width + (uint32_t)part * (width * zoom + gap) + x)]);
             }
     char path[1024], error[256];
     snprintf(path, sizeof path, "%s/%s_%s.png", folder, scene->name, kind);
-    if (!png_write(path, wide, height * zoom, 3, rgb, error, sizeof error))
+    if (!png_write(path, total_width, height * zoom, 3, rgb, error, sizeof error))
         fail_msg("%s", error);
     free(rgb);
 }

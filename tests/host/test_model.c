@@ -150,7 +150,7 @@ static void mips_keep_coverage(void **state)
     free(rgba);
 }
 
-static void words(void **state)
+static void materials_have_names(void **state)
 {
     (void)state;
     assert_string_equal(host_material_name(host_guess_material("TR-Asphalt-2")), "asphalt");
@@ -163,8 +163,8 @@ static void words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files),          cmocka_unit_test(plain_triangle), cmocka_unit_test(missing_picture),
-        cmocka_unit_test(mips_keep_coverage), cmocka_unit_test(words),
+        cmocka_unit_test(bad_files),          cmocka_unit_test(plain_triangle),       cmocka_unit_test(missing_picture),
+        cmocka_unit_test(mips_keep_coverage), cmocka_unit_test(materials_have_names),
     };
     return fixture_result(cmocka_run_group_tests(tests, set_up, tear_down));
 }

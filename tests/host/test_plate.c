@@ -113,7 +113,7 @@ static void fill_layer(VkCommandBuffer cmd, float value)
     vkCmdClearAttachments(cmd, 1, &clear, 1, &all);
 }
 
-/* As much rain as it takes to have haze: an instant of it. */
+/* Enough rain to have haze, seen for an instant. */
 static bool begin_rain(scene *s, VkCommandBuffer cmd)
 {
     const virga_rain_step_info info = {.dt_s = 0.02};

@@ -245,13 +245,14 @@ static inline double world_differs(const float *a, const float *b, float bound, 
     uint32_t beyond = 0;
     double sum = 0;
     for (size_t i = 0; i < WORLD_PIXELS; i++) {
-        float worst = 0;
+        float max_difference = 0;
         for (size_t c = 0; c < 3; c++) {
             const float difference = fabsf(a[3 * i + c] - b[3 * i + c]);
-            worst = difference <= worst ? worst : difference; /* NaN is worst */
+            max_difference =
+                difference <= max_difference ? max_difference : difference; /* NaN counts as a difference */
             sum += (double)(difference * difference);
         }
-        beyond += !(worst <= bound);
+        beyond += !(max_difference <= bound);
     }
     *rms = sqrt(sum / (3.0 * WORLD_PIXELS));
     return beyond / (double)WORLD_PIXELS;

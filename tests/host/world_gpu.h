@@ -554,7 +554,7 @@ typedef struct world_bits {
     uint32_t impacts, droplets, pane_drops;
 } world_bits;
 
-static inline void bits_take(const world_state *state, world_bits *bits)
+static inline void read_bits(const world_state *state, world_bits *bits)
 {
     const VkDeviceSize *at = state->offsets;
     memset(bits, 0, sizeof *bits);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The same seed gives the same files: two runs, any number of threads, two vector widths, and frames rendered alone.
-# Usage: same_bytes.sh VIRGA SCENE "SYSTEM..." [OPTION...] with the systems whose point caches there are, and what else
-# the program is told.
+# Usage: same_bytes.sh VIRGA SCENE "SYSTEM..." [OPTION...] with the systems that write point caches, and further
+# options of the program.
 set -eu
 virga=$1 scene=$2 systems=$3
 shift 3

@@ -10,7 +10,7 @@
 static const exr_packing packings[] = {EXR_PACKING_ZIP, EXR_PACKING_ZIPS, EXR_PACKING_RLE, EXR_PACKING_PIZ,
                                        EXR_PACKING_NONE};
 
-/* A frame of four interleaved floats per pixel and ids, with noise in some places and none in others. */
+/* A frame of four interleaved floats per pixel and ids, with noise in some parts and none in others. */
 typedef struct picture {
     uint32_t width, height;
     float *rgbz;
@@ -165,7 +165,7 @@ static void floats_keep_their_bits(void **state)
     free(read);
 }
 
-/* Size of `raw` as ZIP packs it: bytes at even places before those at odd ones, each less its neighbour, deflated. */
+/* Size of `raw` as ZIP packs it: bytes at even offsets before those at odd ones, each less its neighbour, deflated. */
 static size_t zip_size(const uint8_t *raw, size_t size, uint8_t *apart, uint8_t *packed)
 {
     size_t first = (size + 1) / 2;

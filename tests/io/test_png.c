@@ -213,15 +213,15 @@ static void put_png(uint8_t depth, uint8_t color, uint32_t width, uint32_t heigh
     assert_int_equal(fclose(file), 0);
 }
 
-static void expect_numbers(uint32_t wide, uint32_t high, const uint8_t *expected)
+static void expect_numbers(uint32_t columns, uint32_t rows, const uint8_t *expected)
 {
     uint32_t width, height;
     uint8_t *numbers;
     if (!png_read_numbers(in_folder("p.png"), &width, &height, &numbers, error, sizeof error))
         fail_msg("%s", error);
-    assert_int_equal(width, wide);
-    assert_int_equal(height, high);
-    assert_memory_equal(numbers, expected, (size_t)wide * high);
+    assert_int_equal(width, columns);
+    assert_int_equal(height, rows);
+    assert_memory_equal(numbers, expected, (size_t)columns * rows);
     free(numbers);
 }
 

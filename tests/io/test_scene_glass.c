@@ -61,7 +61,7 @@ static scene_file *loaded_after(const char *more, const char *const *overrides, 
     return scene;
 }
 
-static void scenes_have_no_panes_unless_told(void **state)
+static void scenes_have_no_panes_by_default(void **state)
 {
     (void)state;
     scene_file *scene = loaded_after("", NULL, 0);
@@ -275,7 +275,7 @@ static void more_panes_than_the_library_takes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST_IN_FOLDER(scenes_have_no_panes_unless_told),
+        TEST_IN_FOLDER(scenes_have_no_panes_by_default),
         TEST_IN_FOLDER(a_pane_has_defaults),
         TEST_IN_FOLDER(every_value_of_a_pane_arrives),
         TEST_IN_FOLDER(overrides_reach_into_panes),

@@ -1,5 +1,5 @@
-/* test_scene_settings.c - settings of a scene as a list: what there is, what is taken, and what comes
- * back as a file. */
+/* test_scene_settings.c - settings of a scene as a list: which keys there are, which values are
+ * accepted, and the file that they are saved to. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -197,7 +197,7 @@ static void haze_thickens_by_beers_law(void **state)
     close_shot(&s);
 }
 
-static void there_is_haze_before_the_sky_unless_told_and_none_without_depth(void **state)
+static void there_is_haze_before_the_sky_by_default_and_none_without_depth(void **state)
 {
     (void)state;
     shot s;
@@ -392,7 +392,7 @@ int main(void)
         cmocka_unit_test(a_streak_out_of_focus_covers_as_much_over_more),
         cmocka_unit_test(an_even_environment_gives_its_radiance_times_the_coverage),
         cmocka_unit_test(haze_thickens_by_beers_law),
-        cmocka_unit_test(there_is_haze_before_the_sky_unless_told_and_none_without_depth),
+        cmocka_unit_test(there_is_haze_before_the_sky_by_default_and_none_without_depth),
         cmocka_unit_test(haze_alone_begins_at_its_plane),
         cmocka_unit_test(haze_alone_leaves_what_was_prepared),
         cmocka_unit_test(haze_alone_needs_depth_and_a_begun_frame),

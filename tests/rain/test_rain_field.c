@@ -1,4 +1,4 @@
-/* test_rain_field.c - the field of drops: a function of seed, place and time, however one looks at it. */
+/* test_rain_field.c - the field of drops: a function of seed, position and time, for any camera. */
 #include "rain_fixture.h"
 
 #include <math.h>
@@ -107,7 +107,7 @@ static look *copy_look(const rain_fixture *f)
     return drops;
 }
 
-static void a_moved_camera_sees_the_same_drops_in_the_same_places(void **state)
+static void a_moved_camera_sees_the_same_drops_at_the_same_positions(void **state)
 {
     (void)state;
     rain_fixture f;
@@ -219,7 +219,7 @@ int main(void)
         cmocka_unit_test(another_seed_gives_another_field),
         cmocka_unit_test(a_cut_of_the_camera_and_back_shows_the_same_drops),
         cmocka_unit_test(the_way_of_the_camera_does_not_matter),
-        cmocka_unit_test(a_moved_camera_sees_the_same_drops_in_the_same_places),
+        cmocka_unit_test(a_moved_camera_sees_the_same_drops_at_the_same_positions),
         cmocka_unit_test(ids_are_unique),
         cmocka_unit_test(drops_fall_by_the_table_in_still_air),
         cmocka_unit_test(a_new_rate_moves_no_drop),

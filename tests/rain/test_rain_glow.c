@@ -94,7 +94,7 @@ static double glow_along(const shot *s, const double ray[3], double begins, doub
 static double compare_glow(const shot *s, const float *pixels, double begin_m, double depth_m, double tolerance)
 {
     const float *p = s->camera.clip_from_view;
-    double max = 0, worst = 0;
+    double max = 0, max_error = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         max = fmax(max, (double)pixels[i * 4]);
     for (int i = 0; i < WIDTH * HEIGHT; i += 5) {
@@ -103,12 +103,12 @@ static double compare_glow(const shot *s, const float *pixels, double begin_m, d
         const double ray[3] = {x / length, y / length, -1 / length};
         const double expected = 40 * glow_along(s, ray, begin_m * length, depth_m > 0 ? depth_m * length : 100);
         const double off = fabs((double)pixels[i * 4] - expected) / (expected + 0.02 * max);
-        worst = fmax(worst, off);
+        max_error = fmax(max_error, off);
         assert_true(fabs((double)pixels[i * 4 + 2] - 3 * (double)pixels[i * 4]) <
                     3e-3 * (double)pixels[i * 4 + 2] + 1e-6);
     }
-    printf("brightest %.4f, off by %.1f %%\n", max, 100 * worst);
-    assert_true(max > 0 && worst < tolerance);
+    printf("brightest %.4f, off by %.1f %%\n", max, 100 * max_error);
+    assert_true(max > 0 && max_error < tolerance);
     return max;
 }
 

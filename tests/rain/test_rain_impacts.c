@@ -137,7 +137,7 @@ static void sizes_follow_the_distribution(void **state)
     }
     qsort(sorted, sum.impacts, sizeof *sorted, by_diameter);
     const virga_sizes sizes = {VIRGA_SIZES_MARSHALL_PALMER, NULL, NULL, 0};
-    double below = 0, worst = 0, share = 0, last = -1;
+    double below = 0, max_distance = 0, share = 0, last = -1;
     for (uint32_t i = 0; i < sum.impacts; i++) {
         /* Halfway between classes, where a class's share ends. */
         if (sorted[i].diameter != last)
@@ -145,11 +145,12 @@ static void sizes_follow_the_distribution(void **state)
         last = sorted[i].diameter;
         below += sorted[i].weight;
         if (i + 1 == sum.impacts || sorted[i + 1].diameter != last)
-            worst = fmax(worst, fabs(below / sum.number - share));
+            max_distance = fmax(max_distance, fabs(below / sum.number - share));
     }
     const double effective = sum.number * sum.number / squares;
-    printf("largest distance %.5f with %.0f effective samples, limit %.5f\n", worst, effective, 1.63 / sqrt(effective));
-    assert_true(worst < 1.63 / sqrt(effective));
+    printf("largest distance %.5f with %.0f effective samples, limit %.5f\n", max_distance, effective,
+           1.63 / sqrt(effective));
+    assert_true(max_distance < 1.63 / sqrt(effective));
     free(sorted);
     finish(&f, &sum);
 }

@@ -153,7 +153,7 @@ static void what_moves_drops_moves_them_without_a_jump(void **state)
     }
 }
 
-/* And velocities take the change on by drag, at most g (|v - w| / vt)^2 a tick. */
+/* And velocities follow the change by drag, at most g (|v - w| / vt)^2 a tick. */
 static void velocities_change_by_drag_only(void **state)
 {
     (void)state;

@@ -134,7 +134,7 @@ static void no_drop_is_shown_under_the_roof(void **state)
     rain_fixture_close(&f);
 }
 
-static void maps_are_told_once_they_are_drawn(void **state)
+static void maps_are_there_once_they_are_drawn(void **state)
 {
     (void)state;
     rain_fixture f;
@@ -164,9 +164,9 @@ static void count_landed(rain_fixture *f, uint32_t on[4])
         on[list[i].material & 3]++;
 }
 
-/* Eight maps by turns in eight calls: a roof that is taken away keeps rain off in fewer of them from call to call, and
- * is gone after the eighth. */
-static void maps_by_turns_are_all_drawn_once_a_round(void **state)
+/* Eight maps, of which each call draws one. A roof that was removed keeps rain off in fewer maps from call to call, and
+ * in none after the eighth. */
+static void with_one_map_per_call_all_are_drawn_in_eight_calls(void **state)
 {
     (void)state;
     rain_fixture f;
@@ -217,8 +217,8 @@ int main(void)
         cmocka_unit_test(still_rain_lands_on_the_first_surface),
         cmocka_unit_test(slanted_rain_does_not_come_through_the_roof),
         cmocka_unit_test(no_drop_is_shown_under_the_roof),
-        cmocka_unit_test(maps_are_told_once_they_are_drawn),
-        cmocka_unit_test(maps_by_turns_are_all_drawn_once_a_round),
+        cmocka_unit_test(maps_are_there_once_they_are_drawn),
+        cmocka_unit_test(with_one_map_per_call_all_are_drawn_in_eight_calls),
         cmocka_unit_test(a_camera_that_jumps_has_all_maps_at_once),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

@@ -32,7 +32,7 @@ static const virga_prepared_gpu *prepared_of(const shot *s)
     return s->prepared.mapped;
 }
 
-/* The streak whose two triangles or line are at a place of a draw. */
+/* The streak whose triangles or line are at a slot of a draw. */
 static uint32_t streak_at(const shot *s, const virga_draw_gpu *draw, uint32_t slot)
 {
     static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3}, ends[2] = {0, 2};
@@ -108,7 +108,7 @@ static void each_streak_is_drawn_once(void **state)
     close_shot(&s);
 }
 
-static void wide_streaks_keep_their_places(void **state)
+static void wide_streaks_keep_their_order(void **state)
 {
     (void)state;
     shot s;
@@ -202,7 +202,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_streak_is_drawn_once),
-        cmocka_unit_test(wide_streaks_keep_their_places),
+        cmocka_unit_test(wide_streaks_keep_their_order),
         cmocka_unit_test(thin_streaks_follow_the_picture),
         cmocka_unit_test(the_thinnest_are_lines_where_the_device_has_them),
         cmocka_unit_test(a_view_without_rain_draws_nothing_in_order),

@@ -131,15 +131,15 @@ static void no_streak_that_passes_the_camera_is_missing(void **state)
 /* ---- waves */
 
 /* Where drops are in their oscillation at the tails of streaks, by slot; -1: no streak. */
-static void phases_at_tails(shot *s, double frame_interval_s, double *turns)
+static void phases_at_tails(shot *s, double frame_interval_s, double *phases)
 {
     for (uint32_t slot = 0; slot < s->f.slots; slot++)
-        turns[slot] = -1;
+        phases[slot] = -1;
     s->frame_interval_s = frame_interval_s;
     draw_frame(s, 0);
     for (uint32_t i = 0; i < streak_count(s); i++)
         if (streak_list(s)[i].width_alpha)
-            turns[slot_of(&streak_list(s)[i])] = high_half(streak_list(s)[i].oscillations);
+            phases[slot_of(&streak_list(s)[i])] = high_half(streak_list(s)[i].oscillations);
 }
 
 /* Rayleigh's second mode. */
@@ -155,7 +155,7 @@ static void drops_oscillate_alike_after_a_day_of_rain(void **state)
     const double between_s = 1.0 / 384;
     shot s;
     uint32_t checked = 0;
-    double worst = 0;
+    double max_error = 0;
     open_shot(&s, 40);
     add_picture(&s, 320, 240);
     apply_settings(&s);
@@ -172,12 +172,12 @@ static void drops_oscillate_alike_after_a_day_of_rain(void **state)
         const double diameter =
             VIRGA_DROP_MIN_M * pow(VIRGA_DROP_MAX_M / VIRGA_DROP_MIN_M, (k + 0.5) / VIRGA_RAIN_CLASSES);
         const double off = now[slot] - before[slot] - oscillation_hz(diameter) * between_s;
-        worst = fmax(worst, fabs(off - round(off)));
+        max_error = fmax(max_error, fabs(off - round(off)));
         checked++;
     }
-    printf("%u drops, the worst is off by %.4f turns\n", checked, worst);
+    printf("%u drops, off by up to %.4f of a period\n", checked, max_error);
     assert_true(checked > 300);
-    assert_true(worst < 0.005);
+    assert_true(max_error < 0.005);
     free(before);
     free(now);
     close_shot(&s);

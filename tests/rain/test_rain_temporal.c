@@ -17,7 +17,7 @@ typedef struct shot {
     virga_target *target;
     virga_view view;
     host_buffer streaks, prepared, slots;
-    int only; /* the one streak that is drawn, by its place; -1: all */
+    int only; /* index of the only streak that is drawn; -1: all */
 } shot;
 
 /* Rain in the open and no haze; nothing fades for being near. */
@@ -239,7 +239,7 @@ static void check_pixels(const shot *s, float scale, double min)
     assert_true(used > 3 && left > 3);
 }
 
-static void pixels_that_a_streak_covers_enough_take_its_motion(void **state)
+static void pixels_that_a_streak_covers_enough_have_its_motion(void **state)
 {
     (void)state;
     shot s;
@@ -383,7 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(streaks_come_from_where_doubles_put_their_drops),
         cmocka_unit_test(an_open_camera_is_the_previous_one_by_default),
-        cmocka_unit_test(pixels_that_a_streak_covers_enough_take_its_motion),
+        cmocka_unit_test(pixels_that_a_streak_covers_enough_have_its_motion),
         cmocka_unit_test(the_mask_is_the_coverage_of_so_many_layers),
         cmocka_unit_test(a_target_with_one_of_them_writes_that_alone),
         cmocka_unit_test(a_resolve_smears_rain_less_with_the_outputs),

@@ -80,7 +80,7 @@ static double mean_diameter(double rate_mm_h)
 }
 
 /* What lands on open ground goes from one rain to the other in a straight line. */
-static void what_open_ground_gets_is_told(void **state)
+static void rainfall_has_what_lands_on_open_ground(void **state)
 {
     (void)state;
     rain_fixture f;
@@ -265,7 +265,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(more_rain_eases_in),
-        cmocka_unit_test(what_open_ground_gets_is_told),
+        cmocka_unit_test(rainfall_has_what_lands_on_open_ground),
         cmocka_unit_test(less_rain_eases_out),
         cmocka_unit_test(single_drops_fade_too),
         cmocka_unit_test(a_change_in_the_middle_of_another_makes_no_jump),

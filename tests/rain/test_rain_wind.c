@@ -235,7 +235,7 @@ static void acceleration(const double v[3], const double w[3], double terminal, 
         out[i] = -VIRGA_GRAVITY / (terminal * terminal) * sqrt(speed2) * (v[i] - w[i]) - (i == 1 ? VIRGA_GRAVITY : 0);
 }
 
-/* A wind that is linear in the place: at + by x, y and z. */
+/* A wind that is linear in the position: at + by x, y and z. */
 typedef struct linear_wind {
     double at[3], by[3][3];
 } linear_wind;
@@ -268,7 +268,7 @@ static void integrate(const linear_wind *wind, double terminal, double seconds, 
     }
 }
 
-static void drops_take_on_a_step_of_wind_by_their_drag(void **state)
+static void drops_follow_a_step_of_wind_by_their_drag(void **state)
 {
     (void)state;
     static const double wind_step[3] = {8, 0, -3};
@@ -393,8 +393,8 @@ static void an_even_texture_is_a_uniform_wind(void **state)
     close_air(&textured);
 }
 
-/* Distances of a drop from where the law takes it. False for one that is not the same or not where the texture is
- * linear: within the middles of its texels. Slots without weight wait at the edges of their boxes, in two winds. */
+/* Distances of a drop from where the law of motion puts it. False if it is not the same drop, or where the texture is
+ * not linear: outside the centres of its texels. Slots without weight wait at the edges of their boxes, in two winds. */
 static bool compare_with_law(const linear_wind *wind, double seconds, const virga_point_gpu *from,
                              const virga_point_gpu *to, double *off, double *off_velocity)
 {
@@ -431,7 +431,7 @@ static void a_drop_moves_as_the_law_says_in_a_shear(void **state)
         step(&a, seconds / 5);
     const virga_point_gpu *after = step(&a, 0);
     uint32_t checked = 0, strange = 0;
-    double worst = 0, worst_velocity = 0;
+    double max_error = 0, max_velocity_error = 0;
     for (uint32_t i = 0; i < a.f.slots; i++) {
         double off, off_velocity;
         if (!compare_with_law(&shear, seconds, &before[i], &after[i], &off, &off_velocity))
@@ -440,14 +440,14 @@ static void a_drop_moves_as_the_law_says_in_a_shear(void **state)
         strange += off >= 0.01;
         if (off >= 0.01)
             continue;
-        worst = fmax(worst, off);
-        worst_velocity = fmax(worst_velocity, off_velocity);
+        max_error = fmax(max_error, off);
+        max_velocity_error = fmax(max_velocity_error, off_velocity);
         checked++;
     }
-    printf("%u drops, at most %.4f m and %.4f m/s off after %.2f s; %u are others\n", checked, worst, worst_velocity,
-           seconds, strange);
+    printf("%u drops, at most %.4f m and %.4f m/s off after %.2f s; %u are others\n", checked, max_error,
+           max_velocity_error, seconds, strange);
     assert_true(checked > 200 && strange <= checked / 100);
-    assert_true(worst < 0.004 && worst_velocity < 0.02);
+    assert_true(max_error < 0.004 && max_velocity_error < 0.02);
     free(before);
     close_air(&a);
 }
@@ -467,11 +467,11 @@ static void a_texture_of_still_air_changes_nothing(void **state)
     set_wind(&textured, 8, 0, 0);
     for (int look = 0; look < 4; look++) {
         const virga_point_gpu *a = step(&plain, 0.05), *b = step(&textured, 0.05);
-        double worst = 0;
+        double max_error = 0;
         for (uint32_t i = 0; i < plain.f.slots; i++)
-            worst = fmax(worst, (double)fabsf(a[i].velocity[0] - b[i].velocity[0]));
-        printf("%.2f s after the step of wind: at most %.3f m/s apart\n", 0.05 * (look + 1), worst);
-        assert_true(worst < 2e-3);
+            max_error = fmax(max_error, (double)fabsf(a[i].velocity[0] - b[i].velocity[0]));
+        printf("%.2f s after the step of wind: at most %.3f m/s apart\n", 0.05 * (look + 1), max_error);
+        assert_true(max_error < 2e-3);
     }
     close_air(&plain);
     close_air(&textured);
@@ -509,7 +509,7 @@ int main(void)
         cmocka_unit_test(without_gusts_the_wind_is_its_mean),
         cmocka_unit_test(the_step_takes_the_gust_of_its_tick),
         cmocka_unit_test(a_new_gust_time_makes_no_jump),
-        cmocka_unit_test(drops_take_on_a_step_of_wind_by_their_drag),
+        cmocka_unit_test(drops_follow_a_step_of_wind_by_their_drag),
         cmocka_unit_test(drops_at_rest_with_the_wind_fall_by_their_terminal_speed),
         cmocka_unit_test(an_even_texture_is_a_uniform_wind),
         cmocka_unit_test(a_drop_moves_as_the_law_says_in_a_shear),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Commands on the pages are ones that the programs take. Usage: check_commands.py SOURCE_ROOT BUILD_ROOT
+"""Commands on the pages are ones that the programs accept. Usage: check_commands.py SOURCE_ROOT BUILD_ROOT
 
-Programs, scripts, commands and options exist, scenes exist, and a scene takes what --set gives it. Nothing is rendered.
+Programs, scripts, commands and options exist. Scenes exist, and accept what --set gives them. Nothing is rendered.
 """
 import os
 import re
@@ -32,7 +32,7 @@ def check_options(page, line, words, text):
 
 
 def check_settings(page, line, words):
-    """Scenes of ours exist, and take the settings."""
+    """Scenes of ours exist, and accept the settings."""
     for scene in (word for word in words if word.startswith("assets/scenes/")):
         settings = [part for i, word in enumerate(words[:-1]) if word == "--set" for part in (word, words[i + 1])]
         said = subprocess.run([virga, "check", f"{root}/{scene}", *settings], capture_output=True, text=True)

@@ -49,9 +49,9 @@ _, _, wet = pixels(sys.argv[2])
 inside = [i for i in range(width * height) if dry[i]]
 outside = [i for i in range(width * height) if not dry[i]]
 assert 0.05 < len(inside) / len(dry) < 0.5, "no triangle, or nothing else"
-for name, place in (("triangle", inside), ("sky", outside)):
+for name, pixels in (("triangle", inside), ("sky", outside)):
     # Streaks are lit by a grey sky: 12 of 765 is one step of a channel in 64, above what rounding does.
-    streaks = sum(abs(wet[i] - dry[i]) > 12 for i in place) / len(place)
+    streaks = sum(abs(wet[i] - dry[i]) > 12 for i in pixels) / len(pixels)
     print("%.1f %% of the %s is under streaks" % (100 * streaks, name))
     assert 0.005 < streaks < 0.9, "no rain over the " + name + ", or nothing else"
 PYTHON

@@ -1,5 +1,5 @@
-/* test_scene_fields.c - what a running scene is told: every field of settings, steps, views and panes, one at a time,
- * with numbers that it should take and numbers that it should not; its state stays finite and its water counted. */
+/* test_scene_fields.c - every field of settings, steps, views and panes of a running scene, one at a time, with valid
+ * and with invalid numbers: its state stays finite, and its water adds up. */
 #include "../gpu/fields.h"
 #include "../gpu/small_scene.h"
 #include "../gpu/small_state.h"
@@ -64,7 +64,7 @@ static void close_test(fields_test *t)
     virga_context_destroy(&t->context);
 }
 
-/* One frame of the scene as it is told; checks the state where it was stepped. */
+/* One frame of the scene; checks the state where it was stepped. */
 static virga_result record_frame(fields_test *t, const virga_scene_frame *frame)
 {
     VkCommandBuffer cmd = gpu_begin_frame(t->f, t->context);
@@ -111,15 +111,15 @@ static virga_result set_ground(void *user, const void *changed)
 
 #define FAR                    VIRGA_TESTS_FARTHEST_M
 #define VIRGA_TESTS_FARTHEST_M 1e9
-#define MOST                   (double)FLT_MAX
-#define LIGHTS(type)                                                     \
-    FIELD(type, lighting.environment_sh[8], REFUSED, -MOST, MOST),       \
-        FIELD(type, lighting.lights[0].position_m, REFUSED, -FAR, FAR),  \
-        FIELD(type, lighting.lights[0].intensity, REFUSED, -MOST, MOST), \
-        FIELD(type, lighting.lights[0].range_m, REFUSED, -MOST, MOST),   \
-        FIELD(type, lighting.lights[0].direction, REFUSED, -MOST, MOST), \
-        FIELD(type, lighting.lights[0].cos_inner, REFUSED, -MOST, MOST), \
-        FIELD(type, lighting.lights[0].cos_outer, REFUSED, -MOST, MOST), \
+#define LARGEST                (double)FLT_MAX
+#define LIGHTS(type)                                                           \
+    FIELD(type, lighting.environment_sh[8], REFUSED, -LARGEST, LARGEST),       \
+        FIELD(type, lighting.lights[0].position_m, REFUSED, -FAR, FAR),        \
+        FIELD(type, lighting.lights[0].intensity, REFUSED, -LARGEST, LARGEST), \
+        FIELD(type, lighting.lights[0].range_m, REFUSED, -LARGEST, LARGEST),   \
+        FIELD(type, lighting.lights[0].direction, REFUSED, -LARGEST, LARGEST), \
+        FIELD(type, lighting.lights[0].cos_inner, REFUSED, -LARGEST, LARGEST), \
+        FIELD(type, lighting.lights[0].cos_outer, REFUSED, -LARGEST, LARGEST), \
         FIELD(type, lighting.light_count, CLAMPED, 0, VIRGA_MAX_LIGHTS)
 
 #define F(member, low, high) FIELD(virga_rain_settings, member, CLAMPED, low, high)

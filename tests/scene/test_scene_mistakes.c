@@ -76,7 +76,7 @@ static void a_draw_of_nothing_says_why(void **state)
     close_scene(&m);
 }
 
-static void panes_that_nobody_prepared_are_told(void **state)
+static void panes_that_nobody_prepared_are_logged(void **state)
 {
     mistaken m;
     open_scene(&m, state);
@@ -96,7 +96,7 @@ static void panes_that_nobody_prepared_are_told(void **state)
 }
 
 /* A camera_m that was forgotten. The rain of small scenes reaches less than 100 m. */
-static void a_view_beyond_the_rain_is_told(void **state)
+static void a_view_beyond_the_rain_is_logged(void **state)
 {
     mistaken m;
     open_scene(&m, state);
@@ -128,7 +128,8 @@ static void views_that_contradict_themselves_are_refused(void **state)
     open_scene(&m, state);
     m.view.reversed_depth = true;
     refused(&m, "reversed_depth");
-    m.view.viewport[3] = -m.view.viewport[3]; /* as to turn the picture over: as one of no pixels, with a hint */
+    m.view.viewport[3] =
+        -m.view.viewport[3]; /* as to flip the picture: refused like a view of no pixels, with a hint */
     gpu_forget_log(m.f);
     assert_int_equal(record(&m), VIRGA_NOT_READY);
     gpu_submit(m.f);
@@ -211,8 +212,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         gpu_kept_test(a_draw_of_nothing_says_why),
-        gpu_kept_test(panes_that_nobody_prepared_are_told),
-        gpu_kept_test(a_view_beyond_the_rain_is_told),
+        gpu_kept_test(panes_that_nobody_prepared_are_logged),
+        gpu_kept_test(a_view_beyond_the_rain_is_logged),
         gpu_kept_test(views_that_contradict_themselves_are_refused),
         gpu_kept_test(lists_and_pointers_that_are_missing_are_named),
         gpu_kept_test(targets_of_other_contexts_are_refused),

@@ -40,7 +40,7 @@ static double time_share(double x, double y, double (*centres)[2], double radius
  * its way. The greatest differences are where the chord is short: a pixel takes its chord in its middle. */
 static void check_moving(shot *s, double diameter_m, const double velocity[3])
 {
-    double centres[TIMES][2], position[3], distance = 1, worst = 0, sum = 0;
+    double centres[TIMES][2], position[3], distance = 1, max_error = 0, sum = 0;
     put_flying(s, diameter_m, nowhere, velocity);
     for (int i = 0; i < TIMES; i++) {
         droplet_at(s, -s->shutter_s * (i + 0.5) / TIMES, position);
@@ -51,14 +51,14 @@ static void check_moving(shot *s, double diameter_m, const double velocity[3])
     for (size_t i = 0; i < pixel_count(s); i++) {
         const double x = (double)(i % s->picture.width), y = (double)(i / s->picture.width);
         const double got = (double)pixels[i * 4 + 3], due = time_share(x, y, centres, 0.5 * width);
-        worst = fmax(worst, fabs(got - due));
+        max_error = fmax(max_error, fabs(got - due));
         sum += got;
     }
     const double way = hypot(centres[TIMES - 1][0] - centres[0][0], centres[TIMES - 1][1] - centres[0][1]);
     printf("%.1f px wide, way %.1f px: covers %.2f px, its disc %.2f; a pixel is off by %.3f at most\n", width, way,
-           sum, M_PI / 4 * width * width, worst);
+           sum, M_PI / 4 * width * width, max_error);
     assert_near(sum, M_PI / 4 * width * width, 0.03);
-    assert_true(worst < 0.3 * fmin(width / way, 1));
+    assert_true(max_error < 0.3 * fmin(width / way, 1));
 }
 
 static void a_moving_droplet_spreads_its_disc_over_its_way(void **state)

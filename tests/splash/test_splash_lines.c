@@ -94,14 +94,14 @@ static void compare(virga_splash_style style, bool depth)
     const uint32_t lines = prepared(&s)->lines.index_count / 2, all = prepared(&s)->sprites;
     s.f.context->lines = false;
     const float *without = draw_frame(&s);
-    double worst = 0, max = 0;
+    double max_difference = 0, max = 0;
     for (size_t i = 0; i < pixel_count(&s) * 4; i++) {
-        worst = fmax(worst, fabs((double)with[i] - (double)without[i]));
+        max_difference = fmax(max_difference, fabs((double)with[i] - (double)without[i]));
         max = fmax(max, (double)without[i]);
     }
-    printf("%u of %u are lines; worst pixel off by %.3g of %.3g\n", lines, all, worst, max);
+    printf("%u of %u are lines; a pixel differs by up to %.3g of %.3g\n", lines, all, max_difference, max);
     assert_true(lines > 10 && prepared(&s)->lines.index_count == 0 && prepared(&s)->sprites == all);
-    assert_true(max > 0 && worst < 1e-3 * max);
+    assert_true(max > 0 && max_difference < 1e-3 * max);
     free(with);
     close_shot(&s);
 }

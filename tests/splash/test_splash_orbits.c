@@ -70,10 +70,10 @@ static double chance(uint32_t id, uint32_t stream)
 /* 0.1 to 3 mm, 0.1 to 4 m/s, any upward direction; in the air already, and the ground is a kilometre below. */
 static virga_droplet_gpu random_droplet(uint32_t id)
 {
-    const double speed = 0.1 + 3.9 * chance(id, 1), up = chance(id, 2), turn = 2 * M_PI * chance(id, 3);
+    const double speed = 0.1 + 3.9 * chance(id, 1), up = chance(id, 2), azimuth = 2 * M_PI * chance(id, 3);
     const double side = sqrt(1 - up * up);
     return (virga_droplet_gpu){
-        .velocity = {(float)(speed * side * cos(turn)), (float)(speed * up), (float)(speed * side * sin(turn))},
+        .velocity = {(float)(speed * side * cos(azimuth)), (float)(speed * up), (float)(speed * side * sin(azimuth))},
         .diameter_m = (float)(0.1e-3 * pow(30, chance(id, 4))),
         .base = {0, -1000, 0},
         .kind = VIRGA_SPLASH_SCATTERING | VIRGA_DROPLET_ALIVE | VIRGA_DROPLET_FREE,
@@ -108,10 +108,11 @@ static double distance(const float a[3], const double b[3])
 }
 
 /* Follows droplets for 1 s and returns the greatest distance from the reference, as a share of the way so far. */
-static double worst_of_a_second(const air *air, const virga_droplet_gpu *droplets, uint32_t count, double *worst_speed)
+static double max_error_of_a_second(const air *air, const virga_droplet_gpu *droplets, uint32_t count,
+                                    double *max_speed_error)
 {
     static body bodies[PER_AIR];
-    double worst = 0;
+    double max_error = 0;
     blow(air);
     splash_fixture_put(&f, droplets, count);
     for (uint32_t i = 0; i < count; i++)
@@ -121,11 +122,11 @@ static double worst_of_a_second(const air *air, const virga_droplet_gpu *droplet
         for (uint32_t i = 0; i < count; i++) {
             for (int part = 0; part < PARTS; part++)
                 advance(air, &bodies[i], f.splash->def.tick_s / PARTS);
-            worst = fmax(worst, distance(f.droplets[i].position, bodies[i].position) / bodies[i].path_m);
-            *worst_speed = fmax(*worst_speed, distance(f.droplets[i].velocity, bodies[i].velocity));
+            max_error = fmax(max_error, distance(f.droplets[i].position, bodies[i].position) / bodies[i].path_m);
+            *max_speed_error = fmax(*max_speed_error, distance(f.droplets[i].velocity, bodies[i].velocity));
         }
     }
-    return worst;
+    return max_error;
 }
 
 /* ---- tests */
@@ -136,20 +137,20 @@ static void test_ten_thousand_droplets_fly_by_the_law(void **state)
     static const air airs[AIRS] = {
         {0.6, {0, 0, 0}}, {0.8, {3, 0, -1}}, {1.0, {-8, 0.5, 4}}, {1.204, {0, 0, 0}}, {1.3, {12, -1, 5}}};
     static virga_droplet_gpu droplets[PER_AIR];
-    double worst_speed = 0;
+    double max_speed_error = 0;
     splash_fixture_open(&f, NULL);
     for (uint32_t run = 0; run < AIRS; run++) {
         for (uint32_t i = 0; i < PER_AIR; i++)
             droplets[i] = random_droplet(run * PER_AIR + i);
-        const double worst = worst_of_a_second(&airs[run], droplets, PER_AIR, &worst_speed);
-        printf("air of %.3f kg/m^3: off by %.2e of the way at most\n", airs[run].density, worst);
-        assert_true(worst < 1e-3);
+        const double max_error = max_error_of_a_second(&airs[run], droplets, PER_AIR, &max_speed_error);
+        printf("air of %.3f kg/m^3: off by %.2e of the way at most\n", airs[run].density, max_error);
+        assert_true(max_error < 1e-3);
     }
-    printf("velocity: off by %.2e m/s at most\n", worst_speed);
+    printf("velocity: off by %.2e m/s at most\n", max_speed_error);
     splash_fixture_close(&f);
 }
 
-/* 8 s, which is longer than a droplet is followed: its age and place begin anew every 2 s. */
+/* 8 s, which is longer than a droplet is followed: its age and position start again every 2 s. */
 static void fly_for_long(virga_droplet_gpu *droplets, uint32_t count)
 {
     for (int part = 0; part < 4; part++) {

@@ -214,12 +214,12 @@ static void a_crown_in_even_light_is_not_seen(void **state)
         s.f.settings.lighting.environment_sh[0][c] = (float)(2 * sqrt(M_PI));
     apply_settings(&s);
     const float *pixels = draw_frame(&s);
-    double worst = 0;
+    double max_error = 0;
     for (size_t i = 0; i < pixel_count(&s); i++)
-        worst = fmax(worst, fabs((double)pixels[i * 4] - (double)pixels[i * 4 + 3]));
-    printf("alpha %.1f px, worst pixel off by %.1e\n", sum_of(&s, pixels, 3), worst);
+        max_error = fmax(max_error, fabs((double)pixels[i * 4] - (double)pixels[i * 4 + 3]));
+    printf("alpha %.1f px, a pixel is off by up to %.1e\n", sum_of(&s, pixels, 3), max_error);
     assert_true(sum_of(&s, pixels, 3) > 300);
-    assert_true(worst < 1e-4);
+    assert_true(max_error < 1e-4);
     close_shot(&s);
 }
 
@@ -325,7 +325,7 @@ static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
     close_shot(&s);
 }
 
-/* Summed coverage from a distance, 30 degrees above the level: the mean over places between pixels. It shows as `max`
+/* Summed coverage from a distance, 30 degrees above the level: the mean over positions between pixels. It shows as `max`
  * pieces at most. */
 static double blob_alpha(shot *s, double distance_m, uint32_t max)
 {
@@ -350,13 +350,13 @@ static double blob_alpha(shot *s, double distance_m, uint32_t max)
 static void check_blob(shot *s, double first_m)
 {
     const double at_first = blob_alpha(s, first_m, 1) * first_m * first_m;
-    double worst = 0;
+    double max_error = 0;
     for (int i = 1; i < 5; i++) {
         const double distance = ldexp(first_m, i), share = blob_alpha(s, distance, 1) * distance * distance / at_first;
         printf("from %.2f m: %.3f of the blob\n", distance, share);
-        worst = fmax(worst, fabs(share - 1));
+        max_error = fmax(max_error, fabs(share - 1));
     }
-    assert_true(worst < 0.1);
+    assert_true(max_error < 0.1);
 }
 
 static void a_crown_far_away_is_a_blob_that_covers_what_its_size_gives(void **state)

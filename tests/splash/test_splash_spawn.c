@@ -9,7 +9,7 @@
 
 #define SPLASHES  10000
 #define MATERIALS (VIRGA_MATERIAL_DRAIN + 1)
-#define MOST      (22 * SPLASHES) /* droplets of one row */
+#define MAX_BORN  (22 * SPLASHES) /* droplets of one row */
 #define DEGREE    (M_PI / 180)
 #define TURNED    0x1p-10 /* of a vector turned by a device's sin and cos, each within 2^-11 (Vulkan, precision) */
 
@@ -18,7 +18,7 @@ static splash_fixture f;
 /* Droplets of all splashes of a row, in the order of splashes. */
 typedef struct births {
     uint32_t count, counts[SPLASHES]; /* all; by splash */
-    double elevation[MOST], speed[MOST], azimuth[MOST];
+    double elevation[MAX_BORN], speed[MAX_BORN], azimuth[MAX_BORN];
 } births;
 
 static births born;
@@ -48,14 +48,14 @@ static double even(double x, double low, double high)
 static void assert_distributed(double *values, uint32_t count, double (*share)(double, double, double), double low,
                                double high)
 {
-    double worst = 0;
+    double max_distance = 0;
     qsort(values, count, sizeof *values, by_size);
     for (uint32_t i = 0; i < count; i++) {
         const double right = share(values[i], low, high);
-        worst = fmax(worst, fmax(right - (double)i / count, (i + 1.0) / count - right));
+        max_distance = fmax(max_distance, fmax(right - (double)i / count, (i + 1.0) / count - right));
     }
-    if (worst > 1.9495 / sqrt(count))
-        fail_msg("from %g to %g: distance %.5f, expected up to %.5f", low, high, worst, 1.9495 / sqrt(count));
+    if (max_distance > 1.9495 / sqrt(count))
+        fail_msg("from %g to %g: distance %.5f, expected up to %.5f", low, high, max_distance, 1.9495 / sqrt(count));
 }
 
 /* What chi-square passes once in a thousand times (Wilson and Hilferty 1931). */
@@ -111,13 +111,13 @@ static void measure(void)
     memset(&born, 0, sizeof born);
     for (; born.count < f.state->staying; born.count++) {
         const virga_droplet_gpu *droplet = &f.droplets[born.count];
-        REQUIRE(born.count < MOST && droplet->id < SPLASHES && droplet->kind & VIRGA_DROPLET_ALIVE);
+        REQUIRE(born.count < MAX_BORN && droplet->id < SPLASHES && droplet->kind & VIRGA_DROPLET_ALIVE);
         assert_int_equal(VIRGA_DROPLET_INDEX(droplet->kind), born.counts[droplet->id]++);
         const double x = (double)droplet->velocity[0], y = (double)droplet->velocity[1];
-        const double z = (double)droplet->velocity[2], turn = atan2(z, x);
+        const double z = (double)droplet->velocity[2], angle = atan2(z, x);
         born.elevation[born.count] = atan2(y, hypot(x, z)) / DEGREE;
         born.speed[born.count] = sqrt(x * x + y * y + z * z);
-        born.azimuth[born.count] = turn < 0 ? turn + 2 * M_PI : turn;
+        born.azimuth[born.count] = angle < 0 ? angle + 2 * M_PI : angle;
     }
 }
 

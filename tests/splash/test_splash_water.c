@@ -1,5 +1,5 @@
 /* What must hold whatever falls: water that flies up is in the air or back, to the nanolitre, in rings of any size;
- * droplets keep their places in the world; the same input gives the same bits. */
+ * droplets keep their positions in the world; the same input gives the same bits. */
 #include "splash_fixture.h"
 
 #include <math.h>
@@ -22,8 +22,8 @@ static void storm_spawn(uint32_t seed, uint32_t tick, uint32_t index)
     uint32_t hash = virga_hash3(seed, tick, index);
     const uint32_t material = hash % MATERIALS, state = VIRGA_GROUND_WET + (hash >> 8) % 4;
     virga_spawn_gpu *spawn = splash_fixture_spawn(&f, material, state);
-    const double steep = 0.3 * (double)between(&hash, 0, 1), turn = 2 * M_PI * (double)between(&hash, 0, 1);
-    const float normal[3] = {(float)(sin(steep) * cos(turn)), (float)cos(steep), (float)(sin(steep) * sin(turn))};
+    const double steep = 0.3 * (double)between(&hash, 0, 1), azimuth = 2 * M_PI * (double)between(&hash, 0, 1);
+    const float normal[3] = {(float)(sin(steep) * cos(azimuth)), (float)cos(steep), (float)(sin(steep) * sin(azimuth))};
     for (int axis = 0; axis < 3; axis++) {
         spawn->position[axis] = between(&hash, -5, 5);
         spawn->velocity[axis] = axis == 1 ? between(&hash, -9, -4) : between(&hash, -3, 3);
@@ -297,7 +297,7 @@ typedef struct kept {
     uint32_t return_count;
 } kept;
 
-/* 600 splashes a tick for places of 256, and as few for droplets. */
+/* 600 splashes a tick in 256 slots, and as few slots for droplets. */
 static void keep_a_storm(kept *out)
 {
     virga_splash_def def = splash_fixture_def();
@@ -329,8 +329,8 @@ static void test_the_same_spawns_give_the_same_bits(void **state)
     }
 }
 
-/* 100 at a time, and more than all places in one tick. */
-static void test_of_more_splashes_than_there_are_places_the_newest_stay(void **state)
+/* 100 at a time, then more than all slots in one tick. */
+static void test_of_more_splashes_than_slots_the_newest_stay(void **state)
 {
     (void)state;
     virga_splash_def def = splash_fixture_def();
@@ -416,7 +416,7 @@ int main(void)
         cmocka_unit_test(test_a_camera_that_goes_300_m_leaves_all_where_it_is),
         cmocka_unit_test(test_a_camera_that_flies_about_loses_no_water),
         cmocka_unit_test(test_the_same_spawns_give_the_same_bits),
-        cmocka_unit_test(test_of_more_splashes_than_there_are_places_the_newest_stay),
+        cmocka_unit_test(test_of_more_splashes_than_slots_the_newest_stay),
         cmocka_unit_test(test_a_slow_pile_lets_go_after_the_unit_time),
         cmocka_unit_test(test_a_fast_pile_lets_go_after_the_unit_distance),
     };

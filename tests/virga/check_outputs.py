@@ -58,11 +58,11 @@ def transform(matrix, point):
 
 
 def check_camera(matrix):
-    """Its place is the origin of the first frame, and what it looks at lies straight ahead, along -Z."""
+    """Its position is the origin of the first frame, and what it looks at lies straight ahead, along -Z."""
     distance = math.dist(CAMERA, TARGET)
-    for point, place in ((CAMERA, (0, 0, 0, 1)), (TARGET, (0, 0, -distance, 1))):
+    for point, position in ((CAMERA, (0, 0, 0, 1)), (TARGET, (0, 0, -distance, 1))):
         seen = transform(matrix, point)
-        expect(all(near(a, b, 1e-3) for a, b in zip(seen, place)), f"worldToCamera takes {point} to {seen}")
+        expect(all(near(a, b, 1e-3) for a, b in zip(seen, position)), f"worldToCamera takes {point} to {seen}")
 
 
 def check_header(text, number, version):
@@ -101,10 +101,10 @@ def check_headers(paths):
 def check_moving(paths):
     """With the velocity of water: the plate moves by less than 2 pixels a frame, rain falls by a quarter of a metre."""
     text = open(paths[0]).read()
-    most = [float(word) for word in re.search("Stats Max: ([^(\n]*)", text)[1].split()]
+    max_pixels = [float(word) for word in re.search("Stats Max: ([^(\n]*)", text)[1].split()]
     expect("velocity.X, velocity.Y" in text, "there are other channels than velocity.X and velocity.Y")
     expect("waterVelocity: 1" in text, "the frame does not say that it has the velocity of water")
-    expect(3 < most[1] < 1000, f"rain falls by {most[1]} pixels a frame")
+    expect(3 < max_pixels[1] < 1000, f"rain falls by {max_pixels[1]} pixels a frame")
 
 
 def check_pixels(paths):
@@ -285,7 +285,7 @@ def check_droplets(paths):
         check_parents(path, points, falling[:i], falling[i])
         living = splash["droplets"] - splash["fallen"]
         # Of a far drop that stands for many, some splash later: those are not yet there.
-        expect(0.1 * living <= len(points) <= living, f"{path}: {len(points)} droplets, told {living}")
+        expect(0.1 * living <= len(points) <= living, f"{path}: {len(points)} droplets, the statistics have {living}")
         water, in_air = sum(d[WATER] for d in points), lines[i]["water_ul"]["in_air"]
         expect(0 < water < in_air * 1.0001, f"{path}: droplets of {water} microlitres, {in_air} in the air")
     if not failures:
@@ -312,10 +312,10 @@ def check_mapped(paths):
         wanted = {(False, False): "metal", (True, True): "tile"}.get((right, behind))
         strange = [name for name in names if (name != wanted if wanted else name in ("metal", "tile"))]
         expect(not strange, f"right {right}, behind {behind}: {strange[:5]}, expected {wanted or 'those of meshes'}")
-    told, before = ({name: sum(of.get(name, 0) for of in json.loads(line)["splash"]["splashes"].values())
+    counted, before = ({name: sum(of.get(name, 0) for of in json.loads(line)["splash"]["splashes"].values())
                      for name in MATERIALS} for line in (lines[-1], without[-1]))
     for name in ("metal", "tile"):
-        expect(told[name] > before[name] + 100, f"{told[name]} splashes on {name}, without a map {before[name]}")
+        expect(counted[name] > before[name] + 100, f"{counted[name]} splashes on {name}, without a map {before[name]}")
 
 
 # ---- statistics and previews
@@ -355,7 +355,7 @@ def check_stats(paths):
         expect(all(near(a, b) for a, b in zip(rain["wind_m_s"], WIND)), f"wind {rain['wind_m_s']}")
         expect(rain["impacts_dropped"] == 0, f"impacts dropped {rain['impacts_dropped']}")
         expect((rain["impacts"] > 0) == (water["rained"] > 0) == (i > 0), f"impacts {rain['impacts']}, {water}")
-        expect(near(water["rained_total"], total, 1e-6 * (1 + total)), f"rained {total}, told {water['rained_total']}")
+        expect(near(water["rained_total"], total, 1e-6 * (1 + total)), f"rained {total}, the statistics have {water['rained_total']}")
         off = nanolitres(water["start"]) + nanolitres(water["rained_total"]) - sum(nanolitres(water[name])
                                                                                    for name in BUDGET)
         expect(off == 0, f"the budget of water is off by {off} nl: {water}")

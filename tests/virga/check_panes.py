@@ -118,14 +118,14 @@ def check_points(paths):
     if failures:
         return
     for (frame, points), path in zip(frames, paths):
-        for pane, told in enumerate(stats[frame]["glass"]):
+        for pane, counted in enumerate(stats[frame]["glass"]):
             of = [d for d in points if d[PANE] == pane]
             for kind, name in ((DROP, "drops"), (PARTICLE, "particles")):
                 held = [d for d in of if d[KIND] == kind]
-                expect(len(held) == told[name], f"{path}: {len(held)} {name}, told {told[name]}")
+                expect(len(held) == counted[name], f"{path}: {len(held)} {name}, expected {counted[name]}")
                 water = sum(nanolitres(d[WATER]) for d in held)
-                wanted = nanolitres(told["water_ul"][name])
-                expect(water == wanted, f"{path}: {name} of {water} nl, told {wanted}")
+                wanted = nanolitres(counted["water_ul"][name])
+                expect(water == wanted, f"{path}: {name} of {water} nl, expected {wanted}")
         for d in points:
             expect(all(math.isfinite(value) for value in d) and d[KIND] in (DROP, PARTICLE), f"{path}: {d}")
             expect(0 < d[RADIUS] < 0.02 and d[AGE] >= 0, f"{path}: radius {d[RADIUS]}, age {d[AGE]}")

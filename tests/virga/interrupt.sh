@@ -160,7 +160,7 @@ untorn killed
 render 0 killed --resume
 complete killed
 
-begin "what a kill may leave at worst is put right"
+begin "what a kill leaves is cleaned up"
 broken=$work/broken
 rm "$broken/frame.0004.exr" "$broken/rain.0007.ply" "$broken/preview.0008.png" "$broken/splash.0011.ply"
 : >"$broken/frame.0005.exr"

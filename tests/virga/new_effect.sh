@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A new effect takes one file and one entry in the list of effects: its setting, its layer, its pass and its statistic
+# A new effect needs one file and one entry in the list of effects: its setting, its layer, its pass and its statistic
 # are then there in every command.
 # Usage: new_effect.sh VIRGA   (the program with the effect of nothing.c)
 set -u

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Panes of a small scene: layers, point caches and statistics of a windshield with wipers that moves with the camera and
-# of a window that stands; a range of frames alone is as in the whole run; footage in place of the scene; what is wrong
+# of a window that stands; a range of frames alone is as in the whole run; footage behind the panes instead of the scene; what is wrong
 # in one line.
 # Usage: panes.sh VIRGA OPEN_POINTS
 set -u
@@ -107,7 +107,7 @@ python3 "$here/check_panes.py" stats "$work/out/stats.jsonl" || fail "statistics
 python3 "$here/check_panes.py" points "$work/out"/glass.00{06,07,12}.ply "$work/seen" "$work/out/stats.jsonl" ||
     fail "point caches of panes"
 oiiotool "$work/out/frame.0012.exr" --ch glass.R,glass.G,glass.B,glass.A,refraction.X,refraction.Y -d float \
-    -o "$work/picked.exr" && oiiotool --stats "$work/picked.exr" >"$work/pixels" || fail "oiiotool"
+    -o "$work/layers.exr" && oiiotool --stats "$work/layers.exr" >"$work/pixels" || fail "oiiotool"
 python3 "$here/check_panes.py" pixels "$work/pixels" || fail "pixels of panes"
 
 # The beauty is the panes over what it would be without them; what they have no water on stays.
@@ -172,8 +172,8 @@ for frame in 1 2 3 4; do
 done
 render plate --frames 3-4 --plate "$work/plate.%04d.exr" --layers beauty,glass,depth
 grep -q 'is 192 x 108, resampled to 96 x 54' "$work/log" || fail "resampling is not said"
-oiiotool "$work/plate/frame.0004.exr" --ch R,G,B -d float -o "$work/picked.exr" &&
-    oiiotool --stats "$work/picked.exr" >"$work/pixels" || fail "oiiotool"
+oiiotool "$work/plate/frame.0004.exr" --ch R,G,B -d float -o "$work/layers.exr" &&
+    oiiotool --stats "$work/layers.exr" >"$work/pixels" || fail "oiiotool"
 python3 "$here/check_panes.py" plate "$work/pixels" 0.6 0.4 0.2 || fail "the plate is not in the beauty"
 render folder --frames 3-4 --plate "$work/footage" --layers beauty,glass,depth
 idiff -q -fail 0 "$work/plate/frame.0004.exr" "$work/folder/frame.0004.exr" >"$work/log" ||
@@ -183,7 +183,7 @@ idiff -q -fail 0 "$work/plate/frame.0003.exr" "$work/still/frame.0003.exr" >"$wo
     fail "one plate for all is another"
 timeout 60 "$virga" render "$work/scene.yaml" -o "$work/still" --frames 3 --layers beauty,glass,depth --resume \
     --device "$device" 2>"$work/err" && fail "going on without the plate is no mistake"
-grep -q 'has plate .*plate.0003.exr, expected (none)' "$work/err" || fail "another plate is not told"
+grep -q 'has plate .*plate.0003.exr, expected (none)' "$work/err" || fail "another plate is not reported"
 
 # ---- what is wrong
 

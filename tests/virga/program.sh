@@ -21,7 +21,7 @@ bare=$(VK_ICD_FILENAMES=/nowhere VK_DRIVER_FILES=/nowhere "$virga" --version 2>/
     fail "--version without a driver failed"
 echo "$bare" | grep -q '^device: none, ' || fail "without a driver: '$bare'"
 
-# A number that no device has: those that there are, by what --device takes.
+# A number that no device has: those that there are, by what --device accepts.
 absent=$("$virga" info --device 99 2>&1 >/dev/null)
 echo "$absent" | grep -qxE 'virga info: no device 99: there (is only|are) 0, (cpu|gpu)(; [0-9]+, (cpu|gpu))*' ||
     fail "info --device 99: '$absent'"

@@ -80,8 +80,8 @@ static void water(void **state)
     scene_file_free(scene);
 }
 
-/* Words of scene files are numbers of the library. */
-static void words(void **state)
+/* Enumerations of scene files have the values of the library's. */
+static void enumerations(void **state)
 {
     (void)state;
     assert_int_equal(SCENE_SPLASH_MODE_PAPER, VIRGA_SPLASH_MODE_PAPER);
@@ -187,8 +187,8 @@ static void wipers(void **state)
     scene_file_free(scene);
 }
 
-/* Words of panes, and that the default kind is that of the library's default settings. */
-static void words_of_panes(void **state)
+/* Enumerations of panes, and that the default kind is that of the library's default settings. */
+static void enumerations_of_panes(void **state)
 {
     (void)state;
     static const char *const kinds[VIRGA_GLASS_KINDS] = {
@@ -214,8 +214,9 @@ static void words_of_panes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(splashes), cmocka_unit_test(words),          cmocka_unit_test(ground), cmocka_unit_test(panes),
-        cmocka_unit_test(wipers),   cmocka_unit_test(words_of_panes), cmocka_unit_test(water)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(splashes), cmocka_unit_test(enumerations),
+                                       cmocka_unit_test(ground),   cmocka_unit_test(panes),
+                                       cmocka_unit_test(wipers),   cmocka_unit_test(enumerations_of_panes),
+                                       cmocka_unit_test(water)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* test_spread.c - how even frames are is told right, whatever a machine does besides. */
+/* test_spread.c - the measure of how even frame times are does not depend on what else the machine does. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

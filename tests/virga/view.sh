@@ -220,7 +220,7 @@ END
             kill -0 $viewer 2>/dev/null || break
             sleep 0.2
             xdotool search --name "virga view" windowfocus 2>/dev/null || continue
-            # Each once: space and tab turn something over.
+            # Each once: space and tab are toggles.
             case $try in
             *0) [ "${pressed#*s}" != "$pressed" ] || { xdotool key space && pressed=s$pressed; } ;;
             *5) [ "${pressed#*t}" != "$pressed" ] || { xdotool key Tab && pressed=t$pressed; } ;;

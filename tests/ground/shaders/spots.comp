@@ -1,4 +1,4 @@
-// spots.comp - what virga_ground_spots says along a square of places.
+// spots.comp - the result of virga_ground_spots at the points of a square.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/ground_map.glsl"
@@ -8,7 +8,7 @@ layout(set = 0, binding = 0) uniform usampler2D spot_map;
 layout(std430, set = 0, binding = 1) writeonly buffer Found { float found[]; };
 layout(push_constant) uniform Square {
     ivec2 low_cell;
-    vec2 first;        // cells, the first place
+    vec2 first;        // cells, the first point
     float apart;       // cells, from one to the next
     float pixel_cells;
     int cells;
