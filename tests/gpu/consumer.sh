@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Somebody else's programs: the library is built as a release, installed below a temporary prefix, and used from outside
 # the tree by C and by C++, through pkg-config and through CMake; then used as a Meson subproject. No device is needed.
-# Usage: consumer.sh SOURCE_ROOT "CC" "CXX" VERSION
+# Usage: consumer.sh SOURCE_ROOT BUILD_ROOT "CC" "CXX" VERSION, where BUILD_ROOT has the compiled shaders
 set -eu
-source=$(cd "$1" && pwd) cc=$2 cxx=$3 version=$4
+source=$(cd "$1" && pwd) build=$2 cc=$3 cxx=$4 version=$5
 for tool in meson pkg-config cmake ninja "${cc%% *}" "${cxx%% *}"; do
     command -v "$tool" >/dev/null || { echo "skipped: there is no $tool"; exit 77; }
 done
@@ -60,7 +60,8 @@ SOURCE
 cp "$work/consumer.c" "$work/consumer.cpp"
 
 # ---- installed
-quietly meson setup "$work/build" "$source" --prefix "$work/prefix" --libdir lib --buildtype release -Db_ndebug=true \
+"$source/tests/gpu/compiled_shader.sh" "$build" --native-file >"$work/native.ini"
+quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib --buildtype release -Db_ndebug=true \
     -Dtools=disabled -Dtests=disabled
 quietly nice ninja -j2 -C "$work/build"
 quietly meson install -C "$work/build" --no-rebuild
@@ -129,7 +130,7 @@ project('host', 'c', version: '1', default_options: ['c_std=c11', 'warning_level
 virga = subproject('virga')
 executable('consumer', 'consumer.c', dependencies: dependency('virga'))
 SOURCE
-quietly meson setup "$work/host/build" "$work/host" --wrap-mode nofallback
+quietly meson setup "$work/host/build" "$work/host" --native-file "$work/native.ini" --wrap-mode nofallback
 # The program and its libraries are not a host's business.
 if grep -qiE "dependency (openexr|assimp|cmocka|yaml-0.1) found" "$work/log"; then
     cat "$work/log"

@@ -11,7 +11,17 @@ typedef struct build {
     virga_target *target;
     gpu_picture *picture;
     virga_host_memory host_memory;
+    uint32_t stride; /* of the calls or blocks that fail; 0 and 1: each of them */
 } build;
+
+/* A scene makes its effects with the same code that makes them alone, where each call fails. What a scene adds is to
+ * destroy the effects before the one that failed: for that it is enough that some calls of each effect fail. */
+enum { SCENE_STRIDE = 7 };
+
+static uint32_t next_number(const build *b, uint32_t number)
+{
+    return number + (b->stride ? b->stride : 1);
+}
 
 typedef virga_result (*build_fn)(build *b);
 
@@ -126,13 +136,14 @@ static void check_nothing_left(const build *b, const virga_memory_stats *before,
                  before->host_allocations, before->device_allocations);
 }
 
-/* Fails each call once until none is left to fail; returns how many there were. */
+/* Fails each call once until none is left to fail. Returns how many there were; with a stride, up to
+ * stride - 1 more. */
 static uint32_t fail_each_call(build *b, build_fn build_it, VkResult failure, virga_result expected)
 {
     virga_memory_stats before;
     virga_memory_get(b->context, &before);
     const uint32_t alive = watch_sum(watch.live);
-    for (uint32_t number = 1;; number++) {
+    for (uint32_t number = 1;; number = next_number(b, number)) {
         gpu_forget_log(b->f);
         watch_fail(number, failure);
         const virga_result result = build_it(b);
@@ -167,10 +178,10 @@ static void context_survives_every_failure(void **state)
 }
 
 /* Every call of one create: buffers, views, memory, mapping, binding, layouts, pools, sets, modules and pipelines. */
-static void create_survives_every_failure(gpu_fixture *f, build_fn build_it)
+static void create_survives_every_failure(gpu_fixture *f, build_fn build_it, uint32_t stride)
 {
     watch.keep_pipelines = true;
-    build b = {.f = f, .context = gpu_context(f)};
+    build b = {.f = f, .context = gpu_context(f), .stride = stride};
     const uint32_t calls = fail_each_call(&b, build_it, VK_ERROR_OUT_OF_DEVICE_MEMORY, VIRGA_ERROR_DEVICE_MEMORY);
     assert_true(calls > 50);
     virga_context_destroy(&b.context);
@@ -179,28 +190,28 @@ static void create_survives_every_failure(gpu_fixture *f, build_fn build_it)
 
 static void rain_survives_every_failure(void **state)
 {
-    create_survives_every_failure(*state, build_rain);
+    create_survives_every_failure(*state, build_rain, 1);
 }
 
 static void ground_survives_every_failure(void **state)
 {
-    create_survives_every_failure(*state, build_ground);
+    create_survives_every_failure(*state, build_ground, 1);
 }
 
 static void splash_survives_every_failure(void **state)
 {
-    create_survives_every_failure(*state, build_splash);
+    create_survives_every_failure(*state, build_splash, 1);
 }
 
 static void pane_survives_every_failure(void **state)
 {
-    create_survives_every_failure(*state, build_glass);
+    create_survives_every_failure(*state, build_glass, 1);
 }
 
 /* What was made before the effect that failed goes too. */
-static void scene_survives_every_failure(void **state)
+static void scene_survives_failures_of_each_effect(void **state)
 {
-    create_survives_every_failure(*state, build_scene);
+    create_survives_every_failure(*state, build_scene, SCENE_STRIDE);
 }
 
 static void shapes_survive_every_failure(void **state)
@@ -319,7 +330,7 @@ static uint32_t fail_each_block(build *b, build_fn build_it, small_heap *heap, c
     virga_memory_stats before;
     virga_memory_get(b->context, &before);
     const uint32_t alive = watch_sum(watch.live), blocks = heap->live;
-    for (uint32_t number = 1;; number++) {
+    for (uint32_t number = 1;; number = next_number(b, number)) {
         gpu_forget_log(b->f);
         heap->calls = 0;
         heap->fail_at = number;
@@ -338,6 +349,17 @@ static uint32_t fail_each_block(build *b, build_fn build_it, small_heap *heap, c
     }
 }
 
+/* Every block of each effect, and some of each effect in a scene. */
+static void fail_blocks_of_creates(build *b, small_heap *heap, const refusal *expected, uint32_t min)
+{
+    static const build_fn effects[] = {build_rain, build_ground, build_splash, build_glass};
+    for (size_t i = 0; i < sizeof effects / sizeof effects[0]; i++)
+        assert_true(fail_each_block(b, effects[i], heap, expected) > min);
+    b->stride = SCENE_STRIDE;
+    assert_true(fail_each_block(b, build_scene, heap, expected) > min);
+    b->stride = 1;
+}
+
 static virga_context *open_on_heap(build *b, small_heap *heap)
 {
     virga_context_def def = gpu_context_def(b->f);
@@ -349,15 +371,13 @@ static virga_context *open_on_heap(build *b, small_heap *heap)
 
 static void every_block_of_host_memory_may_be_refused(void **state)
 {
-    static const build_fn builds[] = {build_rain, build_ground, build_splash, build_glass, build_scene};
     small_heap heap = {0};
     build b = {.f = *state, .host_memory = {&heap, small_alloc, small_free}};
     watch.keep_pipelines = true;
     assert_int_equal(fail_each_block(&b, build_context, &heap, &of_host_memory), 1);
     assert_int_equal(heap.live, 0);
     open_on_heap(&b, &heap);
-    for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_block(&b, builds[i], &heap, &of_host_memory) > 20);
+    fail_blocks_of_creates(&b, &heap, &of_host_memory, 20);
     virga_context_destroy(&b.context);
     assert_int_equal(heap.live, 0);
 }
@@ -412,15 +432,13 @@ static void small_device_free(void *user, const virga_memory_block *block)
 
 static void every_block_of_device_memory_may_be_refused(void **state)
 {
-    static const build_fn builds[] = {build_rain, build_ground, build_splash, build_glass, build_scene};
     small_heap heap = {.f = *state};
     build b = {.f = *state};
     virga_context_def def = gpu_context_def(b.f);
     watch.keep_pipelines = true;
     def.device_memory = (virga_device_memory){&heap, small_device_alloc, small_device_free};
     REQUIRE(virga_context_create(&def, &b.context) == VIRGA_OK);
-    for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++)
-        assert_true(fail_each_block(&b, builds[i], &heap, &of_device_memory) > 10);
+    fail_blocks_of_creates(&b, &heap, &of_device_memory, 10);
     virga_context_destroy(&b.context);
     assert_int_equal(heap.live, 0);
 }
@@ -463,7 +481,7 @@ int main(void)
         gpu_test(ground_survives_every_failure),
         gpu_test(splash_survives_every_failure),
         gpu_test(pane_survives_every_failure),
-        gpu_test(scene_survives_every_failure),
+        gpu_test(scene_survives_failures_of_each_effect),
         gpu_test(shapes_survive_every_failure),
         gpu_test(attach_survives_every_failure),
         gpu_test(every_block_of_host_memory_may_be_refused),

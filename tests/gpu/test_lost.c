@@ -1,5 +1,5 @@
-/* test_lost.c - the device is lost at each call that may say so, once: it is said once, every later call returns
- * VIRGA_ERROR_DEVICE_LOST, asks nothing of the device and records nothing, and destroying works. */
+/* test_lost.c - each Vulkan call that can lose the device does so once. It is logged once; every later call returns
+ * VIRGA_ERROR_DEVICE_LOST, calls nothing of the device and records nothing; destroying works. */
 #include "gpu_fixture.h"
 #include "small_scene.h"
 
@@ -10,12 +10,16 @@ static void lie_memory(VkPhysicalDeviceMemoryProperties *properties)
         properties->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* A whole life, as far as it came. */
+/* What is made and used in one run of a test, as far as it came. */
 typedef struct life {
     gpu_fixture *f;
     gpu_picture picture; /* its images live on */
     virga_context *context;
     virga_scene *scene;
+    virga_rain *rain; /* from here on: an effect that is made without a scene */
+    virga_ground *ground;
+    virga_splash *splash;
+    virga_glass *glass;
     virga_target *target;
     VkCommandBuffer cmd;
     bool recording;
@@ -28,17 +32,54 @@ typedef struct life {
             return r_;                  \
     } while (0)
 
-static virga_result make(life *l)
+static virga_result make_context(life *l)
+{
+    const virga_context_def context_def = gpu_context_def(l->f);
+    virga_target_def target_def = virga_default_target_def();
+    host_target_describe_layer(&l->picture.images, &target_def);
+    STEP(virga_context_create(&context_def, &l->context));
+    return virga_target_create(l->context, &target_def, &l->target);
+}
+
+static virga_result make_rain(life *l)
+{
+    const virga_rain_def def = small_rain_def();
+    STEP(make_context(l));
+    STEP(virga_rain_create(l->context, &def, &l->rain));
+    return virga_rain_attach(l->rain, l->target);
+}
+
+static virga_result make_ground(life *l)
+{
+    const virga_ground_def def = small_ground_def();
+    STEP(make_context(l));
+    return virga_ground_create(l->context, &def, &l->ground);
+}
+
+static virga_result make_splash(life *l)
+{
+    const virga_splash_def def = small_splash_def();
+    STEP(make_context(l));
+    STEP(virga_splash_create(l->context, &def, &l->splash));
+    return virga_splash_attach(l->splash, l->target);
+}
+
+static virga_result make_pane(life *l)
+{
+    const virga_glass_def def = small_glass_def();
+    STEP(make_context(l));
+    STEP(virga_glass_create(l->context, &def, &l->glass));
+    STEP(small_shape_set(l->glass, 1));
+    return virga_glass_attach(l->glass, l->target);
+}
+
+static virga_result make_scene(life *l)
 {
     virga_glass_def panes[SMALL_PANES];
     virga_scene_def def = small_scene_def(panes);
-    const virga_context_def context_def = gpu_context_def(l->f);
-    virga_target_def target_def = virga_default_target_def();
     size_t size = 0;
     def.pane_count = 1;
-    host_target_describe_layer(&l->picture.images, &target_def);
-    STEP(virga_context_create(&context_def, &l->context));
-    STEP(virga_target_create(l->context, &target_def, &l->target));
+    STEP(make_context(l));
     STEP(virga_scene_create(l->context, &def, &l->scene));
     STEP(small_shape_set(virga_scene_glass(l->scene, 0), 1));
     STEP(virga_scene_attach(l->scene, l->target));
@@ -93,10 +134,10 @@ static virga_result frame(life *l)
     return virga_frame_completed(l->context, device->completed);
 }
 
-/* Four frames: more than are in flight, so that timings are taken in by both ways. */
-static virga_result live(life *l)
+/* Four frames: more than are in flight, so that both functions that read timings have some to read. */
+static virga_result make_and_use_scene(life *l)
 {
-    STEP(make(l));
+    STEP(make_scene(l));
     for (int i = 0; i < 4; i++)
         STEP(frame(l));
     return VIRGA_OK;
@@ -229,18 +270,22 @@ static void check_lost(life *l)
 static void destroy(life *l)
 {
     virga_scene_destroy(&l->scene);
+    virga_rain_destroy(&l->rain);
+    virga_ground_destroy(&l->ground);
+    virga_splash_destroy(&l->splash);
+    virga_glass_destroy(&l->glass);
     virga_target_destroy(&l->target);
     virga_context_destroy(&l->context);
     if (watch_sum(watch.live))
         fail_msg("alive are %s", watch_alive());
 }
 
-/* One life in which call `number` says that the device is lost; false where it has fewer calls. */
-static bool lose(life *l, uint32_t number)
+/* Call `number` of a run says that the device is lost. False if the run has fewer calls. */
+static bool lose(life *l, virga_result (*run)(life *l), uint32_t number)
 {
     gpu_forget_log(l->f);
     watch_fail(number, VK_ERROR_DEVICE_LOST);
-    const virga_result result = live(l);
+    const virga_result result = run(l);
     const bool failed = watch.failed;
     if (result != (failed ? VIRGA_ERROR_DEVICE_LOST : VIRGA_OK))
         fail_msg("call %u, %s, lost the device: the result is %s", number, failed ? watch.failed_call : "none",
@@ -255,23 +300,65 @@ static bool lose(life *l, uint32_t number)
     return failed;
 }
 
-static void device_may_be_lost_at_every_call(void **state)
+/* The number of calls that may say it. */
+static uint32_t calls_of(life *l, virga_result (*run)(life *l))
 {
-    static life l;
-    l = (life){.f = *state};
+    assert_false(lose(l, run, 0));
+    return watch.calls;
+}
+
+static void lose_each(life *l, virga_result (*run)(life *l), uint32_t first, uint32_t stride)
+{
+    uint32_t number = first;
+    while (lose(l, run, number))
+        number += stride;
+    assert_true(number >= first + stride);
+}
+
+static void open_life(life *l, gpu_fixture *f)
+{
+    *l = (life){.f = f};
     watch.keep_pipelines = true;
     watch.lie_memory = lie_memory;
-    REQUIRE(host_target_create(&l.f->gpu.device, 16, 16, &l.picture.images, l.f->gpu.error, sizeof l.f->gpu.error));
-    assert_false(lose(&l, 0));
-    uint32_t number = 1;
-    while (lose(&l, number))
-        number++;
-    assert_true(number > 500);
-    host_target_destroy(&l.f->gpu.device, &l.picture.images);
+    REQUIRE(host_target_create(&f->gpu.device, 16, 16, &l->picture.images, f->gpu.error, sizeof f->gpu.error));
+}
+
+static void close_life(life *l)
+{
+    host_target_destroy(&l->f->gpu.device, &l->picture.images);
+}
+
+/* Each call that makes an effect. A scene makes the same ones, so of its calls some of each effect are enough. */
+static void device_may_be_lost_while_anything_is_made(void **state)
+{
+    static life l;
+    open_life(&l, *state);
+    const uint32_t shared = calls_of(&l, make_context);
+    lose_each(&l, make_context, 1, 1);
+    lose_each(&l, make_rain, shared + 1, 1);
+    lose_each(&l, make_ground, shared + 1, 1);
+    lose_each(&l, make_splash, shared + 1, 1);
+    lose_each(&l, make_pane, shared + 1, 1);
+    lose_each(&l, make_scene, shared + 1, 11);
+    close_life(&l);
+}
+
+static void device_may_be_lost_at_every_call_of_a_frame(void **state)
+{
+    static life l;
+    open_life(&l, *state);
+    const uint32_t made = calls_of(&l, make_scene), all = calls_of(&l, make_and_use_scene);
+    printf("%u calls make a scene, %u more use it\n", made, all - made);
+    assert_true(made > 400 && all - made > 50);
+    lose_each(&l, make_and_use_scene, made + 1, 1);
+    close_life(&l);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {gpu_test(device_may_be_lost_at_every_call)};
+    const struct CMUnitTest tests[] = {
+        gpu_test(device_may_be_lost_while_anything_is_made),
+        gpu_test(device_may_be_lost_at_every_call_of_a_frame),
+    };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The same seed gives the same files: two runs, any number of threads, two vector widths, and frames rendered alone.
+# The same seed gives the same files: on any number of threads, in two vector widths, and for frames rendered alone.
 # Usage: same_bytes.sh VIRGA SCENE "SYSTEM..." [OPTION...] with the systems that write point caches, and further
 # options of the program.
 set -eu
@@ -12,8 +12,11 @@ trap 'rm -rf "$work"' EXIT
 render() { # folder frames [environment...]
     local folder=$work/$1 frames=$2
     shift 2
+    # Validation has seen these passes in the first run.
+    [ ! -d "$work/once" ] || export VIRGA_VALIDATE=0
     env "$@" "$virga" render "$scene" -o "$folder" --frames "$frames" --size 160x90 --points --device cpu \
         --set rain.max_drops=16384 "${options[@]}" 2>"$folder.log" || { cat "$folder.log"; exit 1; }
+    ! grep '^validation: ' "$folder.log" || exit 1
 }
 
 same() { # folder file...
@@ -31,8 +34,6 @@ for system in $systems; do
 done
 frames="frame.0001.exr frame.0002.exr frame.0003.exr $points"
 render once 1-3 LP_NUM_THREADS=2
-render again 1-3 LP_NUM_THREADS=2
-same again $frames
 for threads in 1 3; do
     render threads$threads 1-3 LP_NUM_THREADS=$threads
     same threads$threads $frames
