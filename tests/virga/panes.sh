@@ -96,7 +96,7 @@ refuses() {
     local text=$1 code
     shift
     rm -rf "$work/bad"
-    timeout 120 "$virga" render "$work/scene.yaml" -o "$work/bad" --device "$device" "$@" >"$work/stdout" 2>"$work/err"
+    timeout 120 "$virga" render "$work/shield.yaml" -o "$work/bad" --device "$device" "$@" >"$work/stdout" 2>"$work/err"
     code=$?
     [ "$code" = 2 ] || { cat "$work/err"; fail "$*: exit code $code, expected 2"; }
     [ "$(wc -l <"$work/err")" = 1 ] && grep -qF -- "$text" "$work/err" ||
@@ -204,13 +204,14 @@ refuses "--plate: expected one number" --plate "$work/%d/plate.%d.exr"
 refuses "4 pictures in $work/footage, none for frame 5" --frames 5 --plate "$work/footage"
 mkdir "$work/nothing"
 refuses "--plate: no EXR pictures in the folder" --plate "$work/nothing"
-refuses "glass.0.advancing_deg: expected at least the receding angle (20), got 10" --set glass.0.advancing_deg=10
+refuses "glass.0.advancing_deg: expected at least the receding angle (20), got 10" --set glass.0.kind=dirty \
+    --set glass.0.advancing_deg=10
 refuses "glass.0.mesh: no mesh or material of the scene has 'sail' in its name" --set glass.0.shape=mesh \
     --set glass.0.mesh=sail
 refuses "glass.0.mesh: no UVs of 'floor' lie on a pane of 1.4 x 0.75 m" --set glass.0.shape=mesh \
     --set glass.0.mesh=floor
 refuses "glass.0.bumps.file: cannot read" --set "glass.0.bumps.file=$work/room.obj"
-refuses "glass.1.mask: cannot read" --set "glass.1.mask=$work/room.obj"
+refuses "glass.0.mask: cannot read" --set "glass.0.mask=$work/room.obj"
 refuses "--layers: the scene has no panes; expected a list of them, glass" --set 'glass=[]' --layers glass,refraction
 refuses "frames.preroll_s: expected a number from 0 to 3600" --set frames.preroll_s=-1
 refuses "expected one of paper, clean" --set glass.0.kind=wet
