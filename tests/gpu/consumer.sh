@@ -61,7 +61,8 @@ cp "$work/consumer.c" "$work/consumer.cpp"
 
 # ---- installed
 "$source/tests/gpu/compiled_shader.sh" "$build" --native-file >"$work/native.ini"
-quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib --buildtype release -Db_ndebug=true \
+quietly meson setup "$work/build" "$source" --native-file "$work/native.ini" --prefix "$work/prefix" --libdir lib \
+    --buildtype release -Db_ndebug=true \
     -Dtools=disabled -Dtests=disabled
 quietly nice ninja -j2 -C "$work/build"
 quietly meson install -C "$work/build" --no-rebuild

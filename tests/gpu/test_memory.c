@@ -52,7 +52,8 @@ static void memory_get_accepts_null(void **state)
     virga_memory_get(NULL, NULL);
 }
 
-/* The estimate is what a host plans with. Rain allocates hardly more, and less only by frames that are not in flight. */
+/* The estimate is what a host plans with. Rain allocates hardly more, and less only by frames that are not in
+ * flight. */
 static void estimate_is_what_rain_takes(void **state)
 {
     gpu_fixture *f = *state;

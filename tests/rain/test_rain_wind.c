@@ -394,7 +394,8 @@ static void an_even_texture_is_a_uniform_wind(void **state)
 }
 
 /* Distances of a drop from where the law of motion puts it. False if it is not the same drop, or where the texture is
- * not linear: outside the centres of its texels. Slots without weight wait at the edges of their boxes, in two winds. */
+ * not linear: outside the centres of its texels. Slots without weight wait at the edges of their boxes, in
+ * two winds. */
 static bool compare_with_law(const linear_wind *wind, double seconds, const virga_point_gpu *from,
                              const virga_point_gpu *to, double *off, double *off_velocity)
 {

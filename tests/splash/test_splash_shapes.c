@@ -325,8 +325,8 @@ static void a_disk_lies_flat_and_stays_for_two_seconds(void **state)
     close_shot(&s);
 }
 
-/* Summed coverage from a distance, 30 degrees above the level: the mean over positions between pixels. It shows as `max`
- * pieces at most. */
+/* Summed coverage from a distance, 30 degrees above the level: the mean over positions between pixels. It shows as
+ * `max` pieces at most. */
 static double blob_alpha(shot *s, double distance_m, uint32_t max)
 {
     const double pixel = pixel_m(s, distance_m);

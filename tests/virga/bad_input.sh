@@ -11,8 +11,9 @@ trap 'rm -rf "$work"' EXIT
 if [ ! -f "$build/build.ninja" ]; then
     # Its shaders are those of the build whose test this is.
     "$source/tests/gpu/compiled_shader.sh" "$2" --native-file >"$work/native.ini"
-    meson setup "$build" "$source" --native-file "$work/native.ini" -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled \
-        -Dview=disabled -Ddrive=disabled -Doptimization=0 \
+    meson setup "$build" "$source" --native-file "$work/native.ini" \
+        -Db_sanitize=address,undefined -Db_lundef=false -Dtests=disabled -Dtools=enabled -Dview=disabled \
+        -Ddrive=disabled -Doptimization=0 \
         >"$work/setup.log" 2>&1 || { cat "$work/setup.log"; exit 1; }
 fi
 ninja -C "$build" tools/virga/virga >"$work/build.log" 2>&1 || { tail -20 "$work/build.log"; exit 1; }

@@ -355,7 +355,8 @@ def check_stats(paths):
         expect(all(near(a, b) for a, b in zip(rain["wind_m_s"], WIND)), f"wind {rain['wind_m_s']}")
         expect(rain["impacts_dropped"] == 0, f"impacts dropped {rain['impacts_dropped']}")
         expect((rain["impacts"] > 0) == (water["rained"] > 0) == (i > 0), f"impacts {rain['impacts']}, {water}")
-        expect(near(water["rained_total"], total, 1e-6 * (1 + total)), f"rained {total}, the statistics have {water['rained_total']}")
+        expect(near(water["rained_total"], total, 1e-6 * (1 + total)), 
+               f"rained {total}, the statistics have {water['rained_total']}")
         off = nanolitres(water["start"]) + nanolitres(water["rained_total"]) - sum(nanolitres(water[name])
                                                                                    for name in BUDGET)
         expect(off == 0, f"the budget of water is off by {off} nl: {water}")

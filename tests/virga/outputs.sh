@@ -110,7 +110,8 @@ fi
 [ -z "$(find "$out" -name '.*' -type f)" ] || fail "left $(find "$out" -name '.*' -type f)"
 
 # A seed beyond OpenEXR's signed integers, and frames behind the scene's last: the camera stays where its path ends.
-VIRGA_VALIDATE=0 render behind --set frames.last=2 --set camera.keys.1.time_s=0.0416667 --frames 2-3 --seed 4294967295 --layers depth
+VIRGA_VALIDATE=0 render behind --set frames.last=2 --set camera.keys.1.time_s=0.0416667 --frames 2-3 \
+    --seed 4294967295 --layers depth
 for frame in 2 3; do
     [ -f "$work/behind/frame.000$frame.exr" ] || fail "no frame $frame of a scene with 2"
 done

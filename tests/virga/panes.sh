@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Panes of a small scene: layers, point caches and statistics of a windshield with wipers that moves with the camera and
-# of a window that stands; a range of frames alone is as in the whole run; footage behind the panes instead of the scene; what is wrong
-# in one line.
+# of a window that stands; a range of frames alone is as in the whole run; footage behind the panes instead of the
+# scene; what is wrong in one line.
 # Usage: panes.sh VIRGA OPEN_POINTS
 set -u
 virga=$1 open_points=$2
@@ -169,7 +169,8 @@ VIRGA_VALIDATE=0 render_shield begin --frames 1 --layers beauty --set rain.rate_
 VIRGA_VALIDATE=0 render_shield begun --frames 1 --layers beauty --set rain.rate_mm_h=0 --set frames.preroll_s=1.25
 idiff -q -fail 0 "$work/begin/frame.0001.exr" "$work/begun/frame.0001.exr" >"$work/log" 2>&1 ||
     fail "wipers begin elsewhere after a pre-roll"
-VIRGA_VALIDATE=0 render_shield moved --frames 1 --layers beauty --set rain.rate_mm_h=0 --set glass.0.wipers.0.phase_s=0.1
+VIRGA_VALIDATE=0 render_shield moved --frames 1 --layers beauty --set rain.rate_mm_h=0 \
+    --set glass.0.wipers.0.phase_s=0.1
 idiff -q -fail 0 "$work/begin/frame.0001.exr" "$work/moved/frame.0001.exr" >"$work/log" 2>&1 &&
     fail "wipers are not seen"
 
@@ -210,7 +211,8 @@ refuses "glass.0.mesh: no mesh or material of the scene has 'sail' in its name" 
     --set glass.0.mesh=sail
 refuses "glass.0.mesh: no UVs of 'floor' lie on a pane of 1.4 x 0.75 m" --set glass.0.shape=mesh \
     --set glass.0.mesh=floor
-refuses "glass.0.bumps.file: cannot read" --set "glass.0.bumps.file=$work/room.obj"
+refuses "glass.0.bumps.file: cannot read" \
+    --set "glass.0.bumps={file: $work/room.obj, size_mm: [50, 50], depth_mm: 0.3}"
 refuses "glass.0.mask: cannot read" --set "glass.0.mask=$work/room.obj"
 refuses "--layers: the scene has no panes; expected a list of them, glass" --set 'glass=[]' --layers glass,refraction
 refuses "frames.preroll_s: expected a number from 0 to 3600" --set frames.preroll_s=-1

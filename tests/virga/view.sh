@@ -29,8 +29,8 @@ for need in xvfb-run oiiotool; do
 done
 "$virga" info --device "$device" >"$work/log" 2>&1 || { echo "skipped: no device"; cat "$work/log"; exit 77; }
 
-# A floor with a lamp, and a pane with a wiper: small, so that frames are quick. Each effect builds pipelines, which takes
-# the longest, so pane.yaml has no ground and no splashes, and rain.yaml has only rain.
+# A floor with a lamp, and a pane with a wiper: small, so that frames are quick. Each effect builds pipelines, which
+# takes the longest, so pane.yaml has no ground and no splashes, and rain.yaml has only rain.
 cat >"$work/floor.obj" <<'END'
 v -20 0 -20
 v 20 0 -20
@@ -164,8 +164,8 @@ for line in 'sweep_s: 0.55' 'style: paper' 'film_um: 9' 'kind: clean' 'start_wet
 done
 # It renders what the same settings, given by hand, render. Other tests validate renders.
 render() {
-    VIRGA_VALIDATE=0 timeout 100 "$virga" render "$1" -o "$work/$2" --frames 2 --device "$device" --layers beauty,rain,glass "${@:3}" \
-        2>"$work/err" || { cat "$work/err"; fail "render $1"; }
+    VIRGA_VALIDATE=0 timeout 100 "$virga" render "$1" -o "$work/$2" --frames 2 --device "$device" \
+        --layers beauty,rain,glass "${@:3}" 2>"$work/err" || { cat "$work/err"; fail "render $1"; }
 }
 view pane save <<'END' || { cat "$work/save.err"; fail "save"; }
 downscale 4
