@@ -145,6 +145,7 @@ void virga_settings_fill(const virga_setting_row *rows, size_t count, void *sett
         switch (rows[i].number) {
         case VIRGA_NUMBER_FLOAT: *(float *)value = (float)rows[i].value; break;
         case VIRGA_NUMBER_DOUBLE: *(double *)value = rows[i].value; break;
+        case VIRGA_NUMBER_BOOL: *(bool *)value = rows[i].value != 0; break;
         default: *(uint32_t *)value = (uint32_t)rows[i].value; break;
         }
     }

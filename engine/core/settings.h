@@ -60,6 +60,7 @@ typedef enum virga_number {
     VIRGA_NUMBER_DOUBLE,
     VIRGA_NUMBER_U32,
     VIRGA_NUMBER_ENUM,
+    VIRGA_NUMBER_BOOL,
 } virga_number;
 
 /* A setting: its type, range and default. */

@@ -1,7 +1,6 @@
 /* glass/glass.c - creates and destroys panes, applies settings, and answers queries. */
 #include "glass/glass_internal.h"
 
-#include "core/light.h"
 #include "core/settings.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
@@ -61,6 +60,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, seed, 0, UINT32_MAX, 1),
     DEF(FLOAT, width_m, 0.01, 10, 1.4),
     DEF(FLOAT, height_m, 0.01, 10, 0.75),
+    DEF(FLOAT, cell_m, 0.0005, 0.01, 0.002),
     DEF(FLOAT, affinity_size_m, 0.0005, 0.1, 0.006),
     DEF(U32, max_drops, 256, 262144, 32768),
     DEF(U32, max_texels, 64, 4096, 1024),
@@ -74,19 +74,19 @@ static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO),
     SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM),
     SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_PHYSICAL, VIRGA_GLASS_STYLE_PHYSICAL),
-    SETTING(FLOAT, advancing_deg, 5, 175),
-    SETTING(FLOAT, receding_deg, 1, 175, .max_member = offsetof(virga_glass_settings, advancing_deg)),
+    SETTING(FLOAT, advancing_deg, 5, 175, 0),
+    SETTING(FLOAT, receding_deg, 1, 175, 0, .max_member = offsetof(virga_glass_settings, advancing_deg)),
     SETTING(FLOAT, drag, 0.01, 100, 1),
-    SETTING(FLOAT, kinetic_hold, 0, 1),
-    SETTING(FLOAT, affinity, 0, 2),
+    SETTING(FLOAT, kinetic_hold, 0, 1, 0),
+    SETTING(FLOAT, affinity, 0, 2, 0),
     SETTING(FLOAT, meander, 0, 1, 0.1),
     SETTING(FLOAT, path_ease, 0, 1, 0.6),
     SETTING(FLOAT, path_dry_s, 0.1, 600, 8),
     SETTING(FLOAT, merge_distance, 0, 2, 1.2),
     SETTING(FLOAT, tail_spacing_m, 0.001, 1, 0.012),
-    SETTING(FLOAT, tail_max_radius_mm, 0, 2),
+    SETTING(FLOAT, tail_max_radius_mm, 0, 2, 0),
     SETTING(FLOAT, tail_lifetime_s, 0.1, 3600, 12),
-    SETTING(FLOAT, film_um, 0, 100),
+    SETTING(FLOAT, film_um, 0, 100, 0),
     SETTING(FLOAT, film_break_s, 0, 60, 0.8),
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.5),
     SETTING(FLOAT, mist_max_mm, 0, 1, 0.6),
@@ -95,6 +95,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, penalty, 0, 1, 0.1),
     SETTING(FLOAT, particle_band, 1, 16, 4),
     SETTING(FLOAT, hold_back_mm, 0, 20, 2.2),
+    SETTING(BOOL, compress, false, true, true),
     SETTING(FLOAT, compress_from, 0, 2, 0.5),
     SETTING(FLOAT, compress_step, 0, 1, 0.1),
     SETTING(FLOAT, compress_k, 0, 1, 0.3),
@@ -108,35 +109,22 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, gain, 0, 100, 1),
     SETTING(U32, hold_back_cells, 0, 8, 3),
     SETTING(U32, compress_steps, 0, 16, 5),
-    SETTING(U32, wiper_count, 0, VIRGA_GLASS_MAX_WIPERS),
+    SETTING(U32, wiper_count, 0, VIRGA_GLASS_MAX_WIPERS, 0),
 };
 
-virga_glass_def virga_default_glass_def(void)
+static void fill_settings(void *given)
 {
-    virga_glass_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .cell_m = 0.002f};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_glass_settings virga_default_glass_settings(void)
-{
-    virga_glass_settings settings = {
-        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .compress = true, .lighting = virga_default_lighting()};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    virga_glass_apply_kind(VIRGA_GLASS_KIND_PAPER, &settings);
+    virga_glass_settings *settings = given;
+    virga_glass_apply_kind(VIRGA_GLASS_KIND_PAPER, settings);
     for (uint32_t i = 0; i < VIRGA_GLASS_MAX_WIPERS; i++)
-        settings.wipers[i] = virga_default_glass_wiper();
-    return settings;
+        settings->wipers[i] = virga_default_glass_wiper();
 }
 
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_glass_def *def = given;
-    if (virga_settings_check_finite(log, "glass_def.cell_m", &def->cell_m, 1))
-        return VIRGA_ERROR_INVALID;
     const float min_m = (float)sqrt((double)def->width_m * (double)def->height_m / MAX_CELLS) * 1.01f;
-    def->cell_m =
-        virga_clamp_setting_float(log, "glass_def.cell_m", def->cell_m, min_m > 0.0005f ? min_m : 0.0005f, 0.01f, NULL);
+    def->cell_m = virga_clamp_setting_float(log, "glass_def.cell_m", def->cell_m, min_m, 0.01f, NULL);
     def->max_drops = (def->max_drops + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP * VIRGA_GLASS_GROUP;
     return VIRGA_OK;
 }
@@ -439,20 +427,17 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(glass)
 
 const virga_effect_type glass_type = {
     VIRGA_EFFECT_TYPE(glass, "a pane", "glass_settings"),
-    VIRGA_TABLE(image),
-    .lighting = offsetof(virga_glass_settings, lighting),
-    .draws = glass_draws,
-    .draw_count = GLASS_DRAW_ROWS,
+    VIRGA_EFFECT_DRAWS(glass),
     .draw_layout = LAYOUT_PICTURE,
     .extra_bytes = extra_bytes,
     .init = init,
     .create = create,
     .destroy = destroy,
+    .fill_settings = fill_settings,
     .check_settings = check_settings,
     .apply_settings = apply_settings,
     .draw_constant = glass_draw_constant,
     .lost = glass_lost,
-    .draw = glass_type_draw,
 };
 
 VkDescriptorSet glass_write_set(virga_glass *glass)

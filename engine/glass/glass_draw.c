@@ -385,15 +385,14 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
                                  2 * sizeof(uint32_t));
 }
 
-/* Checks that the passes of all panes exist, and the gather passes of this pane's density and blend. */
-static virga_result ready_to_prepare(const virga_glass *glass)
+/* Checks that the gather passes of this pane's density and blend are built. */
+static virga_result gathers_ready(const virga_glass *glass)
 {
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     const virga_pipeline *gathers[] = {glass->picture.gather_passes[mode],
                                        glass->picture.gather_passes[mode | GLASS_GATHER_FILM],
                                        glass->picture.gather_passes[mode | GLASS_GATHER_FILM | GLASS_GATHER_BEADS]};
-    const virga_result result = virga_effect_ready(&glass->base);
-    return result ? result : virga_pipelines_ready(gathers, 3);
+    return virga_pipelines_ready(gathers, 3);
 }
 
 virga_result glass_pose_check(const virga_log *log, const virga_glass_pose *pose)
@@ -444,29 +443,25 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
         return VIRGA_ERROR_INVALID;
     virga_context *context = glass->base.context;
     struct glass_picture *picture = &glass->picture;
-    if (!cmd || !view || !pose)
-        return virga_wrong_argument(&context->log, "virga_glass_prepare: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    glass->base.view.ready = false;
-    virga_result result = virga_view_check(context, view, time_s);
+    virga_result result =
+        virga_effect_check_prepare(&glass->base, "virga_glass_prepare", cmd, pose ? view : NULL, time_s);
     if (result)
         return result;
     if (glass_pose_check(&context->log, pose))
         return VIRGA_ERROR_INVALID;
     if (!glass->base.contents)
         return VIRGA_NOT_READY;
-    result = ready_to_prepare(glass);
+    result = gathers_ready(glass);
     if (result)
         return result;
-    const uint32_t index = virga_ring_used(context, &picture->view_ring);
-    if (index >= VIRGA_GLASS_MAX_VIEWS)
-        return virga_wrong_argument(&context->log, "virga_glass_prepare: more than %d views in a frame",
-                                    VIRGA_GLASS_MAX_VIEWS);
     virga_timers_reset(context, cmd);
     glass_view_block block;
+    uint32_t index;
     fill_view(glass, view, pose, time_s, &block);
-    picture->view_offset = virga_ring_push(context, &picture->view_ring, &block, sizeof block);
+    result = virga_effect_push_view(&glass->base, "virga_glass_prepare", &picture->view_ring, &block, sizeof block,
+                                    &index, &picture->view_offset);
+    if (result)
+        return result;
     const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
     record_prepare(glass, cmd, view, set);
     virga_effect_set_view(&glass->base, set, view->viewport);
@@ -516,9 +511,7 @@ uint32_t glass_draw_constant(const void *glass)
 
 static void record_draw(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
 {
-    glass->base.context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    glass->base.context->vk.CmdDrawIndexedIndirect(cmd, glass->picture.work->buffer, arguments, 1,
-                                                   sizeof(virga_glass_corners_gpu));
+    virga_draw_indexed_indirect(glass->base.context, cmd, pipeline, glass->picture.work->buffer, arguments);
 }
 
 static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)

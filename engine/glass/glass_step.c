@@ -451,6 +451,9 @@ static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
     const VkBufferCopy cells = {0, 0, glass->surface->size}, nodes = {0, 0, glass->nodes->size};
     context->vk.CmdCopyBuffer(cmd, glass->surface_upload->buffer, glass->surface->buffer, 1, &cells);
     context->vk.CmdCopyBuffer(cmd, glass->nodes_upload->buffer, glass->nodes->buffer, 1, &nodes);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+                  VK_ACCESS_SHADER_READ_BIT);
     virga_effect_uploaded(&glass->base, &glass->surface_upload);
     virga_effect_uploaded(&glass->base, &glass->nodes_upload);
 }
@@ -528,28 +531,14 @@ virga_result virga_glass_step(virga_glass *glass, VkCommandBuffer cmd, const vir
     virga_glass_step_info checked = *given;
     const virga_glass_step_info *info = &checked;
     const bool changed = clamp_motion(&context->log, &checked);
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&glass->base);
-    glass->base.step_frame = context->frame_index;
+    virga_effect_begin_step(&glass->base, cmd);
     glass->impacts = info->impacts;
     glass->impacts_offset = info->impacts_offset;
     glass->step_set = glass_write_set(glass);
     glass->impacts = VK_NULL_HANDLE; /* the host owns it and may destroy it */
-    /* Wait for the previous frame's reads of drops and film. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     if (virga_effect_first_contents(&glass->base, cmd))
         glass->picture.has_written = false; /* the images may have lost their contents */
     upload_shape(glass, cmd);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                      VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (info->ticks)
         record_ticks(glass, cmd, info);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_STEP, glass->state, 0, offsetof(glass_readback, state),

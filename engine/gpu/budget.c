@@ -13,14 +13,7 @@
 #define SHRINK    0.75 /* factor of the size with each try: nine tries reduce it to less than a tenth */
 #define MIN_SHARE 1e-6 /* all pools have reached their minimum */
 
-/* The pools of a definition during the tries. */
-typedef struct budget_try {
-    const virga_effect_type *type;
-    char *def;
-    uint32_t requested[VIRGA_MAX_POOLS];
-} budget_try;
-
-static uint32_t *pool_size(const budget_try *attempt, uint32_t i)
+static uint32_t *pool_size(const virga_budget_try *attempt, uint32_t i)
 {
     return (uint32_t *)(attempt->def + attempt->type->pools[i].member);
 }
@@ -29,6 +22,8 @@ static uint32_t *pool_size(const budget_try *attempt, uint32_t i)
 static uint32_t size_at(const virga_effect_pool *pool, uint32_t requested, double share)
 {
     uint32_t size = (uint32_t)(requested * share), power = 1;
+    if (share >= 1)
+        return requested;
     while (power <= size / 2)
         power *= 2;
     size = pool->unit ? size / pool->unit * pool->unit : power;
@@ -37,7 +32,7 @@ static uint32_t size_at(const virga_effect_pool *pool, uint32_t requested, doubl
 }
 
 /* Whether any pool would be smaller with this share than it is now. */
-static bool can_shrink(const budget_try *attempt, double share)
+static bool can_shrink(const virga_budget_try *attempt, double share)
 {
     for (uint32_t i = 0; i < attempt->type->pool_count; i++)
         if (size_at(&attempt->type->pools[i], attempt->requested[i], share) < *pool_size(attempt, i))
@@ -45,8 +40,38 @@ static bool can_shrink(const budget_try *attempt, double share)
     return false;
 }
 
-/* Logs the pools that are smaller than requested. False if none is. */
-static bool log_shrunk(const virga_context *context, const budget_try *attempt)
+static void begin_try(virga_context *context, virga_budget_try *attempt)
+{
+    const virga_effect_type *type = attempt->type;
+    for (uint32_t i = 0; i < type->pool_count; i++)
+        *pool_size(attempt, i) = size_at(&type->pools[i], attempt->requested[i], attempt->share);
+    /* Some pools may have reached their minimum, while others can still shrink. */
+    do
+        attempt->share *= SHRINK;
+    while (attempt->share > MIN_SHARE && !can_shrink(attempt, attempt->share));
+    context->making = true;
+    context->over_budget = false;
+    context->may_shrink = attempt->share > MIN_SHARE;
+}
+
+void virga_budget_begin(virga_context *context, const virga_effect_type *type, void *def, virga_budget_try *attempt)
+{
+    *attempt = (virga_budget_try){.type = type, .def = def, .share = 1};
+    for (uint32_t i = 0; i < type->pool_count; i++)
+        attempt->requested[i] = *pool_size(attempt, i);
+    begin_try(context, attempt);
+}
+
+bool virga_budget_retry(virga_context *context, virga_budget_try *attempt, virga_result result)
+{
+    const bool again = result == VIRGA_ERROR_DEVICE_MEMORY && context->over_budget && context->may_shrink;
+    context->making = context->may_shrink = false;
+    if (again)
+        begin_try(context, attempt);
+    return again;
+}
+
+bool virga_budget_log(const virga_context *context, const virga_budget_try *attempt)
 {
     char list[VIRGA_LOG_LINE];
     int at = 0;
@@ -59,33 +84,4 @@ static bool log_shrunk(const virga_context *context, const budget_try *attempt)
         virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_SHRUNK,
                         "%s is made smaller for the memory budget: %s", attempt->type->name, list);
     return at > 0;
-}
-
-virga_result virga_make_in_budget(virga_context *context, const virga_effect_type *type, void *def, virga_effect **made)
-{
-    budget_try attempt = {.type = type, .def = def};
-    virga_result result;
-    double share = 1;
-    for (uint32_t i = 0; i < type->pool_count; i++)
-        attempt.requested[i] = *pool_size(&attempt, i);
-    for (;;) {
-        for (uint32_t i = 0; i < type->pool_count; i++)
-            *pool_size(&attempt, i) =
-                share < 1 ? size_at(&type->pools[i], attempt.requested[i], share) : attempt.requested[i];
-        /* Some pools may have reached their minimum, while others can still shrink. */
-        share *= SHRINK;
-        while (share > MIN_SHARE && !can_shrink(&attempt, share))
-            share *= SHRINK;
-        context->making = true;
-        context->over_budget = false;
-        context->may_shrink = share > MIN_SHARE;
-        result = virga_effect_make(context, type, def, made);
-        const bool again = result == VIRGA_ERROR_DEVICE_MEMORY && context->over_budget && context->may_shrink;
-        context->making = context->may_shrink = false;
-        if (!again)
-            break;
-    }
-    if (result < 0 || !log_shrunk(context, &attempt))
-        return result;
-    return VIRGA_DEGRADED;
 }

@@ -35,6 +35,54 @@ static VkDeviceSize ring_bytes(const virga_effect_ring *row, const effect_counts
     return row->block * counts[row->count] * frames;
 }
 
+/* ---- definitions and settings */
+
+static void fill_defaults(const virga_effect_struct *kind, void *out)
+{
+    uint32_t *head = out;
+    memset(out, 0, kind->size);
+    head[0] = kind->size;
+    head[1] = kind->cookie;
+    virga_settings_fill(kind->rows, kind->row_count, out);
+}
+
+void virga_effect_default_def(const virga_effect_type *type, void *def)
+{
+    fill_defaults(&type->def, def);
+}
+
+static virga_lighting *lighting_of(const virga_effect_type *type, void *settings)
+{
+    return (virga_lighting *)(void *)((char *)settings + type->lighting);
+}
+
+void virga_effect_default_settings(const virga_effect_type *type, void *settings)
+{
+    fill_defaults(&type->settings, settings);
+    if (type->lighting)
+        *lighting_of(type, settings) = virga_default_lighting();
+    if (type->fill_settings)
+        type->fill_settings(settings);
+}
+
+/* Copies a struct whose size and cookie are right, and applies its rows to the copy. */
+static virga_result copy_checked(const virga_log *log, const virga_effect_struct *kind, const void *given, void *copy,
+                                 bool *changed)
+{
+    const uint32_t *head = given;
+    const virga_result result = virga_settings_check(log, kind->name, head[0], kind->size, head[1], kind->cookie);
+    if (result)
+        return result;
+    memcpy(copy, given, kind->size);
+    return virga_settings_apply_rows(log, kind->rows, kind->row_count, copy, changed);
+}
+
+static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *def)
+{
+    const virga_result result = copy_checked(log, &type->def, given, def, NULL);
+    return !result && type->check_def ? type->check_def(log, def) : result;
+}
+
 /* ---- estimate */
 
 /* Bytes of a texel, for the formats that effects use. */
@@ -52,24 +100,6 @@ static VkDeviceSize texel_bytes(VkFormat format)
 static VkDeviceSize image_bytes(const virga_effect_image *row, const effect_counts counts)
 {
     return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * texel_bytes(row->format);
-}
-
-/* Copies a struct whose size and cookie are right, and applies its rows to the copy. */
-static virga_result copy_checked(const virga_log *log, const virga_struct_id *id, const virga_setting_row *rows,
-                                 uint32_t row_count, const void *given, void *copy, bool *changed)
-{
-    const uint32_t *head = given; /* size, cookie */
-    const virga_result result = virga_settings_check(log, id->name, head[0], id->size, head[1], id->cookie);
-    if (result)
-        return result;
-    memcpy(copy, given, id->size);
-    return virga_settings_apply_rows(log, rows, row_count, copy, changed);
-}
-
-static virga_result check_def(const virga_log *log, const virga_effect_type *type, const void *given, void *def)
-{
-    const virga_result result = copy_checked(log, &type->def, type->def_rows, type->def_count, given, def, NULL);
-    return !result && type->check_def ? type->check_def(log, def) : result;
 }
 
 VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *given)
@@ -198,8 +228,8 @@ error:
     return result < 0 ? result : fitted;
 }
 
-virga_result virga_effect_make(virga_context *context, const virga_effect_type *type, const void *def,
-                               virga_effect **made)
+/* Creates an object from a definition that was checked. */
+static virga_result make(virga_context *context, const virga_effect_type *type, const void *def, virga_effect **made)
 {
     virga_effect *effect = virga_alloc(&context->heap, type->size);
     if (!effect)
@@ -207,7 +237,7 @@ virga_result virga_effect_make(virga_context *context, const virga_effect_type *
     effect->type = type;
     effect->context = context;
     memcpy(virga_effect_member(effect, type->def.member), def, type->def.size);
-    type->default_settings(virga_effect_member(effect, type->settings.member));
+    virga_effect_default_settings(type, virga_effect_member(effect, type->settings.member));
     effect->next_effect = context->first_effect;
     context->first_effect = effect;
     context->effects++;
@@ -243,9 +273,15 @@ virga_result virga_effect_create(virga_context *context, const virga_effect_type
     if (result)
         return result;
     virga_effect *made = NULL;
-    result = virga_make_in_budget(context, type, def, &made);
+    virga_budget_try attempt;
+    virga_budget_begin(context, type, def, &attempt);
+    do
+        result = make(context, type, def, &made);
+    while (virga_budget_retry(context, &attempt, result));
     if (result < 0)
         return result;
+    if (virga_budget_log(context, &attempt))
+        result = VIRGA_DEGRADED;
     log_created(made);
     *object = made;
     return result;
@@ -330,9 +366,9 @@ virga_result virga_effect_set(virga_effect *effect, const char *call, const void
         return virga_wrong_argument(log, "%s: NULL argument", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
-    TRY(copy_checked(log, &type->settings, type->setting_rows, type->setting_count, given, settings, &changed));
+    TRY(copy_checked(log, &type->settings, given, settings, &changed));
     if (type->lighting)
-        TRY(virga_lighting_check(log, type->log_name, (virga_lighting *)(void *)(settings + type->lighting), &changed));
+        TRY(virga_lighting_check(log, type->log_name, lighting_of(type, settings), &changed));
     if (type->check_settings)
         TRY(type->check_settings(effect, settings, &changed));
     if (type->apply_settings)
@@ -350,6 +386,6 @@ virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lightin
         return VIRGA_OK;
     _Alignas(16) char settings[VIRGA_EFFECT_MAX_SETTINGS];
     memcpy(settings, virga_effect_member(effect, type->settings.member), type->settings.size);
-    memcpy(settings + type->lighting, lighting, sizeof *lighting);
+    *lighting_of(type, settings) = *lighting;
     return virga_effect_set(effect, "virga_scene_lighting_set", settings);
 }

@@ -136,12 +136,14 @@ typedef struct virga_effect_pool {
     uint32_t unit; /* the size stays a multiple of this; 0: a power of two */
 } virga_effect_pool;
 
-/* A public struct that begins with size and cookie. */
-typedef struct virga_struct_id {
+/* A public struct that begins with size and cookie: a definition or settings. */
+typedef struct virga_effect_struct {
     const char *name; /* as in virga_settings_check */
     uint32_t size, cookie;
     size_t member; /* offset in the object */
-} virga_struct_id;
+    const virga_setting_row *rows;
+    uint32_t row_count;
+} virga_effect_struct;
 
 /* A step of an effect that needs only time and position. */
 typedef struct virga_effect_step {
@@ -154,11 +156,9 @@ typedef struct virga_effect_type {
     const char *name;     /* in log lines: "the ground", "a pane" */
     const char *log_name; /* of its settings in log lines */
     size_t size;          /* of the object */
-    virga_struct_id def, settings;
+    virga_effect_struct def, settings;
     size_t lighting; /* offset of the virga_lighting in the settings; 0: none */
 
-    const virga_setting_row *def_rows, *setting_rows;
-    uint32_t def_count, setting_count;
     const virga_effect_buffer *buffers;
     uint32_t buffer_count;
     const virga_effect_ring *rings;
@@ -203,14 +203,14 @@ typedef struct virga_effect_type {
     /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
-    void (*default_settings)(void *settings);
+    /* (optional) Fills the default settings that are not in rows. */
+    void (*fill_settings)(void *settings);
     /* (optional) Checks what the rows of settings do not, after them. Sets *changed if it clamped something. */
     virga_result (*check_settings)(const void *object, void *settings, bool *changed);
     /* (optional) Applies new settings, while the object still has the old ones. An error leaves those in force. */
     virga_result (*apply_settings)(void *object, void *settings);
 
     /* (optional) The public functions of the effect, as a scene calls them. */
-    void (*default_def)(void *def);
     virga_result (*step)(void *object, VkCommandBuffer cmd, const virga_effect_step *step);
     virga_result (*prepare)(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s);
     virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
@@ -222,24 +222,36 @@ typedef struct virga_effect_type {
 /* The fields that are the same for all types, for an effect that names its parts like the others: virga_<name>, its
  * _def and _settings, <name>_readback; tables def_rows, setting_rows, buffers, rings, layouts, passes and pools;
  * callbacks check_def, count, describe and <name>_read_statistics. */
-#define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                                                      \
-    .name = title, .log_name = settings_log_name, .size = sizeof(virga_##effect),                                \
-    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def)},            \
-    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), SETTINGS_COOKIE,                        \
-                 offsetof(virga_##effect, settings)},                                                            \
-    .def_rows = def_rows, .def_count = VIRGA_ROWS(def_rows), .setting_rows = setting_rows,                       \
-    .setting_count = VIRGA_ROWS(setting_rows), VIRGA_TABLE(buffer), VIRGA_TABLE(ring), VIRGA_TABLE(layout),      \
-    .passes = passes, .pass_count = VIRGA_ROWS(passes), VIRGA_TABLE(pool), .readback_name = #effect ".readback", \
-    .readback_bytes = sizeof(effect##_readback), .check_def = check_def, .count = count, .describe = describe,   \
-    .read_statistics = effect##_read_statistics, .default_settings = effect##_default_settings
+#define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                                                          \
+    .name = title, .log_name = settings_log_name, .size = sizeof(virga_##effect),                                    \
+    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def),                 \
+            def_rows,       VIRGA_ROWS(def_rows)},                                                                   \
+    .settings = {#effect "_settings", sizeof(virga_##effect##_settings),                                             \
+                 SETTINGS_COOKIE,     offsetof(virga_##effect, settings),                                            \
+                 setting_rows,        VIRGA_ROWS(setting_rows)},                                                     \
+    VIRGA_TABLE(buffer), VIRGA_TABLE(ring), VIRGA_TABLE(layout), .passes = passes, .pass_count = VIRGA_ROWS(passes), \
+    VIRGA_TABLE(pool), .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback),            \
+    .check_def = check_def, .count = count, .describe = describe, .read_statistics = effect##_read_statistics
 
-/* The public functions that are the same for all effects, and the callback for default settings. They use
- * <name>_type. */
+/* The fields of an effect that draws: the table `images`, <name>_draws, the settings' `lighting`. */
+#define VIRGA_EFFECT_DRAWS(effect)                                                                          \
+    VIRGA_TABLE(image), .lighting = offsetof(virga_##effect##_settings, lighting), .draws = effect##_draws, \
+                        .draw_count = VIRGA_ROWS(effect##_draws), .draw = effect##_type_draw
+
+/* The public functions that are the same for all effects. They use <name>_type. */
 #define VIRGA_EFFECT_FUNCTIONS(name)                                                                               \
     _Static_assert(sizeof(virga_##name##_settings) <= VIRGA_EFFECT_MAX_SETTINGS, "room for a copy of them");       \
-    static void name##_default_settings(void *settings)                                                            \
+    virga_##name##_def virga_default_##name##_def(void)                                                            \
     {                                                                                                              \
-        *(virga_##name##_settings *)settings = virga_default_##name##_settings();                                  \
+        virga_##name##_def def;                                                                                    \
+        virga_effect_default_def(&name##_type, &def);                                                              \
+        return def;                                                                                                \
+    }                                                                                                              \
+    virga_##name##_settings virga_default_##name##_settings(void)                                                  \
+    {                                                                                                              \
+        virga_##name##_settings settings;                                                                          \
+        virga_effect_default_settings(&name##_type, &settings);                                                    \
+        return settings;                                                                                           \
     }                                                                                                              \
     virga_result virga_##name##_set(virga_##name *object, const virga_##name##_settings *settings)                 \
     {                                                                                                              \
@@ -370,9 +382,9 @@ virga_result virga_effect_create(virga_context *context, const virga_effect_type
                                  const void *def, void **object);
 void virga_effect_destroy(virga_effect *effect); /* accepts NULL */
 
-/* The same with a definition that was checked, without shrinking and without a log line: for budget.c. */
-virga_result virga_effect_make(virga_context *context, const virga_effect_type *type, const void *def,
-                               virga_effect **made);
+/* Fill a definition or settings with the defaults. */
+void virga_effect_default_def(const virga_effect_type *type, void *def);
+void virga_effect_default_settings(const virga_effect_type *type, void *settings);
 
 /* Upper bound of the device memory in bytes, with the maximum number of frames in flight. 0 for an invalid
  * definition. */
@@ -403,6 +415,10 @@ typedef struct virga_tick_range {
  * last one. `last_tick` is NULL before the first step. */
 virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
                                       const uint32_t *last_tick);
+
+/* Begins the step of a frame: reads the statistics of completed frames, and waits until earlier frames have read what
+ * this step writes. */
+void virga_effect_begin_step(virga_effect *effect, VkCommandBuffer cmd);
 
 /* Records the first contents that rows describe, once a frame, until the device is known to have executed them. Ends
  * with a barrier before transfers and passes. Returns true if it recorded: the effect then records those first contents
@@ -483,6 +499,15 @@ void virga_effects_free_targets(virga_context *context);
 /* A target is being destroyed, and then its render pass. Pipelines that are still to be built for it are created again
  * for another target of its class, if there is one. */
 void virga_effects_forget_target(const virga_target *target);
+
+/* The common checks of a prepare. Draws need a new prepare from now on. VIRGA_NOT_READY if passes are not built. */
+virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                        const virga_view *view, double time_s);
+
+/* Pushes the block of a view into a ring. Returns the index of the view in this frame, and the offset of the block. An
+ * error if the frame has no room for another view. */
+virga_result virga_effect_push_view(virga_effect *effect, const char *call, virga_ring *ring, const void *block,
+                                    size_t size, uint32_t *index, uint32_t *offset);
 
 /* Stores what the draws of a view need. */
 void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4]);

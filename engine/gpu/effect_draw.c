@@ -4,6 +4,7 @@
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/target.h"
+#include "gpu/view.h"
 
 #include <string.h>
 
@@ -156,6 +157,31 @@ void virga_effects_forget_target(const virga_target *target)
         if (other)
             virga_effect_attach(effect, "virga_target_destroy", other); /* a failure is logged, and draws are refused */
     }
+}
+
+/* ---- prepares */
+
+virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                        const virga_view *view, double time_s)
+{
+    if (!cmd || !view)
+        return virga_wrong_argument(&effect->context->log, "%s: NULL argument", call);
+    if (effect->context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    effect->view.ready = false;
+    const virga_result result = virga_view_check(effect->context, view, time_s);
+    return result ? result : virga_effect_ready(effect);
+}
+
+virga_result virga_effect_push_view(virga_effect *effect, const char *call, virga_ring *ring, const void *block,
+                                    size_t size, uint32_t *index, uint32_t *offset)
+{
+    *index = virga_ring_used(effect->context, ring);
+    if (*index >= ring->blocks_per_frame)
+        return virga_wrong_argument(&effect->context->log, "%s: more than %u views in a frame", call,
+                                    ring->blocks_per_frame);
+    *offset = virga_ring_push(effect->context, ring, block, size);
+    return VIRGA_OK;
 }
 
 /* ---- draws */

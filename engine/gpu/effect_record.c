@@ -5,6 +5,7 @@
 #include "gpu/context.h"
 #include "gpu/errors.h"
 #include "gpu/record.h"
+#include "gpu/timers.h"
 
 #include <string.h>
 
@@ -31,6 +32,22 @@ virga_result virga_effect_check_ticks(const virga_effect *effect, const char *ca
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u", range->max,
                                     range->count);
     return virga_ticks_check(log, range->first, range->count, last_tick);
+}
+
+void virga_effect_begin_step(virga_effect *effect, VkCommandBuffer cmd)
+{
+    virga_context *context = effect->context;
+    virga_timers_reset(context, cmd);
+    virga_effect_read_statistics(effect);
+    effect->step_frame = context->frame_index;
+    virga_barrier(
+        context, cmd,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+            VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+        VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+        READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 /* ---- rings */

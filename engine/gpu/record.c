@@ -70,6 +70,13 @@ void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_
     virga_dispatch_and_barrier(context, cmd, list, (groups + 31) / 32);
 }
 
+void virga_draw_indexed_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                 VkBuffer arguments, VkDeviceSize offset)
+{
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
+    context->vk.CmdDrawIndexedIndirect(cmd, arguments, offset, 1, sizeof(VkDrawIndexedIndirectCommand));
+}
+
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
                          virga_image_state before, virga_image_state after)
 {

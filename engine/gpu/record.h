@@ -40,6 +40,10 @@ void virga_dispatch_indirect_and_barrier(virga_context *context, VkCommandBuffer
 void virga_record_list(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *find,
                        const virga_pipeline *scan, const virga_pipeline *list, uint32_t groups);
 
+/* A draw whose arguments are in a buffer, a VkDrawIndexedIndirectCommand. */
+void virga_draw_indexed_indirect(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                                 VkBuffer arguments, VkDeviceSize offset);
+
 void virga_image_barrier(virga_context *context, VkCommandBuffer cmd, VkImage image, VkImageAspectFlags aspect,
                          virga_image_state before, virga_image_state after);
 

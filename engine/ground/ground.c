@@ -47,27 +47,20 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_spawns, 0, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
     DEF(U32, max_ticks_per_step, 1, 64, 16),
+    DEF(U32, occluder_strides[0], 0, UINT32_MAX, 12),
+    DEF(U32, occluder_strides[1], 0, UINT32_MAX, 32),
 };
 
 static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.2),
-    SETTING(FLOAT, start_wetness, 0, 1),
-    SETTING(FLOAT, start_water_mm, 0, 50),
+    SETTING(FLOAT, start_wetness, 0, 1, 0),
+    SETTING(FLOAT, start_water_mm, 0, 50, 0),
+    SETTING(BOOL, measure, false, true, true),
 };
 
-virga_ground_def virga_default_ground_def(void)
+static void fill_settings(void *settings)
 {
-    virga_ground_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .occluder_strides = {12, 32}};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_ground_settings virga_default_ground_settings(void)
-{
-    virga_ground_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE, .measure = true};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    ground_default_materials(settings.materials);
-    return settings;
+    ground_default_materials(((virga_ground_settings *)settings)->materials);
 }
 
 /* Adjusts the sizes that depend on the size of the window. The cache holds at least twice the tiles of the window, so
@@ -226,19 +219,23 @@ static const virga_effect_layout layouts[] = {
     {AT(bindings), bindings, VIRGA_ROWS(bindings), GROUND_SOURCES, sizeof(uint32_t)},
 };
 
+/* clang-format off */
+#define PASS(pass) {"ground." #pass, AT(pass), VIRGA_SPIRV_ROW(ground_##pass##_comp)}
+/* clang-format on */
+
 static const virga_effect_pass passes[] = {
-    {"ground.tile_load", AT(tile_load), VIRGA_SPIRV_ROW(ground_tile_load_comp)},
-    {"ground.tile_discard", AT(tile_discard), VIRGA_SPIRV_ROW(ground_tile_discard_comp)},
-    {"ground.spawn_mark", AT(spawn_mark), VIRGA_SPIRV_ROW(ground_spawn_mark_comp)},
-    {"ground.spawn_scan", AT(spawn_scan), VIRGA_SPIRV_ROW(ground_spawn_scan_comp)},
-    {"ground.land", AT(land), VIRGA_SPIRV_ROW(ground_land_comp)},
-    {"ground.share", AT(share), VIRGA_SPIRV_ROW(ground_share_comp)},
-    {"ground.soak", AT(soak), VIRGA_SPIRV_ROW(ground_soak_comp)},
-    {"ground.flow", AT(flow), VIRGA_SPIRV_ROW(ground_flow_comp)},
-    {"ground.ring", AT(ring), VIRGA_SPIRV_ROW(ground_ring_comp)},
-    {"ground.measure", AT(measure), VIRGA_SPIRV_ROW(ground_measure_comp)},
+    PASS(tile_load),
+    PASS(tile_discard),
+    PASS(spawn_mark),
+    PASS(spawn_scan),
+    PASS(land),
+    PASS(share),
+    PASS(soak),
+    PASS(flow),
+    PASS(ring),
+    PASS(measure),
     {"ground.measure_cached", AT(measure_cached), VIRGA_SPIRV_ROW(ground_measure_comp), .constant = VK_TRUE},
-    {"ground.map", AT(map), VIRGA_SPIRV_ROW(ground_map_comp)},
+    PASS(map),
     {"ground.far_floor", AT(far.floor_pass), VIRGA_SPIRV_ROW(ground_far_floor_comp)},
     {"ground.far_map", AT(far.draw), VIRGA_SPIRV_ROW(ground_far_map_comp)},
 };
@@ -337,6 +334,7 @@ static virga_result apply_settings(void *object, void *given)
 }
 
 VIRGA_EFFECT_FUNCTIONS(ground)
+VIRGA_EFFECT_STATISTICS_FUNCTION(ground)
 
 const virga_effect_type ground_type = {
     VIRGA_EFFECT_TYPE(ground, "the ground", "ground_settings"),
@@ -346,6 +344,7 @@ const virga_effect_type ground_type = {
     .init = init,
     .create = create,
     .destroy = destroy,
+    .fill_settings = fill_settings,
     .check_settings = check_settings,
     .apply_settings = apply_settings,
     .lost = ground_lost,
@@ -417,32 +416,35 @@ void virga_ground_refresh_heights(virga_ground *ground)
 
 /* ---- maps and statistics */
 
+static virga_ground_maps describe_maps(const virga_ground *ground)
+{
+    const virga_ground_def *def = &ground->def;
+    const double tile_m = VIRGA_GROUND_TILE * (double)def->cell_m;
+    virga_ground_maps maps = {.wetness = ground->wet_map->layer_views[0],
+                              .spots = ground->spot_map->layer_views[0],
+                              .cells = def->cells,
+                              .cell_m = def->cell_m,
+                              .base_m = (float)ground->base_m,
+                              .ripples = ground->ripples.map->colors[0]->layer_views[0],
+                              .ripple_texels = def->ripple_texels,
+                              .ripple_texel_m = def->ripple_texel_m};
+    /* No reach in a window of two tiles. */
+    maps.reach_m = fmaxf((float)((0.5 * ground->window.tiles - 1.5) * tile_m), 0);
+    if (ground->info.impacts_reach_m > 0 && ground->info.impacts_reach_m < maps.reach_m)
+        maps.reach_m = ground->info.impacts_reach_m;
+    ground_far_maps(ground, &maps);
+    for (int axis = 0; axis < 2; axis++) {
+        maps.ripple_low_m[axis] = ground->ripple_low_m[axis];
+        maps.low_m[axis] = ground->window.low[axis] * tile_m;
+        maps.high_m[axis] = (ground->window.low[axis] + (int32_t)ground->window.tiles) * tile_m;
+    }
+    return maps;
+}
+
 void virga_ground_maps_get(const virga_ground *ground, virga_ground_maps *maps)
 {
-    if (!maps)
-        return;
-    memset(maps, 0, sizeof *maps);
-    if (!ground)
-        return;
-    const double tile_m = VIRGA_GROUND_TILE * (double)ground->def.cell_m;
-    *maps = (virga_ground_maps){.wetness = ground->wet_map->layer_views[0],
-                                .spots = ground->spot_map->layer_views[0],
-                                .cells = ground->def.cells,
-                                .cell_m = ground->def.cell_m,
-                                .base_m = (float)ground->base_m};
-    maps->ripples = ground->ripples.map->colors[0]->layer_views[0];
-    maps->ripple_texels = ground->def.ripple_texels;
-    maps->ripple_texel_m = ground->def.ripple_texel_m;
-    /* No reach in a window of two tiles. */
-    maps->reach_m = fmaxf((float)((0.5 * ground->window.tiles - 1.5) * tile_m), 0);
-    if (ground->info.impacts_reach_m > 0 && ground->info.impacts_reach_m < maps->reach_m)
-        maps->reach_m = ground->info.impacts_reach_m;
-    ground_far_maps(ground, maps);
-    for (int axis = 0; axis < 2; axis++) {
-        maps->ripple_low_m[axis] = ground->ripple_low_m[axis];
-        maps->low_m[axis] = ground->window.low[axis] * tile_m;
-        maps->high_m[axis] = (ground->window.low[axis] + (int32_t)ground->window.tiles) * tile_m;
-    }
+    if (maps)
+        *maps = ground ? describe_maps(ground) : (virga_ground_maps){0};
 }
 
 uint32_t ground_nl_per_um(const virga_ground *ground)
@@ -453,44 +455,31 @@ uint32_t ground_nl_per_um(const virga_ground *ground)
 
 void virga_ground_cells_get(const virga_ground *ground, virga_ground_cells *cells)
 {
-    if (!cells)
-        return;
-    memset(cells, 0, sizeof *cells);
-    if (!ground)
-        return;
-    *cells = (virga_ground_cells){.floors = ground->floors->buffer,
-                                  .cells = ground->cells->buffer,
-                                  .size = ground->cells->size,
-                                  .tiles = ground->window.tiles,
-                                  .low_tile = {ground->window.low[0], ground->window.low[1]},
-                                  .nl_per_um = ground_nl_per_um(ground),
-                                  .base_m = (float)ground->base_m};
+    if (cells)
+        *cells = ground ? (virga_ground_cells){.floors = ground->floors->buffer,
+                                               .cells = ground->cells->buffer,
+                                               .size = ground->cells->size,
+                                               .tiles = ground->window.tiles,
+                                               .low_tile = {ground->window.low[0], ground->window.low[1]},
+                                               .nl_per_um = ground_nl_per_um(ground),
+                                               .base_m = (float)ground->base_m}
+                        : (virga_ground_cells){0};
+}
+
+static void get_buffer(const virga_buffer *from, VkBuffer *buffer, VkDeviceSize *size)
+{
+    if (buffer)
+        *buffer = from ? from->buffer : VK_NULL_HANDLE;
+    if (size)
+        *size = from ? from->size : 0;
 }
 
 void virga_ground_landings(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)
 {
-    if (buffer)
-        *buffer = ground ? ground->landings->buffer : VK_NULL_HANDLE;
-    if (size)
-        *size = ground ? ground->landings->size : 0;
+    get_buffer(ground ? ground->landings : NULL, buffer, size);
 }
 
 void virga_ground_spawns(const virga_ground *ground, VkBuffer *buffer, VkDeviceSize *size)
 {
-    if (buffer)
-        *buffer = ground ? ground->spawns->buffer : VK_NULL_HANDLE;
-    if (size)
-        *size = ground ? ground->spawns->size : 0;
-}
-
-void virga_ground_stats_get(virga_ground *ground, virga_ground_stats *stats)
-{
-    if (!stats)
-        return;
-    memset(stats, 0, sizeof *stats);
-    if (!ground)
-        return;
-    virga_effect_read_statistics(&ground->base);
-    *stats = ground->stats;
-    stats->tiles_cached = ground->window.cached_count;
+    get_buffer(ground ? ground->spawns : NULL, buffer, size);
 }

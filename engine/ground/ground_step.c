@@ -65,6 +65,7 @@ void ground_lost(void *object, uint64_t frame, uint32_t did)
         ground->far.is_placed = false;
     if (did & GROUND_DID_FAR_MAP)
         ground->far.drawn = false;
+    ground->stats.tiles_cached = ground->window.cached_count;
 }
 
 /* ---- constants of a tick */
@@ -507,25 +508,16 @@ virga_result virga_ground_step(virga_ground *ground, VkCommandBuffer cmd, const 
     if (result)
         return result;
     virga_context *context = ground->base.context;
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&ground->base);
-    ground->base.step_frame = context->frame_index;
+    virga_effect_begin_step(&ground->base, cmd);
     ground->info = *info;
     ground->info.open_rain_mm_h = fminf(fmaxf(info->open_rain_mm_h, 0), 1000);
     ground->info.open_drop_m = fminf(fmaxf(info->open_drop_m, 0), 0.01f);
     ground->tick_in_step = 0;
     ground_write_sets(ground);
-    /* Waits for the previous frame's reads of maps, landings and cells. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | COPY | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     first_contents(ground, cmd);
     place_ripples(ground, info->ripple_center_m);
     follow(ground, cmd, info);
+    ground->stats.tiles_cached = ground->window.cached_count;
     if (!info->ticks) {
         push_tick(ground, 0);
         bind(ground, cmd);

@@ -53,20 +53,6 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, filter_weight[1], 0, 100, 5),
 };
 
-virga_lens_def virga_default_lens_def(void)
-{
-    virga_lens_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_lens_settings virga_default_lens_settings(void)
-{
-    virga_lens_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    return settings;
-}
-
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_lens_def *def = given;
@@ -226,12 +212,9 @@ const virga_effect_type lens_type = {
     .name = "a lens",
     .log_name = "lens_settings",
     .size = sizeof(virga_lens),
-    .def = {"lens_def", sizeof(virga_lens_def), DEF_COOKIE, AT(def)},
-    .settings = {"lens_settings", sizeof(virga_lens_settings), SETTINGS_COOKIE, AT(settings)},
-    .def_rows = def_rows,
-    .def_count = VIRGA_ROWS(def_rows),
-    .setting_rows = setting_rows,
-    .setting_count = VIRGA_ROWS(setting_rows),
+    .def = {"lens_def", sizeof(virga_lens_def), DEF_COOKIE, AT(def), def_rows, VIRGA_ROWS(def_rows)},
+    .settings = {"lens_settings", sizeof(virga_lens_settings), SETTINGS_COOKIE, AT(settings), setting_rows,
+                 VIRGA_ROWS(setting_rows)},
     VIRGA_TABLE(buffer),
     VIRGA_TABLE(ring),
     VIRGA_TABLE(image),
@@ -247,7 +230,6 @@ const virga_effect_type lens_type = {
     .init = init,
     .describe = describe,
     .read_statistics = lens_read_statistics,
-    .default_settings = lens_default_settings,
     .apply_settings = apply_settings,
     .draw = lens_type_draw,
 };

@@ -1,7 +1,6 @@
 /* rain/rain.c - creates and destroys a field of rain, and applies its settings. */
 #include "rain/rain_internal.h"
 
-#include "core/light.h"
 #include "core/settings.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
@@ -50,10 +49,13 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, range_m, 4, 512, 32),
     DEF(U32, max_impacts, 256, 4194240, 65536),
     DEF(U32, max_ticks_per_step, 1, 64, 16),
-    DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES),
+    DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES, 0),
     DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    DEF(U32, occlusion_size, 0, 8192, 1024),
     DEF(U32, occlusion_cascades, 1, 4, 2),
     DEF(U32, occlusion_slants, 1, 4, 2),
+    DEF(U32, occluder_strides[0], 0, UINT32_MAX, 12),
+    DEF(U32, occluder_strides[1], 0, UINT32_MAX, 32),
 };
 /* clang-format on */
 
@@ -61,10 +63,10 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, rate_mm_h, 0, 200, 10),
     SETTING(FLOAT, air_density, 0.3, 2, VIRGA_AIR_DENSITY),
     SETTING(FLOAT, transition_s, 0, 60, 0.5),
-    SETTING(FLOAT, wind_m_s[0], -60, 60),
-    SETTING(FLOAT, wind_m_s[1], -60, 60),
-    SETTING(FLOAT, wind_m_s[2], -60, 60),
-    SETTING(FLOAT, gust_m_s, 0, 30),
+    SETTING(FLOAT, wind_m_s[0], -60, 60, 0),
+    SETTING(FLOAT, wind_m_s[1], -60, 60, 0),
+    SETTING(FLOAT, wind_m_s[2], -60, 60, 0),
+    SETTING(FLOAT, gust_m_s, 0, 30, 0),
     SETTING(FLOAT, gust_time_s, 0.1, 600, 4),
     SETTING(FLOAT, streak_gain, 0, 100, 1),
     SETTING(FLOAT, light_gain, 0, 100, 1),
@@ -76,25 +78,9 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, haze_sky_m, 0, 1e5, 400),
     SETTING(FLOAT, glow, 0, 100, 1),
     SETTING(FLOAT, streak_min_mm, 0.2, 2, 0.4),
-    SETTING(U32, default_material, 0, 255),
+    SETTING(U32, default_material, 0, 255, 0),
     SETTING(U32, occlusion_interval, 1, 16, 1),
 };
-
-virga_rain_def virga_default_rain_def(void)
-{
-    virga_rain_def def = {
-        .size = sizeof def, .cookie = DEF_COOKIE, .occlusion_size = 1024, .occluder_strides = {12, 32}};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_rain_settings virga_default_rain_settings(void)
-{
-    virga_rain_settings settings = {
-        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .lighting = virga_default_lighting()};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    return settings;
-}
 
 /* ---- the sizes that follow from a definition */
 
@@ -393,10 +379,7 @@ VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
 
 const virga_effect_type rain_type = {
     VIRGA_EFFECT_TYPE(rain, "rain", "rain"),
-    VIRGA_TABLE(image),
-    .lighting = offsetof(virga_rain_settings, lighting),
-    .draws = rain_draws,
-    .draw_count = RAIN_DRAW_ROWS,
+    VIRGA_EFFECT_DRAWS(rain),
     .extra_bytes = extra_bytes,
     .init = init,
     .create = create,
@@ -406,7 +389,6 @@ const virga_effect_type rain_type = {
     .apply_settings = apply_settings,
     .lost = rain_lost,
     .prepare = prepare,
-    .draw = rain_type_draw,
 };
 
 /* ---- buffers and statistics */

@@ -137,16 +137,10 @@ static void fill_haze_alone(const virga_rain *rain, const virga_view *view, cons
     out->look.begin[3] = 0;
 }
 
-/* Adds a block to this frame's part of the ring, and returns its index. */
-static virga_result push_view(virga_rain *rain, const rain_view_block *block, uint32_t *index)
+static virga_result push_view(virga_rain *rain, const char *call, const rain_view_block *block, uint32_t *index)
 {
-    virga_context *context = rain->base.context;
-    *index = virga_ring_used(context, &rain->view_ring);
-    if (*index >= VIRGA_RAIN_MAX_VIEWS)
-        return virga_wrong_argument(&context->log, "rain: more than %d views in a frame", VIRGA_RAIN_MAX_VIEWS);
     rain_keep_tick(rain);
-    rain->view_offset = virga_ring_push(context, &rain->view_ring, block, sizeof *block);
-    return VIRGA_OK;
+    return virga_effect_push_view(&rain->base, call, &rain->view_ring, block, sizeof *block, index, &rain->view_offset);
 }
 
 /* ---- prepare */
@@ -195,14 +189,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    if (!cmd || !view)
-        return virga_wrong_argument(&rain->base.context->log, "virga_rain_prepare: NULL argument");
-    if (rain->base.context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    rain->base.view.ready = false;
-    virga_result result = virga_view_check(rain->base.context, view, time_s);
-    if (!result)
-        result = virga_effect_ready(&rain->base);
+    virga_result result = virga_effect_check_prepare(&rain->base, "virga_rain_prepare", cmd, view, time_s);
     if (result)
         return result;
     if (!rain->stepped)
@@ -211,7 +198,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     uint32_t index;
     rain_view_block block;
     fill_view(rain, view, time_s, &block);
-    result = push_view(rain, &block, &index);
+    result = push_view(rain, "virga_rain_prepare", &block, &index);
     if (result)
         return result;
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
@@ -254,9 +241,7 @@ static void draw_plain(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeli
 
 static void draw_streaks(virga_rain *rain, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
 {
-    const virga_functions *vk = &rain->base.context->vk;
-    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    vk->CmdDrawIndexedIndirect(cmd, rain->prepared_buffer->buffer, arguments, 1, sizeof(virga_draw_gpu));
+    virga_draw_indexed_indirect(rain->base.context, cmd, pipeline, rain->prepared_buffer->buffer, arguments);
 }
 
 virga_result virga_rain_draw(virga_rain *rain, VkCommandBuffer cmd, const virga_target *target)
@@ -337,7 +322,7 @@ virga_result virga_rain_draw_haze(virga_rain *rain, VkCommandBuffer cmd, const v
     const uint32_t prepared_offset = rain->view_offset;
     fill_view(rain, view, virga_rain_time(rain), &block);
     fill_haze_alone(rain, view, begin, &block);
-    result = push_view(rain, &block, &index);
+    result = push_view(rain, "virga_rain_draw_haze", &block, &index);
     if (result)
         return result;
     virga_set_draw_area(rain->base.context, cmd, view->viewport);

@@ -56,10 +56,12 @@ static uint32_t count_of_kind(const virga_scene_def *def, const scene_kind *kind
 
 static void define_effect(const virga_scene_def *def, const scene_kind *kind, uint32_t index, void *effect_def)
 {
-    if (kind->define)
-        kind->define(def, index, effect_def);
+    if (kind->def)
+        memcpy(effect_def, (const char *)def + kind->def, kind->type->def.size);
     else
-        kind->type->default_def(effect_def);
+        virga_effect_default_def(kind->type, effect_def);
+    if (kind->share)
+        kind->share(def, index, effect_def);
 }
 
 static VkDeviceSize effect_estimate(const virga_scene_def *def, const scene_kind *kind, uint32_t index)

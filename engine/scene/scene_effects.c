@@ -19,29 +19,22 @@
 
 /* ---- definitions: values that effects must share are copied from the rain's */
 
-static void define_rain(const virga_scene_def *def, uint32_t index, void *effect_def)
-{
-    (void)index;
-    memcpy(effect_def, &def->rain, sizeof def->rain);
-}
-
 static uint32_t count_ground(const virga_scene_def *def)
 {
     return def->with_ground;
 }
 
-static void define_ground(const virga_scene_def *def, uint32_t index, void *effect_def)
+static void share_ground(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
-    virga_ground_def ground = def->ground;
+    virga_ground_def *ground = effect_def;
     (void)index;
-    ground.seed = def->rain.seed;
-    if (def->with_splash && ground.max_returned_droplets < ground.max_spawns)
-        ground.max_returned_droplets = ground.max_spawns; /* the number that splash needs */
-    ground.tick_s = def->rain.tick_s;
-    ground.max_impacts = def->rain.max_impacts;
-    ground.max_ticks_per_step = def->rain.max_ticks_per_step;
-    memcpy(ground.occluder_strides, def->rain.occluder_strides, sizeof ground.occluder_strides);
-    memcpy(effect_def, &ground, sizeof ground);
+    ground->seed = def->rain.seed;
+    if (def->with_splash && ground->max_returned_droplets < ground->max_spawns)
+        ground->max_returned_droplets = ground->max_spawns; /* the number that splash needs */
+    ground->tick_s = def->rain.tick_s;
+    ground->max_impacts = def->rain.max_impacts;
+    ground->max_ticks_per_step = def->rain.max_ticks_per_step;
+    memcpy(ground->occluder_strides, def->rain.occluder_strides, sizeof ground->occluder_strides);
 }
 
 static uint32_t count_splash(const virga_scene_def *def)
@@ -49,16 +42,15 @@ static uint32_t count_splash(const virga_scene_def *def)
     return def->with_splash;
 }
 
-static void define_splash(const virga_scene_def *def, uint32_t index, void *effect_def)
+static void share_splash(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
-    virga_splash_def splash = def->splash;
+    virga_splash_def *splash = effect_def;
+    const uint32_t spawns = def->ground.max_spawns, returned = def->ground.max_returned_droplets;
     (void)index;
-    splash.tick_s = def->rain.tick_s;
-    splash.max_ticks_per_step = def->rain.max_ticks_per_step;
-    splash.max_spawns = def->ground.max_spawns;
-    splash.max_returned_droplets =
-        def->ground.max_returned_droplets > splash.max_spawns ? def->ground.max_returned_droplets : splash.max_spawns;
-    memcpy(effect_def, &splash, sizeof splash);
+    splash->tick_s = def->rain.tick_s;
+    splash->max_ticks_per_step = def->rain.max_ticks_per_step;
+    splash->max_spawns = spawns;
+    splash->max_returned_droplets = returned > spawns ? returned : spawns;
 }
 
 static uint32_t count_panes(const virga_scene_def *def)
@@ -66,13 +58,13 @@ static uint32_t count_panes(const virga_scene_def *def)
     return def->pane_count;
 }
 
-static void define_pane(const virga_scene_def *def, uint32_t index, void *effect_def)
+static void share_pane(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
-    virga_glass_def pane = def->panes[index];
-    pane.seed = def->rain.seed + index;
-    pane.tick_s = def->rain.tick_s;
-    pane.max_ticks_per_step = def->rain.max_ticks_per_step;
-    memcpy(effect_def, &pane, sizeof pane);
+    virga_glass_def *pane = effect_def;
+    *pane = def->panes[index];
+    pane->seed = def->rain.seed + index;
+    pane->tick_s = def->rain.tick_s;
+    pane->max_ticks_per_step = def->rain.max_ticks_per_step;
 }
 
 /* ---- rain */
@@ -266,12 +258,6 @@ static uint32_t count_water(const virga_scene_def *def)
     return def->with_water;
 }
 
-static void define_water(const virga_scene_def *def, uint32_t index, void *effect_def)
-{
-    (void)index;
-    memcpy(effect_def, &def->water, sizeof def->water);
-}
-
 static virga_result step_water(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     return virga_water_step(scene_find(scene, &water_type, index), cmd, &frame->water);
@@ -281,13 +267,15 @@ static virga_result step_water(virga_scene *scene, uint32_t index, VkCommandBuff
 
 enum { DRAW_SPLASH, DRAW_GROUND, DRAW_WATER, DRAW_RAIN, DRAW_PANES };
 
+#define DEF(member) offsetof(virga_scene_def, member)
+
 /* Water is the first, as it is the one whose step has arguments of the host: if they are wrong nothing is recorded. */
 const scene_kind scene_kinds[] = {
-    {&water_type, DRAW_WATER, count_water, define_water, .step = step_water},
-    {&rain_type, DRAW_RAIN, .define = define_rain, .step = step_rain},
-    {&ground_type, DRAW_GROUND, count_ground, define_ground, .step = step_ground},
-    {&splash_type, DRAW_SPLASH, count_splash, define_splash, .step = step_splash},
-    {&glass_type, DRAW_PANES, count_panes, define_pane, .check_frame = check_pane, .step = step_pane},
+    {&water_type, DRAW_WATER, count_water, DEF(water), .step = step_water},
+    {&rain_type, DRAW_RAIN, .def = DEF(rain), .step = step_rain},
+    {&ground_type, DRAW_GROUND, count_ground, DEF(ground), share_ground, .step = step_ground},
+    {&splash_type, DRAW_SPLASH, count_splash, DEF(splash), share_splash, .step = step_splash},
+    {&glass_type, DRAW_PANES, count_panes, .share = share_pane, .check_frame = check_pane, .step = step_pane},
 #ifdef SCENE_EXTRA_KINDS /* an effect of the tests */
     SCENE_EXTRA_KINDS,
 #endif

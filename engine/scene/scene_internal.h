@@ -20,9 +20,11 @@ typedef struct scene_kind {
 
     /* The number of effects of this kind in a definition. NULL: one. */
     uint32_t (*count)(const virga_scene_def *def);
-    /* Fills the definition of one effect: its own values, and those it shares with other effects, copied from theirs.
-     * NULL: the default definition. */
-    void (*define)(const virga_scene_def *def, uint32_t index, void *effect_def);
+    /* Offset of its definition in the scene's. 0: the default definition. */
+    size_t def;
+    /* Changes the definition of one effect: values that it shares with other effects are copied from theirs. NULL: it
+     * shares none. */
+    void (*share)(const virga_scene_def *def, uint32_t index, void *effect_def);
     /* Checks the effect's part of a frame, before anything is recorded. NULL: nothing to check. */
     virga_result (*check_frame)(const virga_scene *scene, uint32_t index, const virga_scene_frame *frame);
     /* Records the effect's step, with events from earlier effects. NULL: the step of its type, without events. */

@@ -1,7 +1,6 @@
 /* splash/splash.c - creates and destroys splash objects, applies settings, and answers queries. */
 #include "splash/splash_internal.h"
 
-#include "core/light.h"
 #include "core/settings.h"
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
@@ -37,6 +36,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_splashes, 256, 1048576, 65536),
     DEF(U32, max_droplets, 256, 4194304, 131072),
     DEF(U32, max_spawns, 256, 1048576, 65536),
+    DEF(U32, max_returned_droplets, 0, 4194240, 131072),
     DEF(U32, max_ticks_per_step, 1, 64, 16),
     DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
 };
@@ -59,20 +59,9 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, near_fade_m, 0, 5, 0.05),
 };
 
-virga_splash_def virga_default_splash_def(void)
+static void fill_settings(void *settings)
 {
-    virga_splash_def def = {.size = sizeof def, .cookie = DEF_COOKIE, .max_returned_droplets = 131072};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_splash_settings virga_default_splash_settings(void)
-{
-    virga_splash_settings settings = {
-        .size = sizeof settings, .cookie = SETTINGS_COOKIE, .lighting = virga_default_lighting()};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    splash_default_rows(settings.rules);
-    return settings;
+    splash_default_rows(((virga_splash_settings *)settings)->rules);
 }
 
 static uint32_t power_of_two(uint32_t min)
@@ -234,21 +223,25 @@ static const virga_effect_layout layouts[] = {
     {AT(bindings), bindings, VIRGA_ROWS(bindings), SPLASH_SETS, sizeof(uint32_t)},
 };
 
+/* clang-format off */
+#define STEP(pass) {"splash." #pass, AT(pass), VIRGA_SPIRV_ROW(splash_step_##pass##_comp)}
+#define DRAW(pass, count) {"splash." #pass, AT(pass), VIRGA_SPIRV_ROW(splash_draw_##pass##_comp), .forms = count}
+/* clang-format on */
+
 static const virga_effect_pass passes[] = {
-    {"splash.spawn_scan", AT(spawn_scan), VIRGA_SPIRV_ROW(splash_step_spawn_scan_comp)},
-    {"splash.spawn", AT(spawn), VIRGA_SPIRV_ROW(splash_step_spawn_comp)},
-    {"splash.fly", AT(fly), VIRGA_SPIRV_ROW(splash_step_fly_comp)},
-    {"splash.fall_scan", AT(fall_scan), VIRGA_SPIRV_ROW(splash_step_fall_scan_comp)},
-    {"splash.fall_compact", AT(fall_compact), VIRGA_SPIRV_ROW(splash_step_fall_compact_comp)},
-    {"splash.rebase", AT(rebase), VIRGA_SPIRV_ROW(splash_step_rebase_comp)},
-    {"splash.indices", AT(indices), VIRGA_SPIRV_ROW(splash_draw_indices_comp)},
-    {"splash.few_mark", AT(few_mark), VIRGA_SPIRV_ROW(splash_draw_few_mark_comp), .forms = SPLASH_STYLES},
-    {"splash.droplet_mark", AT(droplet_mark), VIRGA_SPIRV_ROW(splash_draw_droplet_mark_comp), .forms = SPLASH_STYLES},
-    {"splash.splash_mark", AT(splash_mark), VIRGA_SPIRV_ROW(splash_draw_splash_mark_comp), .forms = SPLASH_STYLES},
-    {"splash.view_scan", AT(view_scan), VIRGA_SPIRV_ROW(splash_draw_view_scan_comp)},
-    {"splash.view_compact", AT(view_compact), VIRGA_SPIRV_ROW(splash_draw_view_compact_comp)},
-    {"splash.sprite_write", AT(sprite_write), VIRGA_SPIRV_ROW(splash_draw_sprite_write_comp),
-     .forms = VIRGA_SPLASH_FORMS},
+    STEP(spawn_scan),
+    STEP(spawn),
+    STEP(fly),
+    STEP(fall_scan),
+    STEP(fall_compact),
+    STEP(rebase),
+    DRAW(indices, 1),
+    DRAW(few_mark, SPLASH_STYLES),
+    DRAW(droplet_mark, SPLASH_STYLES),
+    DRAW(splash_mark, SPLASH_STYLES),
+    DRAW(view_scan, 1),
+    DRAW(view_compact, 1),
+    DRAW(sprite_write, VIRGA_SPLASH_FORMS),
 };
 
 /* The sizes that may shrink to fit the memory budget. Buffers that are shared with the ground have a fixed size. */
@@ -288,16 +281,13 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(splash)
 
 const virga_effect_type splash_type = {
     VIRGA_EFFECT_TYPE(splash, "splash", "splash_settings"),
-    VIRGA_TABLE(image),
-    .lighting = offsetof(virga_splash_settings, lighting),
-    .draws = splash_draws,
-    .draw_count = SPLASH_DRAW_ROWS,
+    VIRGA_EFFECT_DRAWS(splash),
     .fit_device = fit_device,
     .create = create,
+    .fill_settings = fill_settings,
     .check_settings = check_settings,
     .lost = splash_lost,
     .prepare = prepare,
-    .draw = splash_type_draw,
 };
 
 /* ---- descriptors */

@@ -127,27 +127,20 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     if (!splash)
         return VIRGA_ERROR_INVALID;
     virga_context *context = splash->base.context;
-    if (!cmd || !view)
-        return virga_wrong_argument(&context->log, "virga_splash_prepare: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    splash->base.view.ready = false;
-    virga_result result = virga_view_check(context, view, time_s);
-    if (!result)
-        result = virga_effect_ready(&splash->base);
+    virga_result result = virga_effect_check_prepare(&splash->base, "virga_splash_prepare", cmd, view, time_s);
     if (result)
         return result;
     if (!splash->ticks)
         return VIRGA_NOT_READY;
-    const uint32_t index = virga_ring_used(context, &splash->view_ring);
-    if (index >= SPLASH_MAX_VIEWS)
-        return virga_wrong_argument(&context->log, "virga_splash_prepare: more than %d views in a frame",
-                                    SPLASH_MAX_VIEWS);
     virga_timers_reset(context, cmd);
     splash_push_rules(splash);
     splash_view_block block;
+    uint32_t index;
     fill_view(splash, view, time_s, &block);
-    splash->view_offset = virga_ring_push(context, &splash->view_ring, &block, sizeof block);
+    result = virga_effect_push_view(&splash->base, "virga_splash_prepare", &splash->view_ring, &block, sizeof block,
+                                    &index, &splash->view_offset);
+    if (result)
+        return result;
     const VkDescriptorSet set = splash_write_set(splash, index, splash_current(splash), view);
     record_prepare(splash, cmd, set, choose_form(splash));
     virga_effect_set_view(&splash->base, set, view->viewport);
@@ -186,9 +179,7 @@ const virga_effect_draw splash_draws[SPLASH_DRAW_ROWS] = {
 
 static void draw(virga_splash *splash, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t arguments)
 {
-    const virga_functions *vk = &splash->base.context->vk;
-    vk->CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
-    vk->CmdDrawIndexedIndirect(cmd, splash->prepared_buffer->buffer, arguments, 1, sizeof(virga_splash_draw_gpu));
+    virga_draw_indexed_indirect(splash->base.context, cmd, pipeline, splash->prepared_buffer->buffer, arguments);
 }
 
 virga_result virga_splash_draw(virga_splash *splash, VkCommandBuffer cmd, const virga_target *target)

@@ -190,10 +190,8 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     const virga_splash_step_info *info = &next;
     virga_clamp_vector(&splash->base.context->log, "step_info.wind_m_s", next.wind_m_s, VIRGA_MAX_SPEED_M_S, &changed);
     virga_context *context = splash->base.context;
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&splash->base);
+    virga_effect_begin_step(&splash->base, cmd);
     splash_push_rules(splash);
-    splash->base.step_frame = context->frame_index;
     splash->base.view.ready = false;
     splash->spawns = info->spawns;
     splash->spawns_offset = info->spawns_offset;
@@ -202,15 +200,6 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     for (uint32_t i = 0; i < 2; i++)
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
     splash->spawns = VK_NULL_HANDLE; /* the host owns it and may destroy it */
-    /* Wait for the previous frame's reads of splashes and droplets, and for the ground's reads of returned droplets. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
     if (virga_effect_first_contents(&splash->base, cmd))
         write_indices(splash, cmd);
     remember(splash);

@@ -24,46 +24,17 @@
  * from which Bai, Rusche and Gosman find droplets on a wet wall. */
 #define MIN_MM 0.8f
 
-static const virga_splash_rule none = {.model = VIRGA_SPLASH_NONE};
-
-static const virga_splash_rule disk = {.model = VIRGA_SPLASH_DISK, .min_diameter_mm = MIN_MM};
-
-static const virga_splash_rule wet = {.model = VIRGA_SPLASH_SCATTERING,
-                                      .min_diameter_mm = MIN_MM,
-                                      .share = {0.03f, 0.10f},
-                                      .count = {1, 5},
-                                      .angle_deg = {1, 30},
-                                      .speed_m_s = {0.1f, 1.0f},
-                                      .strength = 0.7f,
-                                      .circle_radius = 1.0f};
-
-static const virga_splash_rule puddle_3 = {.model = VIRGA_SPLASH_SCATTERING,
-                                           .min_diameter_mm = MIN_MM,
-                                           .share = {0.05f, 0.16f},
-                                           .count = {4, 14},
-                                           .angle_deg = {1, 60},
-                                           .speed_m_s = {0.15f, 1.5f},
-                                           .strength = 1.0f,
-                                           .circle_radius = 1.3f};
-
-static const virga_splash_rule puddle_5 = {.model = VIRGA_SPLASH_SCATTERING,
-                                           .min_diameter_mm = MIN_MM,
-                                           .share = {0.08f, 0.22f},
-                                           .count = {12, 22},
-                                           .angle_deg = {1, 90},
-                                           .speed_m_s = {0.2f, 2.0f},
-                                           .strength = 1.0f,
-                                           .circle_radius = 1.6f};
-
-/* The angle is that of the cone's droplet. Piles of the crown itself, if there are any, rise at 50 to 80 degrees. */
-static const virga_splash_rule puddle_10 = {.model = VIRGA_SPLASH_CROWN_CONE,
-                                            .min_diameter_mm = MIN_MM,
-                                            .share = {0.03f, 0.10f},
-                                            .count = {1, 1},
-                                            .angle_deg = {90, 90},
-                                            .speed_m_s = {0.1f, 2.0f},
-                                            .strength = 1.0f,
-                                            .circle_radius = 2.0f};
+/* clang-format off */
+static const virga_splash_rule
+    none = {VIRGA_SPLASH_NONE},
+    disk = {VIRGA_SPLASH_DISK, MIN_MM},
+    /*           model, min diameter mm, min depth mm, share, count, angle deg, speed m/s, strength, circle radius */
+    wet =       {VIRGA_SPLASH_SCATTERING, MIN_MM, 0, {0.03f, 0.10f}, {1, 5},   {1, 30},  {0.1f, 1.0f},  0.7f, 1.0f},
+    puddle_3 =  {VIRGA_SPLASH_SCATTERING, MIN_MM, 0, {0.05f, 0.16f}, {4, 14},  {1, 60},  {0.15f, 1.5f}, 1.0f, 1.3f},
+    puddle_5 =  {VIRGA_SPLASH_SCATTERING, MIN_MM, 0, {0.08f, 0.22f}, {12, 22}, {1, 90},  {0.2f, 2.0f},  1.0f, 1.6f},
+    /* The angle is that of the cone's droplet. Piles of the crown itself, if it has any, rise at 50 to 80 degrees. */
+    puddle_10 = {VIRGA_SPLASH_CROWN_CONE, MIN_MM, 0, {0.03f, 0.10f}, {1, 1},   {90, 90}, {0.1f, 2.0f},  1.0f, 2.0f};
+/* clang-format on */
 
 /* ---- materials: their splashes relative to asphalt */
 

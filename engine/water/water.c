@@ -69,20 +69,6 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
 };
 
-virga_water_def virga_default_water_def(void)
-{
-    virga_water_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_water_settings virga_default_water_settings(void)
-{
-    virga_water_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    return settings;
-}
-
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_water_def *def = given;

@@ -47,21 +47,11 @@ static const virga_setting_row setting_rows[] = {
     VIRGA_SETTING_ROW(nothing_settings, virga_nothing_settings, U32, weight, 0, 100, 1),
 };
 
-static void default_def(void *def)
-{
-    *(nothing_def *)def = (nothing_def){sizeof(nothing_def), DEF_COOKIE};
-}
-
 virga_nothing_settings virga_default_nothing_settings(void)
 {
-    virga_nothing_settings settings = {.size = sizeof settings, .cookie = SETTINGS_COOKIE};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    virga_nothing_settings settings;
+    virga_effect_default_settings(&nothing_type, &settings);
     return settings;
-}
-
-static void default_settings(void *settings)
-{
-    *(virga_nothing_settings *)settings = virga_default_nothing_settings();
 }
 
 static void describe(const void *object, char *line, size_t size)
@@ -108,19 +98,16 @@ const virga_effect_type nothing_type = {
     .log_name = "nothing_settings",
     .size = sizeof(virga_nothing),
     .def = {"nothing_def", sizeof(nothing_def), DEF_COOKIE, AT(def)},
-    .settings = {"nothing_settings", sizeof(virga_nothing_settings), SETTINGS_COOKIE, AT(settings)},
+    .settings = {"nothing_settings", sizeof(virga_nothing_settings), SETTINGS_COOKIE, AT(settings), setting_rows,
+                 VIRGA_ROWS(setting_rows)},
     VIRGA_TABLE(buffer),
     VIRGA_TABLE(layout),
     .passes = passes,
     .pass_count = VIRGA_ROWS(passes),
     .readback_name = "nothing.readback",
     .readback_bytes = sizeof(uint32_t),
-    .setting_rows = setting_rows,
-    .setting_count = VIRGA_ROWS(setting_rows),
     .describe = describe,
     .read_statistics = read_statistics,
-    .default_def = default_def,
-    .default_settings = default_settings,
     .step = step,
 };
 
