@@ -73,6 +73,7 @@
     X(CmdDispatchIndirect)          \
     X(CmdDraw)                      \
     X(CmdDrawIndexed)               \
+    X(CmdDrawIndirect)              \
     X(CmdDrawIndexedIndirect)       \
     X(CmdBindVertexBuffers)         \
     X(CmdBindIndexBuffer)           \

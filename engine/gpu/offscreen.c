@@ -134,6 +134,7 @@ virga_result virga_offscreen_create(virga_context *context, const virga_offscree
         return virga_out_of_host_memory(context, def->name);
     made->resource.destroy = offscreen_destroy;
     made->extent = def->extent;
+    made->reversed_depth = def->reversed_depth;
     while (made->color_count < VIRGA_OFFSCREEN_MAX_COLORS && def->colors[made->color_count])
         made->color_count++;
     TRY(create_images(context, def, made));
@@ -150,7 +151,7 @@ void virga_offscreen_begin(virga_context *context, VkCommandBuffer cmd, const vi
                            uint32_t layer)
 {
     VkClearValue clears[MAX_ATTACHMENTS] = {{.color = {.uint32 = {0}}}};
-    clears[offscreen->color_count].depthStencil.depth = 1;
+    clears[offscreen->color_count].depthStencil.depth = offscreen->reversed_depth ? 0 : 1;
     const VkRenderPassBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
                                          .renderPass = offscreen->pass,
                                          .framebuffer = offscreen->framebuffers[layer],

@@ -14,6 +14,7 @@ typedef struct virga_offscreen_def {
     uint32_t layers;
     VkFormat colors[VIRGA_OFFSCREEN_MAX_COLORS]; /* of as many images as are not VK_FORMAT_UNDEFINED */
     VkFormat depth;                              /* VK_FORMAT_UNDEFINED: no depth */
+    bool reversed_depth;                         /* greater depth is nearer */
     VkImageUsageFlags color_usage;               /* besides drawing and sampling */
     VkImageLayout layout;                        /* after a draw */
     VkPipelineStageFlags readers;                /* the stages that read the images */
@@ -24,6 +25,7 @@ typedef struct virga_offscreen {
     virga_image_2d *colors[VIRGA_OFFSCREEN_MAX_COLORS], *depth;
     uint32_t color_count;
     VkExtent2D extent;
+    bool reversed_depth;
     VkRenderPass pass;
     VkFramebuffer framebuffers[VIRGA_OFFSCREEN_MAX_LAYERS];
 } virga_offscreen;
@@ -32,7 +34,7 @@ virga_result virga_offscreen_create(virga_context *context, const virga_offscree
                                     virga_offscreen **offscreen);
 void virga_offscreen_retire(virga_context *context, virga_offscreen **offscreen); /* *offscreen may be NULL */
 
-/* Begins a draw into a layer, cleared: colors to 0, depth to 1. Waits for the readers of the last draw. The
+/* Begins a draw into a layer, cleared: colors to 0, depth to far. Waits for the readers of the last draw. The
  * viewport is the whole layer. */
 void virga_offscreen_begin(virga_context *context, VkCommandBuffer cmd, const virga_offscreen *offscreen,
                            uint32_t layer);

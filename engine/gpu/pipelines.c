@@ -129,6 +129,10 @@ static void describe_blend(const virga_graphics_def *def, graphics_state *state)
         .alphaBlendOp = VK_BLEND_OP_ADD,
         .colorWriteMask =
             VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+    for (uint32_t i = 1; i < def->color_count && def->add_all; i++)
+        state->attachments[i] = state->attachments[0];
+    if (def->no_color)
+        memset(state->attachments, 0, sizeof state->attachments);
     /* A motion vector replaces the old one where its alpha is 1, and does not where it is 0. Masks are blended over
      * each other. */
     if (def->motion_attachment)

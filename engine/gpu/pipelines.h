@@ -72,6 +72,8 @@ typedef struct virga_graphics_def {
     virga_target_outputs outputs;                    /* of the fragment shader */
     uint32_t motion_attachment, reactive_attachment; /* 0: none */
     bool blend_premultiplied, blend_add;
+    bool add_all;  /* blend_add is for all attachments, not only the first */
+    bool no_color; /* writes depth alone */
     bool depth_test, depth_write, reversed_depth;
     bool cull_back;    /* counter-clockwise on the screen is the front */
     bool lines;        /* lines instead of triangles; their width is dynamic */

@@ -17,6 +17,12 @@
 #include "shaders/particles_sums_comp.spv.h"
 #include "shaders/particles_thin_comp.spv.h"
 #include "shaders/particles_window_comp.spv.h"
+#include "shaders/water_draw_splat_compact_comp.spv.h"
+#include "shaders/water_draw_splat_mark_comp.spv.h"
+#include "shaders/water_draw_splat_scan_comp.spv.h"
+#include "shaders/water_draw_splat_write_comp.spv.h"
+#include "shaders/water_draw_volume_comp.spv.h"
+#include "shaders/water_draw_volume_merge_comp.spv.h"
 #include "shaders/water_spray_break_comp.spv.h"
 #include "shaders/water_spray_compact_comp.spv.h"
 #include "shaders/water_spray_mark_comp.spv.h"
@@ -53,6 +59,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
     DEF(U32, max_blocks, 64, 1048576, 32768),    DEF(U32, max_surfels, 256, 8388608, 262144),
     DEF(U32, max_spray, 64, 262144, 4096),       DEF(U32, max_droplets, 256, 4194304, 65536),
+    DEF(U32, max_width, 0, 16384, 1920),         DEF(U32, max_height, 0, 16384, 1080),
 };
 
 static const virga_setting_row setting_rows[] = {
@@ -67,12 +74,25 @@ static const virga_setting_row setting_rows[] = {
     SETTING(U32, spray_pieces, 1, VIRGA_WATER_PIECES, 25),
     SETTING(FLOAT, spray_speed_m_s, 0.01, 1000, 4),
     SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
+    SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29),
+    SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056),
+    SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103),
+    SETTING(FLOAT, scattering_1_m[0], 0, 1000),
+    SETTING(FLOAT, scattering_1_m[1], 0, 1000),
+    SETTING(FLOAT, scattering_1_m[2], 0, 1000),
+    SETTING(FLOAT, reflection, 0, 4, 1),
+    SETTING(FLOAT, refraction, 0, 4, 1),
+    SETTING(FLOAT, surfel_radius, 0.5, 4, 1.25),
+    SETTING(FLOAT, soft_m, 0, 10, 0.002),
+    SETTING(FLOAT, light_gain, 0, 1000, 1),
 };
 
 static virga_result check_def(const virga_log *log, void *given)
 {
     virga_water_def *def = given;
     (void)log;
+    if (!def->max_width || !def->max_height)
+        def->max_width = def->max_height = 0;
     /* Whole workgroups of the passes over cells. */
     def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
     return VIRGA_OK;
@@ -114,6 +134,12 @@ enum {
     COUNT_SPRAY_PICK_BYTES,
     COUNT_TABLE,
     COUNT_DROPLETS,
+    COUNT_DRAWN,
+    COUNT_DRAWN_ENTRIES,
+    COUNT_SPLAT_PICK_BYTES,
+    COUNT_SPLATS,
+    COUNT_PYRAMID,
+    COUNT_VIEWS,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -131,6 +157,15 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
                                                       VIRGA_WATER_LANES * VIRGA_WATER_LANES);
     counts[COUNT_TABLE] = water_table_entries(def);
     counts[COUNT_DROPLETS] = def->max_droplets;
+    counts[COUNT_DRAWN] = def->max_width > 0;
+    counts[COUNT_SPLATS] = def->max_width ? def->max_surfels : 0;
+    counts[COUNT_DRAWN_ENTRIES] = def->max_width ? def->max_surfels + sizeof(virga_list_gpu) / sizeof(uint32_t) : 0;
+    counts[COUNT_SPLAT_PICK_BYTES] = def->max_width
+                                         ? VIRGA_PICK_BYTES(((VkDeviceSize)def->max_surfels + VIRGA_WATER_LANES - 1) /
+                                                            VIRGA_WATER_LANES * VIRGA_WATER_LANES)
+                                         : 0;
+    counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
+    counts[COUNT_VIEWS] = WATER_MAX_VIEWS;
 }
 
 #define AT(member) offsetof(virga_water, member)
@@ -163,10 +198,18 @@ static const virga_effect_buffer buffers[] = {
      .count = COUNT_DROPLETS, .first = VIRGA_FIRST_FILL},
     {"water.surfels", AT(surfels), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_surfel_gpu), .count = COUNT_SURFELS,
      .first = VIRGA_FIRST_FILL},
+    {"water.splat_picks", AT(picture.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SPLAT_PICK_BYTES},
+    {"water.splat_list", AT(picture.list), VIRGA_USE_INDIRECT, DEVICE, .entry = 4, .count = COUNT_DRAWN_ENTRIES},
+    {"water.splats", AT(picture.splats), VIRGA_USE_TEXELS, DEVICE, .entry = VIRGA_WATER_SPLAT_TEXELS * 16,
+     .count = COUNT_SPLATS},
+    {"water.prepared", AT(picture.prepared), VIRGA_USE_INDIRECT, DEVICE, .entry = sizeof(virga_water_prepared_gpu),
+     .count = COUNT_DRAWN},
+    {"water.pyramid", AT(picture.pyramid), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PYRAMID},
 };
 
 static const virga_effect_ring rings[] = {
     {"water.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_water_step_gpu), VIRGA_COUNT_ONE},
+    {"water.views", AT(picture.view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(water_view_block), COUNT_VIEWS},
 };
 
 #define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
@@ -243,6 +286,7 @@ static const virga_effect_layout layouts[] = {
     [WATER_LAYOUT_KERNELS] = {AT(kernel_bindings), kernel_bindings, VIRGA_ROWS(kernel_bindings), 1, 0},
     [WATER_LAYOUT_SURFACE] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
     [WATER_LAYOUT_SPRAY] = {AT(spray.bindings), spray_bindings, VIRGA_ROWS(spray_bindings), 1, 0},
+    [WATER_LAYOUT_DRAW] = {AT(picture.bindings), water_draw_bindings, WATER_DRAW_BINDINGS, WATER_MAX_VIEWS, 0},
 };
 
 #define PASS(pass)                                                                                             \
@@ -258,6 +302,10 @@ static const virga_effect_layout layouts[] = {
 #define KERNEL_PASS(pass, row)                                                                               \
     {                                                                                                        \
         "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), WATER_KERNELS, .layout = row \
+    }
+#define DRAW_PASS(pass)                                                                                          \
+    {                                                                                                            \
+        "water." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(water_draw_##pass##_comp), .layout = WATER_LAYOUT_DRAW \
     }
 static const virga_effect_pass passes[] = {
     PARTICLE_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
@@ -279,6 +327,12 @@ static const virga_effect_pass passes[] = {
     SPRAY_PASS(write, write),
     SPRAY_PASS(place, place),
     SPRAY_PASS(surfel, surfel),
+    DRAW_PASS(splat_mark),
+    DRAW_PASS(splat_scan),
+    DRAW_PASS(splat_compact),
+    DRAW_PASS(splat_write),
+    DRAW_PASS(volume),
+    DRAW_PASS(volume_merge),
 };
 
 static const virga_effect_pool pools[] = {
@@ -290,6 +344,28 @@ static const virga_effect_pool pools[] = {
     {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
 };
 
+static virga_result create(void *object)
+{
+    return water_images_create(object);
+}
+
+static void destroy(void *object)
+{
+    water_images_retire(object);
+}
+
+static VkDeviceSize extra_bytes(const void *def)
+{
+    return water_images_bytes(def);
+}
+
+/* For scenes: water without a size is not drawn, which is no error there. */
+static virga_result prepare(void *object, VkCommandBuffer cmd, const virga_view *view, double time_s)
+{
+    (void)time_s; /* the host's particles are at that time */
+    return ((virga_water *)object)->def.max_width ? virga_water_prepare(object, cmd, view) : VIRGA_OK;
+}
+
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_water *water = object;
@@ -299,9 +375,23 @@ static void describe(const void *object, char *line, size_t size)
 VIRGA_EFFECT_FUNCTIONS(water)
 VIRGA_EFFECT_STATISTICS_FUNCTION(water)
 
+static virga_result water_type_draw(void *object, VkCommandBuffer cmd, const virga_target *target)
+{
+    return ((virga_water *)object)->def.max_width ? virga_water_draw(object, cmd, target) : VIRGA_OK;
+}
+
 const virga_effect_type water_type = {
     VIRGA_EFFECT_TYPE(water, "water", "water_settings"),
     .fit_device = fit_device,
+    .create = create,
+    .destroy = destroy,
+    .extra_bytes = extra_bytes,
+    .lighting = offsetof(virga_water_settings, lighting),
+    .draws = water_draws,
+    .draw_count = 1,
+    .draw_layout = WATER_LAYOUT_DRAW,
+    .prepare = prepare,
+    .draw = water_type_draw,
 };
 
 /* ---- queries */

@@ -4,15 +4,20 @@
  *   water_surface.c  a step: particles become surfels
  *   water_spray.c    the spray of a step
  *   spray_kernel.c   the kernel of its droplets
+ *   water_images.c   the images that surfels are drawn into
+ *   water_draw.c     prepare and draw
  */
 #ifndef VIRGA_WATER_WATER_INTERNAL_H
 #define VIRGA_WATER_WATER_INTERNAL_H
 
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "gpu/offscreen.h"
 #include "particles/particle_grid.h"
 #include "water/water.h"
 
+#include <virga/shared/view_gpu.h>
+#include <virga/shared/water_draw_gpu.h>
 #include <virga/shared/water_gpu.h>
 
 /* The data that is read back for one frame. */
@@ -21,12 +26,37 @@ typedef struct water_readback {
     virga_water_state_gpu state;
 } water_readback;
 
-enum { WATER_LAYOUT_GRID, WATER_LAYOUT_KERNELS, WATER_LAYOUT_SURFACE, WATER_LAYOUT_SPRAY };
+enum { WATER_LAYOUT_GRID, WATER_LAYOUT_KERNELS, WATER_LAYOUT_SURFACE, WATER_LAYOUT_SPRAY, WATER_LAYOUT_DRAW };
 
 /* Bindings of the kernels' and the surface's passes that the effect binds itself. */
 enum { WATER_BIND_PARTICLES = 2 };
 
-#define WATER_KERNELS 2 /* virga_water_kernel */
+#define WATER_KERNELS       2 /* virga_water_kernel */
+#define WATER_MAX_VIEWS     8 /* prepares in a frame */
+#define WATER_DRAW_BINDINGS 20
+
+/* The uniforms of a view. */
+typedef struct water_view_block {
+    virga_view_gpu view;
+    virga_water_look_gpu look;
+} water_view_block;
+
+/* What a view is drawn from. Without max_width all of it is empty. */
+typedef struct water_picture {
+    virga_buffer *picks, *list, *splats, *prepared, *pyramid;
+    virga_offscreen *sums; /* sums of splats, sums of their motion, depth */
+    virga_image_2d *thickness;
+    virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
+    bool has_layouts;
+    virga_ring view_ring;
+    uint32_t view_offset; /* of the newest block */
+    virga_bindings *bindings;
+    virga_pipeline *splat_mark, *splat_scan, *splat_compact, *splat_write, *volume, *volume_merge;
+    virga_pipeline *splat_depth, *splat_sum;
+    virga_image panorama;
+    uint32_t volume_first[VIRGA_WATER_VOLUME_LEVELS];
+    uint32_t look; /* VIRGA_WATER_LOOK_... bits of the newest prepare */
+} water_picture;
 
 /* The spray. */
 typedef struct water_spray {
@@ -39,9 +69,10 @@ struct virga_water {
     virga_effect base; /* first */
     virga_water_def def;
     virga_water_settings settings;
-    double origin_m[3];
+    double origin_m[3]; /* of the newest step */
 
     particle_grid grid;
+    water_picture picture;
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
         *shifts, *shapes, *centers, *surfels;
     water_spray spray;
@@ -67,5 +98,23 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
 void water_spray_clear(const virga_water *water, VkCommandBuffer cmd);
 void water_spray_record(virga_water *water, VkCommandBuffer cmd);
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd);
+/* Volume of a particle (m^3), and the radius of surfels (m). */
+double water_particle_m3(const virga_water_settings *settings);
+double water_surfel_m(const virga_water_settings *settings);
+
+/* ---- water_images.c */
+virga_result water_images_create(virga_water *water);
+void water_images_retire(virga_water *water);
+VkDeviceSize water_images_bytes(const virga_water_def *def);
+
+/* Texels of all levels of the pyramid of thickness; `first` (may be NULL) gets the index of each level's first. */
+uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_WATER_VOLUME_LEVELS]);
+
+/* The first layouts of images that no pass clears. */
+void water_images_first_layouts(virga_water *water, VkCommandBuffer cmd);
+
+/* ---- water_draw.c */
+extern const virga_effect_draw water_draws[1];
+extern const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS];
 
 #endif

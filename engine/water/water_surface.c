@@ -85,13 +85,27 @@ static double crowd(double d, double h)
     return d * d * d / (2 * PI / 3 * h * h * h);
 }
 
+double water_particle_m3(const virga_water_settings *settings)
+{
+    return settings->volume_m3 > 0 ? (double)settings->volume_m3 : pow((double)settings->spacing_m, 3);
+}
+
+static double point_m(const virga_water_settings *settings)
+{
+    return (double)settings->kernel_spacings * (double)settings->spacing_m / VIRGA_WATER_SIDE;
+}
+
+double water_surfel_m(const virga_water_settings *settings)
+{
+    return (double)VIRGA_WATER_SURFEL_STEPS * point_m(settings);
+}
+
 static void fill_step(const virga_water *water, uint32_t particles, virga_water_step_gpu *out)
 {
     const virga_water_settings *settings = &water->settings;
     const double d = (double)settings->spacing_m, h = (double)settings->kernel_spacings * d;
-    const double volume = settings->volume_m3 > 0 ? (double)settings->volume_m3 : d * d * d;
     /* Equation 2 with the particle's own volume in place of d^3: W'(r, h) = kernel (1 - (r / h)^2)^3. */
-    const double kernel = 315 * volume / (64 * PI * h * h * h), point_m = h / VIRGA_WATER_SIDE;
+    const double volume = water_particle_m3(settings), kernel = 315 * volume / (64 * PI * h * h * h);
     *out = (virga_water_step_gpu){.cell_m = (float)h,
                                   .inv_cell_m = (float)(1 / h),
                                   .particles = particles,
@@ -104,8 +118,8 @@ static void fill_step(const virga_water *water, uint32_t particles, virga_water_
                                   .level = settings->level,
                                   .full = fmaxf(FULL_DENSITY, settings->level + FULL_ABOVE_LEVEL),
                                   .reach = (float)(surface_reach((double)settings->level, d, h) / h),
-                                  .point_m = (float)point_m,
-                                  .surfel_m = (float)(1.2 * point_m),
+                                  .point_m = (float)point_m(settings),
+                                  .surfel_m = (float)water_surfel_m(settings),
                                   .smoothing = settings->smoothing,
                                   .stretch2 = settings->stretch * settings->stretch,
                                   .volume = (float)volume,
@@ -243,7 +257,8 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
     wait_for_readers(context, cmd);
-    virga_effect_first_contents(&water->base, cmd);
+    if (virga_effect_first_contents(&water->base, cmd))
+        water->picture.has_layouts = false; /* the images may have lost their layouts */
     water_spray_clear(water, cmd);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);

@@ -24,8 +24,9 @@ typedef struct virga_water_splash_gpu virga_water_splash_gpu;
 #define VIRGA_WATER_UNSHIFT   1.35
 #define VIRGA_WATER_MAX_SHIFT 0.3
 
-#define VIRGA_WATER_PIECES          32 /* droplets of a particle at most */
-#define VIRGA_WATER_DROPLET_SURFELS 16 /* surfels of a droplet */
+#define VIRGA_WATER_PIECES          32   /* droplets of a particle at most */
+#define VIRGA_WATER_DROPLET_SURFELS 16   /* surfels of a droplet */
+#define VIRGA_WATER_DROPLET_SURFEL  0.7f /* their radius, in radii of the droplet */
 
 /* One step. Lengths in m. The first members are those of virga_particle_step_gpu. */
 struct virga_water_step_gpu {

@@ -37,6 +37,7 @@ static inline virga_water_def water_fixture_def(void)
     def.max_cells = 32768;
     def.max_blocks = 4096;
     def.max_surfels = 65536;
+    def.max_width = def.max_height = 0; /* a test that draws sets them */
     return def;
 }
 
@@ -144,6 +145,19 @@ static inline void water_fixture_ball(water_fixture *f, const double center[3], 
                     water_fixture_add(f, center[0] + d * x, center[1] + d * y, center[2] + d * z);
 }
 
+/* A ball of particles on shells: rounder than one on a lattice. Its radius is a multiple of d. */
+static inline void water_fixture_shells(water_fixture *f, const double center[3], double radius, double d)
+{
+    for (int shell = 0; shell < (int)lround(radius / d); shell++) {
+        const double r = (shell + 0.5) * d;
+        const int n = (int)lround(4 * M_PI * (r * r / (d * d) + 1.0 / 12)); /* the volume of the shell over d^3 */
+        for (int i = 0; i < n; i++) {
+            const double y = 1 - (2 * i + 1.0) / n, phi = 2.399963 * i + 1.3 * shell, side = r * sqrt(1 - y * y);
+            water_fixture_add(f, center[0] + side * cos(phi), center[1] + r * y, center[2] + side * sin(phi));
+        }
+    }
+}
+
 /* ---- reference in double precision */
 
 /* Density at a point (equation 1), and its gradient. */
@@ -166,6 +180,28 @@ static inline double water_reference(const water_fixture *f, const double at[3],
         sum += (double)f->particles[i].share * factor * pow(h * h - r2, 3);
         for (int axis = 0; gradient && axis < 3; axis++)
             gradient[axis] -= (double)f->particles[i].share * factor * 6 * pow(h * h - r2, 2) * apart[axis];
+    }
+    return sum;
+}
+
+/* Mean radius of the surface around a point within it. */
+static inline double water_reference_radius(const water_fixture *f, const double center[3], double max)
+{
+    enum { DIRECTIONS = 100 };
+    double sum = 0;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double y = 1 - (2 * i + 1.0) / DIRECTIONS, phi = 2.399963 * i, side = sqrt(1 - y * y);
+        const double d[3] = {side * cos(phi), y, side * sin(phi)};
+        double low = 0.5 * max, high = max;
+        for (int k = 0; k < 12; k++) {
+            const double r = 0.5 * (low + high);
+            const double at[3] = {center[0] + r * d[0], center[1] + r * d[1], center[2] + r * d[2]};
+            if (water_reference(f, at, NULL) > (double)f->settings.level)
+                low = r;
+            else
+                high = r;
+        }
+        sum += low / DIRECTIONS;
     }
     return sum;
 }

@@ -10,9 +10,17 @@
  * A frame, outside rendering:
  *
  *     virga_water_step(water, cmd, &info);
- *     virga_water_prepare(water, cmd, &view, time_s);
+ *     virga_water_prepare(water, cmd, &view);
  *
- * and inside rendering, after the opaque scene, virga_water_draw.
+ * and inside rendering, after the opaque scene, virga_water_draw:
+ *
+ *     virga_water_draw(water, cmd, target);
+ *
+ * Drawing: each surfel is drawn as an ellipse into images of the effect's own. Overlapping ellipses are added up with
+ * weights (surface splatting, Zwicker et al. 2001). This gives each pixel a depth and a normal, smooth also where few
+ * surfels are. The draw then computes Fresnel's reflection of the environment and of lamps, and what is seen through
+ * the water: the ray is refracted and meets the host's scene where the host's depth says so. Absorption follows Beer
+ * and Lambert's law, over the thickness that the volumes of all particles along the ray add up to.
  *
  * Deterministic: the same particles give the same bits, in any order if their ids differ.
  * Thread-safety: as virga/vulkan.h says. */
@@ -57,6 +65,11 @@ typedef struct virga_water_def {
     /* [256; 4194304] droplets that splash particles become; 32 bytes each. Further ones are left out, and the
      * statistics say how many. Default 65536. */
     uint32_t max_droplets;
+
+    /* [0; 16384] size in pixels of the images that water is drawn from; 26 bytes for each pixel, and 53 bytes for each
+     * surfel. Larger views are drawn at this resolution. Default 1920 x 1080. If one is 0, the water can not be drawn,
+     * and nothing is allocated for it. */
+    uint32_t max_width, max_height;
 } virga_water_def;
 
 VIRGA_API virga_water_def virga_default_water_def(void);
@@ -119,6 +132,40 @@ typedef struct virga_water_settings {
 
     /* [0; 4] radius of the ball in which the droplets of a particle are, in spacings. Default 1.25. */
     float spray_pattern;
+
+    /* ---- how it is drawn */
+
+    /* [0; 1000] absorption of light (1/m; red, green, blue). Water of a path of x m lets exp(-x absorption) through.
+     * Default 0.29, 0.056, 0.0103: pure water at 620, 549 and 455 nm, the mean wavelengths of linear sRGB (Pope and
+     * Fry 1997, table 3). Lakes and rivers: ten times that and more in the blue. */
+    float absorption_1_m[3];
+
+    /* [0; 1000] scattering of light out of the path (1/m; red, green, blue). It is replaced by light of the mean
+     * radiance of the environment, so water becomes milky. Clear water has 0.002 to 0.1, water with much air in it
+     * 1 to 10. Default 0. */
+    float scattering_1_m[3];
+
+    /* [0; 4] factor of the light that is mirrored by the surface; 1: Fresnel's equations with a refractive index of
+     * 1.333. Default 1. */
+    float reflection;
+
+    /* [0; 4] factor of the distance in the picture by which what is seen through water is shifted. Default 1. */
+    float refraction;
+
+    /* [0.5; 4] factor of the radius of surfels. Larger ones make a smoother surface, lose small waves, and cost as
+     * their square. Default 1.25. */
+    float surfel_radius;
+
+    /* [0; 10] range of depth over which the water fades where it meets the scene (m). Needs virga_view.depth. Default
+     * 0.002. */
+    float soft_m;
+
+    /* [0; 1000] factor of the light from lamps. Default 1. */
+    float light_gain;
+
+    /* The environment and lamps. A panorama replaces the environment's spherical harmonics in what is mirrored, see
+     * virga_water_environment. */
+    virga_lighting lighting;
 } virga_water_settings;
 
 VIRGA_API virga_water_settings virga_default_water_settings(void);
@@ -167,6 +214,32 @@ typedef struct virga_water_step_info {
  *
  * Cost on two cores of software Vulkan: see tests/bench/lavapipe_water.txt. */
 VIRGA_API virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info);
+
+/* Builds the pipelines for a target, once per target, up to eight targets. Does nothing without max_width. Errors as
+ * virga_context_create. */
+VIRGA_API virga_result virga_water_attach(virga_water *water, const virga_target *target);
+
+/* Sets the panorama that the surface mirrors, from the next prepare on: linear radiance, equirectangular; row 0 is
+ * straight up (+Y), the middle column looks along -Z, columns run towards +X. `panorama` NULL or without a view: the
+ * environment of the lighting is mirrored. The image must live until the frames that draw with it have completed, in
+ * the layout of `before`, readable by fragment shaders. An image without its view, a view without its image, or the
+ * layout UNDEFINED: VIRGA_ERROR_INVALID. */
+VIRGA_API virga_result virga_water_environment(virga_water *water, const virga_image *panorama);
+
+/* Draws the surface of this frame's step into images of the effect, for one view. Outside rendering, after the step,
+ * at most eight times per frame; the draw of a view comes before the prepare of the next. The water is drawn where the
+ * particles of the step are.
+ *
+ * VIRGA_NOT_READY: no step in this frame, no max_width, or pipelines are missing; nothing is recorded.
+ * Cost on two cores of software Vulkan: see tests/bench/lavapipe_water.txt. */
+VIRGA_API virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view);
+
+/* Draws the water into the target, inside rendering, after the opaque scene. With virga_view.color, what is seen
+ * through the water is refracted; without it, the environment is seen through the water. With virga_view.depth, the ray
+ * in the water ends at the scene. The camera must be outside the water: its surface seen from below is not drawn.
+ *
+ * VIRGA_NOT_READY, logged once: the target is not attached, or nothing was prepared in this frame. */
+VIRGA_API virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target);
 
 /* A range of a buffer, in bytes. */
 typedef struct virga_water_buffer {

@@ -66,7 +66,7 @@ void main()
     const vec3 along = direction(own % VIRGA_WATER_DROPLET_SURFELS, motion.w);
     // The droplet's own density reaches the level at its radius and 0 at h'. What others add moves the surface
     // outwards.
-    float low = ball.w, high = frame.spray_kernel * ball.w, radius = ball.w, size = 0.7 * ball.w;
+    float low = ball.w, high = frame.spray_kernel * ball.w, radius = ball.w, size = VIRGA_WATER_DROPLET_SURFEL * ball.w;
     vec3 normal = along;
     if (family.y > family.x + 1u) {
         if (density_at(ball.xyz + high * along, family).w >= frame.spray_level)

@@ -31,5 +31,7 @@ void main()
         return;
     state.surfels_wanted = all.x;
     state.surfels = min(all.x, frame.max_surfels);
+    state.first_spray_surfel = state.surfels; // without spray there are none
+    state.spray_surfels = 0u;
     state.surfel_groups = uint[3]((state.surfels + VIRGA_WATER_LANES - 1u) / VIRGA_WATER_LANES, 1u, 1u);
 }

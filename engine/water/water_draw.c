@@ -1,0 +1,301 @@
+/* water/water_draw.c - renders water for a view: prepare adds up its surfels and its thickness, draw computes light. */
+#include "water/water_internal.h"
+
+#include "gpu/builds.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/target.h"
+#include "gpu/timers.h"
+#include "gpu/view.h"
+
+#include "shaders/water_draw_water_frag.spv.h"
+#include "shaders/water_draw_water_frag_both.spv.h"
+#include "shaders/water_draw_water_frag_motion.spv.h"
+#include "shaders/water_draw_water_frag_reactive.spv.h"
+#include "shaders/water_draw_water_vert.spv.h"
+
+#include <math.h>
+#include <string.h>
+
+#define AT(member) offsetof(virga_water, member)
+#define COMPUTE    VK_SHADER_STAGE_COMPUTE_BIT
+#define VERTEX     VK_SHADER_STAGE_VERTEX_BIT
+#define FRAGMENT   VK_SHADER_STAGE_FRAGMENT_BIT
+#define STORAGE    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define TEXELS     VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+#define DYNAMIC    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+#define SAMPLED    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+
+enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA };
+
+const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring), sizeof(water_view_block)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                              /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                                            /* 2 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(surfels)},                                             /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.picks)},                                      /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.list)},                                       /* 5 */
+    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.splats)},                            /* 6 */
+    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(picture.splats)},                                       /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.prepared)},                                   /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                                         /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.pyramid)},                                    /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                                        /* 11 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                                         /* 12 */
+    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},          /* 13 */
+    [BIND_SUMS] = {SAMPLED, FRAGMENT},                                                               /* 14 */
+    [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                             /* 15 */
+    [BIND_THICKNESS] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},               /* 16 */
+    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                              /* 17 */
+    [BIND_COLOR] = {SAMPLED, FRAGMENT},                                                              /* 18 */
+    [BIND_PANORAMA] = {SAMPLED, FRAGMENT},                                                           /* 19 */
+};
+
+/* ---- prepare */
+
+/* The images are as large as the view, or smaller by the same factor on both sides. */
+static void fit_images(const virga_water *water, const virga_view *view, virga_water_look_gpu *look)
+{
+    const float width = view->viewport[2], height = view->viewport[3];
+    const float fits = fminf((float)water->def.max_width / ceilf(width), (float)water->def.max_height / ceilf(height));
+    look->scale = fminf(fits, 1);
+    look->width = (uint32_t)fmaxf(fminf(ceilf(width * look->scale), (float)water->def.max_width), 1);
+    look->height = (uint32_t)fmaxf(fminf(ceilf(height * look->scale), (float)water->def.max_height), 1);
+    look->volume_columns = (look->width + VIRGA_WATER_VOLUME_PX - 1) / VIRGA_WATER_VOLUME_PX;
+    look->volume_rows = (look->height + VIRGA_WATER_VOLUME_PX - 1) / VIRGA_WATER_VOLUME_PX;
+}
+
+static void fill_look(const virga_water *water, const virga_view *view, virga_water_look_gpu *look)
+{
+    const virga_water_settings *settings = &water->settings;
+    fit_images(water, view, look);
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < 3; i++)
+            look->axes[3 * row + i] = view->view_from_world[4 * i + row];
+    look->surfel_scale = settings->surfel_radius;
+    look->surfel_m = (float)water_surfel_m(settings);
+    look->max_splats = water->def.max_surfels;
+    look->volume_m3 = (float)water_particle_m3(settings);
+    look->spacing_m = settings->spacing_m;
+    memcpy(look->volume_first, water->picture.volume_first, sizeof look->volume_first);
+    memcpy(look->absorption_1_m, settings->absorption_1_m, sizeof look->absorption_1_m);
+    memcpy(look->scattering_1_m, settings->scattering_1_m, sizeof look->scattering_1_m);
+    look->reflection = settings->reflection;
+    look->refraction = settings->refraction;
+    look->panorama_given = water->picture.panorama.view != VK_NULL_HANDLE;
+}
+
+static void fill_view(const virga_water *water, const virga_view *view, water_view_block *out)
+{
+    const virga_water_settings *settings = &water->settings;
+    memset(out, 0, sizeof *out);
+    virga_view_fill(view, &settings->lighting, water->origin_m, 0, 0, &out->view);
+    out->view.light_gain = settings->light_gain;
+    out->view.soft_m = settings->soft_m;
+    fill_look(water, view, &out->look);
+    out->look.pixel_angle = out->view.pixel_angle / out->look.scale;
+}
+
+static virga_bound sampled(const virga_context *context, const virga_image_2d *image)
+{
+    return (virga_bound){.view = image->layer_views[0],
+                         .image_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                         .sampler = context->nearest};
+}
+
+static VkDescriptorSet write_set(virga_water *water, uint32_t index, const virga_view *view)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&water->base, picture->bindings, bound);
+    bound[BIND_SUMS] = sampled(context, picture->sums->colors[0]);
+    bound[BIND_MOTION] = sampled(context, picture->sums->colors[1]);
+    bound[BIND_DEPTH] = virga_bound_or_blank(&view->depth, picture->blank_depth, context->nearest);
+    bound[BIND_COLOR] =
+        virga_bound_or_blank(&view->color, picture->blank_color, virga_color_sampler(context, &view->color));
+    bound[BIND_PANORAMA] = virga_bound_or_blank(&picture->panorama, picture->blank_color,
+                                                virga_color_sampler(context, &picture->panorama));
+    return virga_bindings_write(context, picture->bindings, index, bound);
+}
+
+static void bind(virga_water *water, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
+{
+    water->base.context->vk.CmdBindDescriptorSets(cmd, point, water->picture.bindings->layout, 0, 1, &set, 1,
+                                                  &water->picture.view_offset);
+}
+
+/* Waits for draws of an earlier prepare, and clears what is counted up. */
+static void record_clear(virga_water *water, VkCommandBuffer cmd)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    virga_barrier(context, cmd,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer,
+                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | transfer,
+                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    context->vk.CmdFillBuffer(cmd, picture->prepared->buffer, 0, VK_WHOLE_SIZE, 0);
+    context->vk.CmdFillBuffer(cmd, picture->pyramid->buffer, 0, VK_WHOLE_SIZE, 0);
+    virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                  READ_WRITE);
+}
+
+static void over(const virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline,
+                 const virga_buffer *arguments, size_t groups)
+{
+    virga_dispatch_indirect_and_barrier(water->base.context, cmd, pipeline, arguments->buffer, groups);
+}
+
+static void record_volumes(virga_water *water, VkCommandBuffer cmd, const virga_water_look_gpu *look)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.thickness");
+    over(water, cmd, picture->volume, water->grid.state, offsetof(virga_particle_grid_gpu, sorted_groups));
+    virga_dispatch_2d(context, cmd, picture->volume_merge, (look->volume_columns + 7) / 8, (look->volume_rows + 7) / 8);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void record_list(virga_water *water, VkCommandBuffer cmd)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.visible");
+    over(water, cmd, picture->splat_mark, water->state, offsetof(virga_water_state_gpu, surfel_groups));
+    virga_dispatch_and_barrier(context, cmd, picture->splat_scan, 1);
+    over(water, cmd, picture->splat_compact, picture->prepared, offsetof(virga_water_prepared_gpu, word_groups));
+    over(water, cmd, picture->splat_write, picture->list, 0);
+    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_pass_end(context, cmd, scope);
+}
+
+static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorSet set,
+                          const virga_water_look_gpu *look)
+{
+    virga_context *context = water->base.context;
+    const water_picture *picture = &water->picture;
+    const virga_pipeline *const pipelines[2] = {picture->splat_depth, picture->splat_sum};
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.splats");
+    virga_offscreen_begin(context, cmd, picture->sums, 0);
+    virga_set_draw_area(context, cmd, (const float[4]){0, 0, (float)look->width, (float)look->height});
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set);
+    for (int i = 0; i < 2; i++) {
+        context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]->pipeline);
+        context->vk.CmdDrawIndirect(cmd, picture->prepared->buffer, 0, 1, 0);
+    }
+    virga_offscreen_end(context, cmd);
+    virga_pass_end(context, cmd, scope);
+}
+
+static virga_result check_prepare(const virga_water *water, VkCommandBuffer cmd, const virga_view *view)
+{
+    const virga_context *context = water->base.context;
+    if (!cmd || !view)
+        return virga_wrong_argument(&context->log, "virga_water_prepare: NULL argument");
+    if (context->lost)
+        return VIRGA_ERROR_DEVICE_LOST;
+    virga_result result = virga_view_check(context, view, 0);
+    if (!result)
+        result = virga_effect_ready(&water->base);
+    if (result)
+        return result;
+    if (!water->def.max_width || !water->base.contents || water->base.step_frame != context->frame_index)
+        return VIRGA_NOT_READY;
+    return VIRGA_OK;
+}
+
+virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = water->base.context;
+    water_picture *picture = &water->picture;
+    water->base.view.ready = false;
+    const virga_result result = check_prepare(water, cmd, view);
+    if (result)
+        return result;
+    const uint32_t index = virga_ring_used(context, &picture->view_ring);
+    if (index >= WATER_MAX_VIEWS)
+        return virga_wrong_argument(&context->log, "virga_water_prepare: more than %d views in a frame",
+                                    WATER_MAX_VIEWS);
+    virga_timers_reset(context, cmd);
+    water_view_block block;
+    fill_view(water, view, &block);
+    picture->view_offset = virga_ring_push(context, &picture->view_ring, &block, sizeof block);
+    const VkDescriptorSet set = write_set(water, index, view);
+    water_images_first_layouts(water, cmd);
+    record_clear(water, cmd);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    record_volumes(water, cmd, &block.look);
+    record_list(water, cmd);
+    record_splats(water, cmd, set, &block.look);
+    virga_effect_set_view(&water->base, set, view->viewport);
+    picture->look = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
+                    (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
+    return virga_check_uploads(context);
+}
+
+/* ---- draw */
+
+static const uint32_t looks[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+const virga_effect_draw water_draws[1] = {
+    {"water.draw", VIRGA_FORM(water_draw_water_vert), VIRGA_FRAGMENT_FORMS(water_draw_water_frag), looks, 8},
+};
+
+virga_result virga_water_attach(virga_water *water, const virga_target *target)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    if (target && !water->def.max_width) /* it is never drawn */
+        return VIRGA_OK;
+    return virga_effect_attach(&water->base, "virga_water_attach", target);
+}
+
+virga_result virga_water_draw(virga_water *water, VkCommandBuffer cmd, const virga_target *target)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    virga_context *context = water->base.context;
+    const virga_effect_target *found;
+    const bool stepped = water->def.max_width && water->base.contents;
+    virga_result result = virga_effect_check_draw(&water->base, "virga_water_draw", cmd, target,
+                                                  stepped ? virga_effect_ready(&water->base) : VIRGA_NOT_READY, &found);
+    if (result)
+        return result;
+    const virga_pipeline *used = found->draws[water->picture.look];
+    result = virga_pipelines_ready(&used, 1);
+    if (result)
+        return result;
+    const virga_pass_scope scope = virga_draw_begin(context, cmd, "water.draw");
+    virga_set_draw_area(context, cmd, water->base.view.viewport);
+    bind(water, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, water->base.view.set);
+    context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, used->pipeline);
+    context->vk.CmdDraw(cmd, 3, 1, 0, 0);
+    virga_pass_end(context, cmd, scope);
+    return VIRGA_OK;
+}
+
+/* ---- environment */
+
+virga_result virga_water_environment(virga_water *water, const virga_image *panorama)
+{
+    if (!water)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &water->base.context->log;
+    const virga_image none = {.image = VK_NULL_HANDLE};
+    if (panorama && !panorama->image != !panorama->view)
+        return virga_wrong_argument(log, "water panorama: expected an image and its view or neither, got no %s",
+                                    panorama->view ? "image" : "view");
+    if (panorama && panorama->view && panorama->before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return virga_wrong_argument(log,
+                                    "water panorama.before.layout: expected the layout while drawing, got UNDEFINED");
+    water->picture.panorama = panorama ? *panorama : none;
+    return VIRGA_OK;
+}

@@ -1,0 +1,60 @@
+/* water_draw_gpu.h - what the passes that draw water share with the C code that feeds them. Internal to Virga. */
+#ifndef VIRGA_SHARED_WATER_DRAW_GPU_H
+#define VIRGA_SHARED_WATER_DRAW_GPU_H
+
+#include "types.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_water_look_gpu virga_water_look_gpu;
+typedef struct virga_water_prepared_gpu virga_water_prepared_gpu;
+#endif
+
+#define VIRGA_WATER_SURFEL_STEPS  1.2f  /* radius of a surfel, in steps of the grid that surfels are made on */
+#define VIRGA_WATER_SPLAT_TEXELS  3     /* texels of a splat, see splat.glsl */
+#define VIRGA_WATER_VOLUME_LEVELS 8     /* of the pyramid that the thickness is summed up in */
+#define VIRGA_WATER_VOLUME_PX     4     /* side of a texel of its finest level; each coarser one has twice as much */
+#define VIRGA_WATER_VOLUME_UNITS  16e6f /* units of its sums in a metre of thickness */
+#define VIRGA_WATER_LOOK_DEPTH    1u    /* bits of a draw's specialisation constant: the view has depth */
+#define VIRGA_WATER_LOOK_COLOR    2u    /* it has color */
+#define VIRGA_WATER_LOOK_SCALED   4u    /* the effect's images have other pixels than the target */
+
+/* A view of the water. */
+struct virga_water_look_gpu {
+    float axes[9];           /* the camera's right, up and back in the world; unit vectors */
+    float surfel_scale;      /* factor of the radius of surfels */
+    float surfel_m;          /* radius of most surfels */
+    uint width;              /* pixels of the effect's images in use */
+    uint height;             /* */
+    float scale;             /* their pixels in a pixel of the target */
+    float pixel_angle;       /* tangent of the angle of one of their pixels */
+    uint max_splats;         /* */
+    float volume_m3;         /* of a particle */
+    float spacing_m;         /* of particles */
+    uint volume_columns;     /* texels of the finest level of the pyramid */
+    uint volume_rows;        /* */
+    uint volume_first[8];    /* index of each level's first texel */
+    float absorption_1_m[3]; /* */
+    float scattering_1_m[3]; /* */
+    float reflection;        /* strength of what is mirrored */
+    float refraction;        /* strength of the shift of what is seen through water */
+    uint panorama_given;     /* */
+};
+
+/* Written by the passes of a prepare. */
+struct virga_water_prepared_gpu {
+    uint vertices; /* indirect arguments of the draw of all splats */
+    uint instances;
+    uint first_vertex;
+    uint first_instance;
+    uint word_groups[3]; /* of the pass that lists visible surfels */
+    uint levels;         /* bit mask: levels of the pyramid in use */
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_SIZE(virga_water_look_gpu, 148);
+VIRGA_ASSERT_SIZE(virga_water_prepared_gpu, 32);
+#undef uint
+#endif
+
+#endif

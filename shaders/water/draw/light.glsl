@@ -1,0 +1,149 @@
+// light.glsl - the light that comes from a point of the water's surface.
+layout(set = 0, binding = 18) uniform sampler2D scene_color;
+layout(set = 0, binding = 19) uniform sampler2D panorama;
+
+#define WATER 1.333
+#define STEPS 4 // of the search for where a ray meets the scene
+
+struct Point {
+    vec3 position; // relative to the camera
+    vec3 incident; // direction of view
+    vec3 normal;
+    float depth;     // view depth
+    float thickness; // of the water along the direction of view, m
+    float spread;    // variance of the normal within the pixel
+};
+
+// Fresnel's equations for unpolarised light, from air into water.
+float fresnel(float cos_air, float cos_water)
+{
+    const float s = (cos_air - WATER * cos_water) / (cos_air + WATER * cos_water);
+    const float p = (cos_water - WATER * cos_air) / (cos_water + WATER * cos_air);
+    return 0.5 * (s * s + p * p);
+}
+
+vec3 around(vec3 direction)
+{
+    if (look.panorama_given == 0u)
+        return environment(direction, vec2(1.0));
+    const vec2 at = vec2(atan(direction.x, -direction.z) * 0.15915494 + 0.5,
+                         acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
+    return textureLod(panorama, at, 0.0).rgb;
+}
+
+// ---- what is seen through the water
+
+// A ray in the water. It goes straight to where it leaves the water, and on in a direction between its own and that of
+// view: a thin sheet has parallel sides and deflects nothing in the end, in thick water the ray is soon lost.
+struct Path {
+    vec3 in_water, out_of_water;
+    float length_m; // in the water
+    float cos_air, cos_water;
+};
+
+vec3 on_path(Point point, Path path, float s)
+{
+    return point.position + path.in_water * min(s, path.length_m) + path.out_of_water * max(s - path.length_m, 0.0);
+}
+
+vec2 pixel_of(vec3 p)
+{
+    const vec4 clip = project(to_mat(view.clip_from_rel), p);
+    return vec2(view.viewport[0], view.viewport[1]) +
+           (0.5 * clip.xy / max(clip.w, 1e-4) + 0.5) * vec2(view.viewport[2], view.viewport[3]);
+}
+
+vec2 inside_view(vec2 pixel)
+{
+    const vec2 low = vec2(view.viewport[0], view.viewport[1]);
+    return clamp(pixel, low + 0.5, low + vec2(view.viewport[2], view.viewport[3]) - 0.5);
+}
+
+// Where the ray meets the scene, as a length along the path. The scene behind a pixel is taken as a plane that is
+// parallel to the surface of the water: exact for a flat bottom, and on other scenes each step comes nearer.
+float meeting(Point point, Path path)
+{
+    float s = 0.0;
+    for (int i = 0; i < STEPS; i++) {
+        const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
+        const float stored = buffer_depth(pixel);
+        const float depth = stored == view.far_depth ? 1e4 : view_depth(stored);
+        const vec3 seen = pixel_ray(pixel) * depth;
+        const float below = max(dot(point.normal, point.position - seen), 0.0), wet = path.length_m * path.cos_water;
+        s = below < wet ? below / path.cos_water
+                        : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);
+    }
+    return s;
+}
+
+// The host's picture where the ray meets it, unless that is in front of the water.
+vec3 scene_through(Point point, float s, Path path)
+{
+    const vec2 own = gl_FragCoord.xy, pixel = pixel_of(on_path(point, path, s));
+    const vec2 shifted = own + look.refraction * (pixel - own), inside = inside_view(shifted);
+    const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth ||
+                        view_depth(buffer_depth(inside)) > point.depth;
+    const vec3 color = textureLod(scene_color, (behind ? inside : own) / vec2(textureSize(scene_color, 0)), 0.0).rgb;
+    const vec2 outside = abs(shifted - inside) / vec2(view.viewport[2], view.viewport[3]);
+    return mix(color, around(path.in_water), clamp(16.0 * max(outside.x, outside.y), 0.0, 1.0));
+}
+
+// Beer and Lambert's law, and light that is scattered once.
+vec3 through(Point point, Path path)
+{
+    const float s = HAS_DEPTH ? meeting(point, path) : 1e4, wet = min(s, path.length_m);
+    const vec3 behind = HAS_COLOR ? scene_through(point, s, path) : around(path.in_water);
+    const vec3 absorbed = to_vec(look.absorption_1_m), scattered = to_vec(look.scattering_1_m);
+    const vec3 lost = absorbed + scattered, left = exp(-lost * wet);
+    const vec3 ambient = sh_coefficient(0u) * 0.282095;
+    return behind * left + ambient * (scattered / max(lost, vec3(1e-6))) * (1.0 - left);
+}
+
+Path path_of(Point point)
+{
+    Path path;
+    path.cos_air = -dot(point.incident, point.normal);
+    path.in_water = refract(point.incident, point.normal, 1.0 / WATER);
+    path.cos_water = -dot(path.in_water, point.normal);
+    // The thickness is measured along the view. The water is taken as a layer below the surface.
+    path.length_m = point.thickness * path.cos_air / path.cos_water;
+    const float thick = path.length_m / (path.length_m + 2.0 * look.spacing_m);
+    path.out_of_water = normalize(mix(point.incident, path.in_water, thick));
+    return path;
+}
+
+// ---- what it mirrors
+
+#define LEAST_ROUGHNESS 1e-3
+
+// A lamp's highlight: the distribution of Trowbridge and Reitz, as wide as the lamp and as the normals in the pixel.
+vec3 highlights(Point point)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < view.light_count; i++) {
+        const vec3 to_light = to_vec(view.lights[i].position) - point.position;
+        const float distance2 = max(dot(to_light, to_light), LAMP_RADIUS_M * LAMP_RADIUS_M);
+        const vec3 towards = to_light * inversesqrt(distance2), half_way = normalize(towards - point.incident);
+        const float cosine = max(dot(half_way, point.normal), 0.0), lit = max(dot(towards, point.normal), 0.0);
+        const float size = LAMP_RADIUS_M * LAMP_RADIUS_M / distance2;
+        const float a2 = min(LEAST_ROUGHNESS + 2.0 * point.spread + 0.25 * size, 1.0);
+        const float peak = cosine * cosine * (a2 - 1.0) + 1.0, distribution = a2 / (3.14159265 * peak * peak);
+        const float x = distance2 * view.lights[i].inv_range * view.lights[i].inv_range;
+        const float ends = clamp(1.0 - x * x, 0.0, 1.0);
+        const float cone = clamp((dot(-towards, to_vec(view.lights[i].direction)) - view.lights[i].cos_outer) *
+                                     view.lights[i].inv_cos_width, 0.0, 1.0);
+        const float facing = max(-dot(point.incident, half_way), 0.0);
+        const float in_water = sqrt(1.0 - (1.0 - facing * facing) / (WATER * WATER));
+        sum += to_vec(view.lights[i].intensity) * (ends * ends * cone * cone / distance2 * distribution *
+               fresnel(facing, in_water) * step(1e-4, lit) / (4.0 * max(-dot(point.incident, point.normal), 0.05)));
+    }
+    return sum * view.light_gain;
+}
+
+vec3 light_of(Point point)
+{
+    const Path path = path_of(point);
+    const float mirrored = look.reflection * fresnel(path.cos_air, path.cos_water);
+    return mix(through(point, path), around(reflect(point.incident, point.normal)), min(mirrored, 1.0)) +
+           look.reflection * highlights(point);
+}

@@ -1,0 +1,41 @@
+// surfels.glsl - the surfels of the newest step.
+#include "water/octahedron.glsl"
+#include "gpu/texels.glsl"
+TEXELS(surfel_texel, 3, 2)
+#define STATE_ACCESS readonly
+#include "water/state.glsl"
+
+struct Surfel {
+    vec3 position; // relative to the camera
+    vec3 normal;
+    vec3 velocity;
+    float radius;
+    float area; // of the surface that it stands for
+};
+
+// Surfels are made where the surface crosses edges of a grid, so there are |x| + |y| + |z| of them for each square of
+// the grid's step on a surface with the normal (x, y, z).
+float share_of_surface(float radius, vec3 normal)
+{
+    const float step_m = radius / VIRGA_WATER_SURFEL_STEPS;
+    return step_m * step_m / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+}
+
+// A droplet has the same number of surfels, whatever its radius. See spray/surfel.comp.
+float share_of_droplet(float radius)
+{
+    const float droplet = radius / VIRGA_WATER_DROPLET_SURFEL;
+    return 4.0 * 3.14159265 * droplet * droplet / float(VIRGA_WATER_DROPLET_SURFELS);
+}
+
+Surfel surfel_at(uint index)
+{
+    const uvec4 one = surfel_texel(2u * index), two = surfel_texel(2u * index + 1u);
+    Surfel s;
+    s.velocity = uintBitsToFloat(two.xyz);
+    s.position = uintBitsToFloat(one.xyz) + to_vec(view.origin_offset);
+    s.normal = unpack_octahedron(one.w);
+    s.radius = uintBitsToFloat(two.w);
+    s.area = index < state.first_spray_surfel ? share_of_surface(s.radius, s.normal) : share_of_droplet(s.radius);
+    return s;
+}

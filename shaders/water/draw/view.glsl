@@ -1,0 +1,34 @@
+// view.glsl - a view of the water: its parameters, and positions in the effect's images.
+#define VIRGA_GLSL
+#include "gpu/vectors.glsl"
+#include "shared/view_gpu.h"
+#include "shared/water_gpu.h"
+#include "shared/water_draw_gpu.h"
+
+layout(scalar, set = 0, binding = 0) uniform View
+{
+    virga_view_gpu view;
+    virga_water_look_gpu look;
+};
+
+#include "gpu/view.glsl"
+
+// The images have their own depth buffer, whatever the host's is like: NEAR_W over view depth, 0 at infinity.
+vec3 camera_right() { return vec3(look.axes[0], look.axes[1], look.axes[2]); }
+vec3 camera_up() { return vec3(look.axes[3], look.axes[4], look.axes[5]); }
+vec3 camera_back() { return vec3(look.axes[6], look.axes[7], look.axes[8]); }
+
+// A normal that faces the camera, as two numbers that can be averaged: its stereographic projection from the direction
+// of view. It has no border where the normal is at right angles to the camera's axis, unlike the normal's own x and y.
+vec2 facing_of(vec3 normal)
+{
+    const vec3 n = vec3(dot(normal, camera_right()), dot(normal, camera_up()), dot(normal, camera_back()));
+    return n.xy / max(1.0 + n.z, 0.1);
+}
+
+vec3 normal_of(vec2 facing)
+{
+    const float s = dot(facing, facing);
+    const vec3 n = vec3(2.0 * facing, 1.0 - s) / (1.0 + s);
+    return n.x * camera_right() + n.y * camera_up() + n.z * camera_back();
+}

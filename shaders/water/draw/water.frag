@@ -1,0 +1,50 @@
+// water.frag - light from the water's surface: what it mirrors, what is seen through it, and what it swallows.
+// One invocation per pixel of the target. Reads: the effect's images, the host's picture. Writes: radiance, and for
+// temporal anti-aliasing motion and reactivity.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+layout(constant_id = 0) const uint LOOK = 0u; // VIRGA_WATER_LOOK_...
+#define HAS_DEPTH ((LOOK & VIRGA_WATER_LOOK_DEPTH) != 0u)
+#define HAS_COLOR ((LOOK & VIRGA_WATER_LOOK_COLOR) != 0u)
+#define SCALED ((LOOK & VIRGA_WATER_LOOK_SCALED) != 0u)
+#define SCENE_DEPTH_BINDING 17
+#include "gpu/scene_depth.glsl"
+#include "gpu/light.glsl"
+#include "gpu/temporal.glsl"
+#include "surface.glsl"
+#include "light.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    const vec2 at = image_pixel(gl_FragCoord.xy);
+    const vec4 sums = sums_at(at);
+    const float slope = length(vec2(dFdx(sums.w), dFdy(sums.w)));
+    const float depth = sums.z / max(sums.w, 1e-12);
+    float covered = sums.w > 1e-4 ? coverage_of(sums.w, slope, depth) : 0.0;
+    if (HAS_DEPTH)
+        covered *= soft_edge(depth);
+    const vec3 ray = pixel_ray(gl_FragCoord.xy), normal = normal_of(sums.xy / max(sums.w, 1e-12));
+    const vec3 bend_x = dFdx(normal), bend_y = dFdy(normal);
+    if (covered <= 0.0)
+        discard;
+    Point point;
+    point.depth = depth;
+    point.position = ray * depth;
+    point.incident = normalize(ray);
+    // A normal that is turned away from the eye is blurred or rounded; there the surface is seen edge-on.
+    const float against = dot(normal, point.incident);
+    point.normal = against > -0.02 ? normalize(normal - point.incident * (against + 0.02)) : normal;
+    point.spread = 0.25 * (dot(bend_x, bend_x) + dot(bend_y, bend_y));
+    point.thickness = thickness_at(at);
+    radiance = vec4(light_of(point) * covered, covered);
+    gl_FragDepth = clamp(view.depth_b / depth - view.depth_a, 0.0, 1.0);
+    WRITE_REACTIVE(covered, view.reactive_gain);
+#ifdef MOTION
+    const vec2 moved = texelFetch(motion_image, ivec2(at), 0).xy / max(sums.w, 1e-12);
+    WRITE_MOTION(moved, covered);
+#endif
+}
