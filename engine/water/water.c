@@ -25,12 +25,14 @@
 #include "shaders/water_draw_volume_merge_comp.spv.h"
 #include "shaders/water_spray_break_comp.spv.h"
 #include "shaders/water_spray_compact_comp.spv.h"
+#include "shaders/water_spray_fly_comp.spv.h"
 #include "shaders/water_spray_mark_comp.spv.h"
 #include "shaders/water_spray_place_comp.spv.h"
 #include "shaders/water_spray_scan_comp.spv.h"
 #include "shaders/water_spray_starts_comp.spv.h"
 #include "shaders/water_spray_surfel_comp.spv.h"
 #include "shaders/water_spray_write_comp.spv.h"
+#include "shaders/water_spray_write_pieces_comp.spv.h"
 #include "shaders/water_surface_block_compact_comp.spv.h"
 #include "shaders/water_surface_block_mark_comp.spv.h"
 #include "shaders/water_surface_block_scan_comp.spv.h"
@@ -70,10 +72,12 @@ static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, kernel, 0, VIRGA_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC),
     SETTING(FLOAT, smoothing, 0, 1, 0.9),
     SETTING(FLOAT, stretch, 1, 4, 2),
+    SETTING(ENUM, style, 0, VIRGA_WATER_STYLE_PHYSICAL, VIRGA_WATER_STYLE_PHYSICAL),
     SETTING(FLOAT, spray_density, 0, 0.9, 0.35),
     SETTING(U32, spray_pieces, 1, VIRGA_WATER_PIECES, 25),
     SETTING(FLOAT, spray_speed_m_s, 0.01, 1000, 4),
     SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
+    SETTING(FLOAT, spray_turbulence, 0, 1, 0.1),
     SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29),
     SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056),
     SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103),
@@ -116,6 +120,8 @@ static virga_result fit_device(const virga_context *context, void *given)
     virga_water_def *def = given;
     bool reduced = fit_pool(context, "water_def.max_particles", sizeof(virga_particle_gpu), &def->max_particles);
     reduced |= fit_pool(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
+    reduced |= fit_pool(context, "water_def.max_spray", 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu),
+                        &def->max_spray);
     reduced |= fit_pool(context, "water_def.max_surfels", sizeof(virga_surfel_gpu), &def->max_surfels);
     return reduced ? VIRGA_DEGRADED : VIRGA_OK;
 }
@@ -192,6 +198,8 @@ static const virga_effect_buffer buffers[] = {
      .count = COUNT_SPRAY},
     {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * sizeof(virga_water_splash_gpu),
      .count = COUNT_SPRAY},
+    {"water.spray_pieces", AT(spray.pieces), VIRGA_USE_STORAGE, DEVICE,
+     .entry = 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu), .count = COUNT_SPRAY},
     {"water.spray_table", AT(spray.table), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * 4, .count = COUNT_TABLE},
     {"water.spray_starts", AT(spray.starts), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_SPRAY},
     {"water.droplets", AT(spray.droplets), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_spray_gpu),
@@ -273,7 +281,7 @@ static const virga_binding_kind spray_bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.list)},                            /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.splashes)},                        /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.pieces)},                          /* 11 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.table)},                           /* 12 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.starts)},                          /* 13 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},                        /* 14 */
@@ -323,8 +331,10 @@ static const virga_effect_pass passes[] = {
     SPRAY_PASS(scan, scan),
     SPRAY_PASS(compact, compact),
     SPRAY_PASS(break, break_up),
+    SPRAY_PASS(fly, fly),
     SPRAY_PASS(starts, starts_scan),
     SPRAY_PASS(write, write),
+    SPRAY_PASS(write_pieces, write_pieces),
     SPRAY_PASS(place, place),
     SPRAY_PASS(surfel, surfel),
     DRAW_PASS(splat_mark),

@@ -60,9 +60,9 @@ typedef struct water_picture {
 
 /* The spray. */
 typedef struct water_spray {
-    virga_buffer *picks, *list, *splashes, *table, *starts, *droplets;
+    virga_buffer *picks, *list, *splashes, *pieces, *table, *starts, *droplets;
     virga_bindings *bindings;
-    virga_pipeline *mark, *scan, *compact, *break_up, *starts_scan, *write, *place, *surfel;
+    virga_pipeline *mark, *scan, *compact, *break_up, *fly, *starts_scan, *write, *write_pieces, *place, *surfel;
 } water_spray;
 
 struct virga_water {
@@ -79,6 +79,7 @@ struct virga_water {
     uint32_t splash_half; /* of the newest step */
     bool spray_goes_on;   /* the newest step had spray */
     double spray_time_s;  /* of that step */
+    virga_water_style spray_style;
     virga_ring step_ring;
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
     virga_bindings *kernel_bindings, *bindings;

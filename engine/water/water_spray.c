@@ -26,8 +26,13 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
     const double gap_s = time_s - water->spray_time_s;
     double ratio, factor, level;
     water_spray_kernel((double)settings->level, &ratio, &factor, &level);
-    out->spray_low = settings->spray_density;
-    out->spray_high = settings->spray_density;
+    /* (physical) By degrees: a particle that leaves the water does not jump from one to the other. */
+    const bool by_degrees = settings->style == VIRGA_WATER_STYLE_PHYSICAL;
+    out->spray_low = (by_degrees ? 0.85f : 1.0f) * settings->spray_density;
+    out->spray_high = (by_degrees ? 1.15f : 1.0f) * settings->spray_density;
+    out->gap_s = (float)gap_s;
+    out->turbulence = settings->spray_turbulence;
+    out->spacing = settings->spacing_m;
     out->spray_kernel = (float)ratio;
     out->spray_factor = (float)factor;
     out->spray_level = (float)level;
@@ -38,8 +43,11 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
     out->max_droplets = water->def.max_droplets;
     out->splash_half = water->splash_half ^= 1;
     out->splash_mask = water_table_entries(&water->def) - 1;
-    out->goes_on = water->spray_goes_on && gap_s >= 0 && gap_s <= MAX_GAP_S;
+    out->goes_on = water->spray_goes_on && water->spray_style == settings->style && gap_s >= 0 && gap_s <= MAX_GAP_S;
+    if (!out->goes_on)
+        out->gap_s = 0;
     water->spray_goes_on = water_has_spray(water);
+    water->spray_style = settings->style;
     water->spray_time_s = time_s;
 }
 
@@ -61,9 +69,11 @@ void water_spray_record(virga_water *water, VkCommandBuffer cmd)
     virga_dispatch_and_barrier(context, cmd, water->spray.scan, 1);
     virga_dispatch_indirect_and_barrier(context, cmd, water->spray.compact, water->state->buffer,
                                         offsetof(virga_water_state_gpu, spray_word_groups));
-    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.break_up, list, 0);
+    const bool physical = water->settings.style == VIRGA_WATER_STYLE_PHYSICAL;
+    virga_dispatch_indirect_and_barrier(context, cmd, physical ? water->spray.fly : water->spray.break_up, list, 0);
     virga_dispatch_and_barrier(context, cmd, water->spray.starts_scan, 1);
-    virga_dispatch_indirect_and_barrier(context, cmd, water->spray.write, list, 0);
+    virga_dispatch_indirect_and_barrier(context, cmd, physical ? water->spray.write_pieces : water->spray.write, list,
+                                        0);
 }
 
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd)

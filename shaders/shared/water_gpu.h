@@ -9,6 +9,7 @@
 typedef struct virga_water_step_gpu virga_water_step_gpu;
 typedef struct virga_water_state_gpu virga_water_state_gpu;
 typedef struct virga_water_splash_gpu virga_water_splash_gpu;
+typedef struct virga_water_piece_gpu virga_water_piece_gpu;
 #endif
 
 #define VIRGA_WATER_LANES  VIRGA_GRID_LANES
@@ -25,6 +26,7 @@ typedef struct virga_water_splash_gpu virga_water_splash_gpu;
 #define VIRGA_WATER_MAX_SHIFT 0.3
 
 #define VIRGA_WATER_PIECES          32   /* droplets of a particle at most */
+#define VIRGA_WATER_SPRAY_REACH     4    /* distance of a droplet from its particle at most, in spacings */
 #define VIRGA_WATER_DROPLET_SURFELS 16   /* surfels of a droplet */
 #define VIRGA_WATER_DROPLET_SURFEL  0.7f /* their radius, in radii of the droplet */
 
@@ -64,6 +66,10 @@ struct virga_water_step_gpu {
     uint splash_half; /* half of the buffers that this step writes: 0 or 1. The last step wrote the other */
     uint splash_mask; /* entries of the table of ids - 1 */
     uint goes_on;     /* whether the states of the last step count */
+    /* Droplets on orbits, see shaders/water/spray/fly.comp. */
+    float gap_s;      /* time since the last step */
+    float turbulence; /* part of its speed with which the pieces of a particle fly apart */
+    float spacing;    /* m, of particles */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -91,11 +97,23 @@ struct virga_water_splash_gpu {
     float max_speed; /* m/s, since it became a splash particle */
     float age;       /* s */
     uint pieces;     /* droplets */
+    /* (physical) */
+    float velocity[3]; /* m/s, of the particle */
+    uint pad;
+};
+
+/* A droplet of a splash particle, from frame to frame. */
+struct virga_water_piece_gpu {
+    float offset[3]; /* m, from the particle */
+    float part;      /* of the particle's volume */
+    float drift[3];  /* m/s, its velocity less the particle's */
+    float wear;      /* part of the time that it takes to break */
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_splash_gpu, 16);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 128);
+VIRGA_ASSERT_SIZE(virga_water_splash_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 140);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
 VIRGA_ASSERT_SIZE(virga_water_state_gpu, 100);
 #undef uint

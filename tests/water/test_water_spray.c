@@ -10,6 +10,7 @@ static void set_up(void)
     water_fixture_open(&f);
     f.settings.spacing_m = 0.02f;
     f.settings.spray_density = 0.45f;
+    f.settings.style = VIRGA_WATER_STYLE_PAPER;
 }
 
 static double distance(const float a[3], const float b[3])
@@ -272,6 +273,7 @@ static void too_much_spray_is_counted(void **state)
     water_fixture_open_with(&f, &def, false);
     f.settings.spacing_m = 0.02f;
     f.settings.spray_density = 0.45f;
+    f.settings.style = VIRGA_WATER_STYLE_PAPER;
     for (int i = 0; i < 100; i++)
         add_drop(0.1 * (i % 10), 0.1 * (i / 10), 2);
     water_fixture_step(&f);

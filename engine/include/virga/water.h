@@ -58,8 +58,8 @@ typedef struct virga_water_def {
     /* [256; 8388608] surfels; 32 bytes each. Further ones are left out, and the log says so. Default 262144. */
     uint32_t max_surfels;
 
-    /* [64; 262144] splash particles in a frame; 64 bytes each. The water of further ones is missing from the picture,
-     * and the statistics say how many. Default 4096. */
+    /* [64; 262144] splash particles in a frame; 2 kilobytes each. The water of further ones is missing from the
+     * picture, and the statistics say how many. Default 4096. */
     uint32_t max_spray;
 
     /* [256; 4194304] droplets that splash particles become; 32 bytes each. Further ones are left out, and the
@@ -73,6 +73,17 @@ typedef struct virga_water_def {
 } virga_water_def;
 
 VIRGA_API virga_water_def virga_default_water_def(void);
+
+/* What becomes of particles that leave the water. */
+typedef enum virga_water_style {
+    /* As in the paper: droplets of one size, in a pattern that moves with the particle. Their number follows the
+     * largest speed that the particle has reached. A particle is either water or spray. */
+    VIRGA_WATER_STYLE_PAPER = 0,
+
+    /* Droplets of many sizes that fly apart, are slowed by the air, each as its size says, and break again where the
+     * Weber number of the air stream exceeds 12. Particles go over from water into spray by degrees. */
+    VIRGA_WATER_STYLE_PHYSICAL = 1,
+} virga_water_style;
 
 /* The shape of the kernels that the surface is made of. */
 typedef enum virga_water_kernel {
@@ -118,6 +129,9 @@ typedef struct virga_water_settings {
      * the paper compares squares of axes. */
     float stretch;
 
+    /* How spray is made. Default physical. */
+    virga_water_style style;
+
     /* [0; 0.9] particles with less density than this are splash particles: they leave the surface and become droplets.
      * 0: there are none. With kernel_spacings 2 and volume_m3 0, a particle all alone has the density 0.196, and those
      * of a flat surface have 0.7. Default 0.35. */
@@ -126,12 +140,17 @@ typedef struct virga_water_settings {
     /* [1; 32] droplets that a splash particle becomes at most: V of equation 3. Default 25, as in the paper. */
     uint32_t spray_pieces;
 
-    /* [0.01; 1000] speed at which a particle becomes that many (m/s); their number grows linearly with the largest
-     * speed since it left the water. Default 4. */
+    /* (paper) [0.01; 1000] speed at which a particle becomes that many (m/s); their number grows linearly with the
+     * largest speed since it left the water. Default 4. */
     float spray_speed_m_s;
 
-    /* [0; 4] radius of the ball in which the droplets of a particle are, in spacings. Default 1.25. */
+    /* (paper) [0; 4] radius of the ball in which the droplets of a particle are, in spacings. Default 1.25. */
     float spray_pattern;
+
+    /* (physical) [0; 1] part of a particle's speed with which its droplets fly apart when it leaves the water. They are
+     * as large as surface tension holds together against that motion: their diameter is 12 sigma / (rho u^2) with this
+     * speed u (the critical Weber number of Hinze 1955). At 0 the particle becomes one drop. Default 0.1. */
+    float spray_turbulence;
 
     /* ---- how it is drawn */
 

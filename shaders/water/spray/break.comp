@@ -7,38 +7,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
 #include "list.glsl"
+#include "table.glsl"
 
 layout(local_size_x = VIRGA_WATER_LANES) in;
-
-// Index among the last frame's splash particles, or max_splashes.
-uint find_before(uint id)
-{
-    const uint first = (1u - frame.splash_half) * (frame.splash_mask + 1u);
-    for (uint i = 0u, at = virga_hash1(id); frame.goes_on != 0u && i <= frame.splash_mask; i++, at++) {
-        const uint entry = table[first + (at & frame.splash_mask)];
-        if (entry == 0u)
-            break;
-        if (splashes[splash_before(entry - 1u)].id == id)
-            return entry - 1u;
-    }
-    return frame.max_splashes;
-}
-
-// If several particles have the same id, the one that is first in the list is found, in any order of invocations.
-void enter(uint splash, uint id)
-{
-    const uint first = frame.splash_half * (frame.splash_mask + 1u);
-    for (uint i = 0u, at = virga_hash1(id); i <= frame.splash_mask; i++, at++) {
-        const uint slot = first + (at & frame.splash_mask);
-        const uint entry = atomicCompSwap(table[slot], 0u, splash + 1u);
-        if (entry == 0u)
-            return;
-        if (particles[splash_particle(entry - 1u)].id == id) {
-            atomicMin(table[slot], splash + 1u);
-            return;
-        }
-    }
-}
 
 void main()
 {
@@ -46,7 +17,7 @@ void main()
     if (splash >= splash_list.count)
         return;
     const uint particle = splash_particle(splash), id = particles[particle].id, before = find_before(id);
-    virga_water_splash_gpu own = virga_water_splash_gpu(id, 0.0, 0.0, 0u);
+    virga_water_splash_gpu own = virga_water_splash_gpu(id, 0.0, 0.0, 0u, float[3](0.0, 0.0, 0.0), 0u);
     if (before < frame.max_splashes)
         own = splashes[splash_before(before)];
     own.max_speed = max(own.max_speed, length(particle_velocity(particle)));
