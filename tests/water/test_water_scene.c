@@ -38,6 +38,7 @@ static void a_scene_steps_its_water(void **state)
     virga_scene *scene = make_scene(true);
     virga_water *water = virga_scene_water(scene);
     assert_non_null(water);
+    REQUIRE(virga_water_set(water, &f.settings) == VIRGA_OK);
     water_fixture_ball(&f, center, 0.1, 0.02);
     water_fixture_step(&f);
     alone = f.stats;
