@@ -76,9 +76,10 @@ struct virga_water {
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
         *shifts, *shapes, *centers, *surfels;
     water_spray spray;
-    uint32_t splash_half; /* of the newest step */
-    bool spray_goes_on;   /* the newest step had spray */
-    double spray_time_s;  /* of that step */
+    uint32_t splash_half;  /* of the newest step */
+    bool spray_goes_on;    /* the newest step had spray */
+    uint32_t spray_serial; /* of that step */
+    double spray_time_s;   /* of that step */
     virga_water_style spray_style;
     virga_ring step_ring;
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */

@@ -30,7 +30,6 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
     const bool by_degrees = settings->style == VIRGA_WATER_STYLE_PHYSICAL;
     out->spray_low = (by_degrees ? 0.85f : 1.0f) * settings->spray_density;
     out->spray_high = (by_degrees ? 1.15f : 1.0f) * settings->spray_density;
-    out->gap_s = (float)gap_s;
     out->turbulence = settings->spray_turbulence;
     out->spacing = settings->spacing_m;
     out->spray_kernel = (float)ratio;
@@ -43,9 +42,12 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
     out->max_droplets = water->def.max_droplets;
     out->splash_half = water->splash_half ^= 1;
     out->splash_mask = water_table_entries(&water->def) - 1;
-    out->goes_on = water->spray_goes_on && water->spray_style == settings->style && gap_s >= 0 && gap_s <= MAX_GAP_S;
-    if (!out->goes_on)
-        out->gap_s = 0;
+    if (water->spray_goes_on && water->spray_style == settings->style && gap_s >= 0 && gap_s <= MAX_GAP_S)
+        out->serial_before = water->spray_serial;
+    if (++water->spray_serial == 0)
+        water->spray_serial = 1;
+    out->serial = water->spray_serial;
+    out->gap_s = out->serial_before ? (float)gap_s : 0;
     water->spray_goes_on = water_has_spray(water);
     water->spray_style = settings->style;
     water->spray_time_s = time_s;

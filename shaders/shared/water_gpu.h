@@ -63,9 +63,10 @@ struct virga_water_step_gpu {
     uint max_pieces;      /* droplets of a particle at most */
     uint max_splashes;    /* splash particles at most */
     uint max_droplets;
-    uint splash_half; /* half of the buffers that this step writes: 0 or 1. The last step wrote the other */
-    uint splash_mask; /* entries of the table of ids - 1 */
-    uint goes_on;     /* whether the states of the last step count */
+    uint splash_half;   /* half of the buffers that this step writes: 0 or 1. The last step wrote the other */
+    uint splash_mask;   /* entries of the table of ids - 1 */
+    uint serial;        /* of this step */
+    uint serial_before; /* of the step whose states go on; 0: none */
     /* Droplets on orbits, see shaders/water/spray/fly.comp. */
     float gap_s;      /* time since the last step */
     float turbulence; /* part of its speed with which the pieces of a particle fly apart */
@@ -89,6 +90,7 @@ struct virga_water_state_gpu {
     uint first_spray_surfel;
     uint spray_surfels;
     uint spray_surfel_groups[3]; /* an invocation for each of them */
+    uint splash_serials[2];      /* the step that has written each half of the splash particles; 0: none */
 };
 
 /* State of a splash particle, from frame to frame. */
@@ -113,9 +115,9 @@ struct virga_water_piece_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_water_splash_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 140);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 144);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_water_state_gpu, 100);
+VIRGA_ASSERT_SIZE(virga_water_state_gpu, 108);
 #undef uint
 #endif
 

@@ -264,6 +264,29 @@ static void surfels_of_spray_lie_on_the_surface_of_touching_droplets(void **stat
     water_fixture_close(&f);
 }
 
+/* The half of the states that the frame should have written is not read. */
+static void a_frame_that_is_thrown_away_leaves_no_states(void **state)
+{
+    (void)state;
+    set_up();
+    add_drop(1, 1, 0);
+    assert_int_equal(droplets_at_speed(2.001, 0.01), 13);
+    host_device *device = &f.gpu.device;
+    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    const virga_water_step_info info = {.particles = f.particle_buffer.buffer, .count = f.count, .time_s = f.time_s};
+    assert_int_equal(virga_water_step(f.water, cmd, &info), VIRGA_OK);
+    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
+    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
+    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
+    effect_fixture_complete(&f.gpu, f.context);
+    assert_int_equal(droplets_at_speed(0.5, 0.01), 4);
+    assert_int_equal(droplets_at_speed(2.001, 0.01), 13);
+    assert_int_equal(droplets_at_speed(0.5, 0.01), 13);
+    water_fixture_close(&f);
+}
+
 static void too_much_spray_is_counted(void **state)
 {
     (void)state;
@@ -296,6 +319,7 @@ int main(void)
         cmocka_unit_test(states_follow_ids_through_any_order_and_number),
         cmocka_unit_test(the_order_of_particles_changes_no_bit_of_the_spray),
         cmocka_unit_test(surfels_of_spray_lie_on_the_surface_of_touching_droplets),
+        cmocka_unit_test(a_frame_that_is_thrown_away_leaves_no_states),
         cmocka_unit_test(too_much_spray_is_counted),
     };
     return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));

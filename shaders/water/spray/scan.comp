@@ -16,6 +16,7 @@ void main()
     const uint found = scan_picks(grid.sorted_groups[0], frame.max_splashes).x;
     if (gl_LocalInvocationIndex != 0u)
         return;
+    state.splash_serials[frame.splash_half] = frame.serial;
     state.splashes_wanted = found;
     state.splashes = min(found, frame.max_splashes);
     const uint words = grid.sorted_groups[0] * (VIRGA_WATER_LANES / 32u);
