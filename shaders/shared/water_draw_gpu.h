@@ -11,7 +11,7 @@ typedef struct virga_water_prepared_gpu virga_water_prepared_gpu;
 #endif
 
 #define VIRGA_WATER_SURFEL_STEPS  1.2f  /* radius of a surfel, in steps of the grid that surfels are made on */
-#define VIRGA_WATER_SPLAT_TEXELS  3     /* texels of a splat, see splat.glsl */
+#define VIRGA_WATER_SPLAT_TEXELS  3     /* texels of a splat, see splat_write.comp */
 #define VIRGA_WATER_VOLUME_LEVELS 8     /* of the pyramid that the thickness is summed up in */
 #define VIRGA_WATER_VOLUME_PX     4     /* side of a texel of its finest level; each coarser one has twice as much */
 #define VIRGA_WATER_VOLUME_UNITS  16e6f /* units of its sums in a metre of thickness */

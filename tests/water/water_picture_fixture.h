@@ -19,7 +19,9 @@ typedef struct shot {
     virga_target_def layer_def;
     tested_pass tested; /* with the scene's depth attached */
     host_image color, depth;
-    host_camera camera, before; /* of this frame and of the one before */
+    host_buffer extra;                                       /* for after_step */
+    void (*after_step)(struct shot *s, VkCommandBuffer cmd); /* (optional) changes what the step made */
+    host_camera camera, before;                              /* of this frame and of the one before */
     double frame_interval_s;
     bool reversed, no_color, no_depth;
     /* The scene: radiance and distance from the eye in a direction; INFINITY is the sky. NULL: a checkered floor. */
@@ -64,6 +66,8 @@ static inline void shot_open_with(shot *s, const virga_water_def *def, uint32_t 
     memset(s, 0, sizeof *s);
     water_fixture_open_with(&s->f, def, false);
     s->scene = shot_checkers;
+    REQUIRE(host_buffer_create(&s->f.gpu.device, 1 << 20, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "extra",
+                               &s->extra, s->f.gpu.error, sizeof s->f.gpu.error));
     shot_target(s, width, height);
 }
 
@@ -97,6 +101,7 @@ static inline void shot_close_target(shot *s)
 static inline void shot_close(shot *s)
 {
     shot_close_target(s);
+    host_buffer_destroy(&s->f.gpu.device, &s->extra);
     water_fixture_close(&s->f);
 }
 
@@ -190,6 +195,8 @@ static inline const float *shot_draw(shot *s)
     virga_water_step_info info = {.particles = s->f.particle_buffer.buffer, .count = s->f.count};
     memcpy(info.origin_m, s->f.origin_m, sizeof info.origin_m);
     REQUIRE(virga_water_step(s->f.water, cmd, &info) == VIRGA_OK);
+    if (s->after_step)
+        s->after_step(s, cmd);
     const virga_view view = shot_view(s);
     REQUIRE(virga_water_prepare(s->f.water, cmd, &view) == VIRGA_OK);
     shot_record_draw(s, cmd);

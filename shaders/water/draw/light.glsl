@@ -68,7 +68,7 @@ float meeting(Point point, Path path)
         const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
         const float stored = buffer_depth(pixel);
         const float depth = stored == view.far_depth ? 1e4 : view_depth(stored);
-        const vec3 seen = pixel_ray(pixel) * depth;
+        const vec3 seen = pixel_ray(floor(pixel) + 0.5) * depth; // where the depth was taken
         const float below = max(dot(point.normal, point.position - seen), 0.0), wet = path.length_m * path.cos_water;
         s = below < wet ? below / path.cos_water
                         : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);

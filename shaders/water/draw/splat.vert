@@ -36,7 +36,7 @@ void main()
     const float scale = DEPTH_ONLY ? shrink(center, first, second) : 1.0;
     const vec3 clip = center + scale * (at.x * first + at.y * second);
     position = at;
-    facing_weight = vec3(unpackHalf2x16(one.w), weight_push.x);
+    facing_weight = vec3(unpack_facing(one.w), weight_push.x);
     motion = unpackHalf2x16(three.w);
     // Depth is NEAR_W / w. Moving the splat away from the eye, by a factor, divides its depth by this factor.
     gl_Position = vec4(clip.xy, DEPTH_ONLY ? NEAR_W / (1.0 + weight_push.y) : NEAR_W, clip.z);

@@ -5,6 +5,16 @@
 // the picture: the weights of all surfels of a surface add up to 1 in each pixel, whatever their size. At the border of
 // the water the sum falls to 0, and is about 1/2 at the border itself.
 //
+// A splat is three texels:
+//
+//     center x, y, w   clip coordinates
+//     facing           see facing_of and pack_facing
+//     first axis       clip coordinates x, y, w, per radius
+//     weight, push     half floats: weight at its center; how much farther away the depth pass draws it, as a share of
+//                      its distance
+//     second axis      clip coordinates x, y, w, per radius
+//     motion           two half floats, px
+//
 // One invocation per visible surfel. Reads: the list, surfels. Writes: splats.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -53,7 +63,7 @@ void main()
     const float push = min(PUSH * wide + off, MAX_PUSH * wide) / length(s.position);
     const vec3 a = (clip_from_rel * vec4(wide * aside, 0.0)).xyw, b = (clip_from_rel * vec4(second, 0.0)).xyw;
     const vec2 facing = facing_of(s.normal), motion = motion_of(s, center);
-    splats[3u * index] = uvec4(floatBitsToUint(center.xyw), halves(facing.x, facing.y));
+    splats[3u * index] = uvec4(floatBitsToUint(center.xyw), pack_facing(facing));
     splats[3u * index + 1u] = uvec4(floatBitsToUint(a), halves(weight, push));
     splats[3u * index + 2u] = uvec4(floatBitsToUint(b), halves(motion.x, motion.y));
 }

@@ -26,6 +26,10 @@ vec2 facing_of(vec3 normal)
     return n.xy / max(1.0 + n.z, 0.1);
 }
 
+// In a word; half floats would turn the normal by 0.0005.
+uint pack_facing(vec2 facing) { return packSnorm2x16(0.5 * facing); }
+vec2 unpack_facing(uint packed) { return 2.0 * unpackSnorm2x16(packed); }
+
 vec3 normal_of(vec2 facing)
 {
     const float s = dot(facing, facing);
