@@ -163,7 +163,8 @@ virga_result virga_context_create(const virga_context_def *def, virga_context **
         return VIRGA_ERROR_HOST_MEMORY;
     }
     made->heap = heap;
-    made->log = log;
+    made->host_log = log;
+    made->log = def->log_repeats ? log : (virga_log){virga_repeats_log, made};
     result = init(made, def);
     if (result) {
         if (made->vk.DestroyPipelineCache)

@@ -5,11 +5,14 @@
 #include "core/log.h"
 #include "core/memory.h"
 #include "gpu/functions.h"
+#include "gpu/repeats.h"
 #include "gpu/timers.h"
 
 struct virga_context {
     virga_functions vk;
-    virga_log log;
+    virga_log log;      /* by default counts lines that repeat, see gpu/repeats.h */
+    virga_log host_log; /* receives what is passed on */
+    virga_repeat repeats[VIRGA_REPEATS];
     virga_host_heap heap;
 
     /* The device. */

@@ -67,6 +67,7 @@ static inline virga_context_def gpu_context_def(gpu_fixture *f)
     def.memory_budget = (VkDeviceSize)256 << 20; /* keeps pages of device memory small, and with that quick to make */
     def.log = gpu_log;
     def.log_user = f;
+    def.log_repeats = true;
     return def;
 }
 

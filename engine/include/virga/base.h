@@ -114,7 +114,10 @@ typedef enum virga_log_id {
 VIRGA_API const char *virga_log_name(virga_log_id id);
 
 /* Receives one log line, without a newline. `text` is valid during the call only. Called on the thread of the API
- * call that logs. */
+ * call that logs.
+ *
+ * A line that comes again in later frames is passed on only at the 10th, 100th, ... time, with the number of times. A
+ * line that was not logged for 1000 frames counts as new. virga_context_def.log_repeats switches this off. */
 typedef void (*virga_log_fn)(void *user, virga_log_level level, virga_log_id id, const char *text);
 
 /* Callbacks for host memory. Leave all zero to use malloc and free. Both are called on the thread of the API call,

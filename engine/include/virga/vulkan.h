@@ -156,6 +156,10 @@ typedef struct virga_context_def {
     virga_log_fn log; /* (optional) */
     void *log_user;   /* passed to `log` */
 
+    /* Passes on every log line, also one that comes again in later frames, see virga_log_fn. For tests. Default
+     * false. */
+    bool log_repeats;
+
     /* (optional) A blob from virga_pipeline_cache_get, and its size in bytes. A blob of another driver is ignored. */
     const void *pipeline_cache;
     size_t pipeline_cache_size;
