@@ -464,7 +464,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
         return result;
     const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
     record_prepare(glass, cmd, view, set);
-    virga_effect_set_view(&glass->base, set, view->viewport);
+    virga_effect_set_view(&glass->base, set, view);
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
     picture->prepared_style = glass->settings.style;

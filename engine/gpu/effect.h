@@ -333,6 +333,7 @@ typedef struct virga_effect_view {
     uint64_t frame;
     VkDescriptorSet set;
     float viewport[4];
+    bool reversed_depth;
 } virga_effect_view;
 
 /* An upload buffer whose copy was recorded. */
@@ -481,7 +482,8 @@ virga_result virga_effect_attach(virga_effect *effect, const char *call, const v
 bool virga_effect_wants_motion(const virga_effect *effect);
 
 /* The common checks of a draw. Returns the target's pipelines in *found. VIRGA_NOT_READY if the target is not attached
- * or nothing was prepared in this frame; this is logged once, if `ready` is VIRGA_OK. */
+ * or nothing was prepared in this frame; this is logged once, if `ready` is VIRGA_OK. VIRGA_ERROR_INVALID if the depth
+ * of the target and of the prepared view run in different directions. */
 virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                      const virga_target *target, virga_result ready, const virga_effect_target **found);
 
@@ -510,6 +512,6 @@ virga_result virga_effect_push_view(virga_effect *effect, const char *call, virg
                                     size_t size, uint32_t *index, uint32_t *offset);
 
 /* Stores what the draws of a view need. */
-void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4]);
+void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const virga_view *view);
 
 #endif

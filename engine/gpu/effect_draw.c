@@ -186,12 +186,25 @@ virga_result virga_effect_push_view(virga_effect *effect, const char *call, virg
 
 /* ---- draws */
 
-void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const float viewport[4])
+void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const virga_view *view)
 {
     effect->view.ready = true;
     effect->view.frame = effect->context->frame_index;
     effect->view.set = set;
-    memcpy(effect->view.viewport, viewport, sizeof effect->view.viewport);
+    effect->view.reversed_depth = view->reversed_depth;
+    memcpy(effect->view.viewport, view->viewport, sizeof effect->view.viewport);
+}
+
+/* With a wrong direction every fragment fails the depth test, and nothing is seen. */
+static virga_result check_depth(const virga_effect *effect, const char *call, const virga_target *target)
+{
+    const bool of_target = target->def.reversed_depth, of_view = effect->view.reversed_depth;
+    if (!target->def.depth_attached || of_target == of_view)
+        return VIRGA_OK;
+    return virga_wrong_argument(&effect->context->log,
+                                "%s: target_def.reversed_depth is %s, and view.reversed_depth of the prepared view is "
+                                "%s: expected the same",
+                                call, of_target ? "true" : "false", of_view ? "true" : "false");
 }
 
 virga_result virga_effect_find_target(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
@@ -218,5 +231,5 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
     if (!*found || !effect->view.ready || effect->view.frame != effect->context->frame_index)
         return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
     effect->not_drawn_logged = false;
-    return VIRGA_OK;
+    return check_depth(effect, call, target);
 }

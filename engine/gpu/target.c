@@ -75,6 +75,10 @@ static virga_result check_formats(const virga_context *context, const virga_targ
     if (!result)
         result = check_format(context, "depth_format", def->depth_format,
                               VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "test depth in");
+    if (!result && def->depth_format == VK_FORMAT_S8_UINT)
+        result = virga_wrong_argument(&context->log,
+                                      "target_def.depth_format: expected a format with depth, got VkFormat %d",
+                                      (int)def->depth_format);
     if (!result)
         result = check_format(context, "stencil_format", def->stencil_format,
                               VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "have a stencil in");

@@ -61,6 +61,31 @@ static virga_result check_camera(const virga_log *log, const virga_view *view)
     return VIRGA_OK;
 }
 
+/* Formats of integers, whose samples are not floats. */
+static bool is_integer(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R8_UINT:
+    case VK_FORMAT_R8_SINT:
+    case VK_FORMAT_R8G8B8A8_UINT:
+    case VK_FORMAT_R8G8B8A8_SINT:
+    case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SINT:
+    case VK_FORMAT_R16G16_UINT:
+    case VK_FORMAT_R16G16_SINT:
+    case VK_FORMAT_R16G16B16A16_UINT:
+    case VK_FORMAT_R16G16B16A16_SINT:
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R32_SINT:
+    case VK_FORMAT_R32G32_UINT:
+    case VK_FORMAT_R32G32_SINT:
+    case VK_FORMAT_R32G32B32A32_UINT:
+    case VK_FORMAT_R32G32B32A32_SINT:
+    case VK_FORMAT_S8_UINT: return true;
+    default: return false;
+    }
+}
+
 /* Checks an image of the host, if there is one. */
 static virga_result check_image(const virga_log *log, const char *name, const virga_image *image)
 {
@@ -70,6 +95,9 @@ static virga_result check_image(const virga_log *log, const char *name, const vi
     if (image->view && image->before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
         return virga_wrong_argument(log, "view.%s.before.layout: expected the layout while drawing, got UNDEFINED",
                                     name);
+    if (image->view && is_integer(image->format))
+        return virga_wrong_argument(log, "view.%s.format: expected one that is sampled as floats, got VkFormat %d",
+                                    name, (int)image->format);
     return VIRGA_OK;
 }
 

@@ -204,7 +204,7 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
     const bool has_depth = view->depth.view != VK_NULL_HANDLE;
     const VkDescriptorSet set = rain_write_set(rain, index, has_depth ? &view->depth : NULL);
     record_prepare(rain, cmd, set);
-    virga_effect_set_view(&rain->base, set, view->viewport);
+    virga_effect_set_view(&rain->base, set, view);
     rain->prepared_depth = has_depth;
     rain->prepared_line_px = rain->settings.min_width_px + 1; /* the width of quads in streak.glsl */
     rain->prepared_haze = has_depth && hazes(rain);

@@ -326,6 +326,21 @@ static virga_result prepare_all(virga_scene *scene, VkCommandBuffer cmd, const v
     return result;
 }
 
+/* Rain may step several times in a frame, and all other effects once. So a scene with others is refused before its rain
+ * has stepped. Logged once for a frame. */
+static virga_result check_once(virga_scene *scene)
+{
+    const uint64_t frame = scene->context->frame_index;
+    if (!frame || scene->recorded_frame != frame || scene->effect_count < 2)
+        return VIRGA_OK;
+    if (scene->twice_frame != frame)
+        virga_wrong_argument(&scene->context->log,
+                             "virga_scene_record: called again in frame %llu: expected virga_frame_begin before it",
+                             (unsigned long long)frame);
+    scene->twice_frame = frame;
+    return VIRGA_ERROR_INVALID;
+}
+
 virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
     if (!scene)
@@ -338,6 +353,9 @@ virga_result virga_scene_record(virga_scene *scene, VkCommandBuffer cmd, const v
         return checked;
     if (ready)
         return ready;
+    if (check_once(scene))
+        return VIRGA_ERROR_INVALID;
+    scene->recorded_frame = scene->context->frame_index;
     const bool seen = frame->view && !checked;
     if (seen)
         log_if_far(scene, frame);

@@ -51,6 +51,8 @@ struct virga_scene {
     uint32_t catching_panes;
     /* It was logged that the view's camera is beyond the rain. Reset when it is inside. */
     bool far_logged;
+    /* The frame that was recorded last, and the last frame in which it was logged that it was recorded again. */
+    uint64_t recorded_frame, twice_frame;
 };
 
 /* Effect number `index` of a type; NULL if the scene has no such effect. */

@@ -143,7 +143,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
         return result;
     const VkDescriptorSet set = splash_write_set(splash, index, splash_current(splash), view);
     record_prepare(splash, cmd, set, choose_form(splash));
-    virga_effect_set_view(&splash->base, set, view->viewport);
+    virga_effect_set_view(&splash->base, set, view);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;
     splash->prepared_line_px = splash->settings.min_width_px + 1; /* as wide as quads, see sprite_corner.glsl */
     splash->prepared_style = splash->settings.style;

@@ -3,6 +3,8 @@
 #include "../gpu/gpu_fixture.h"
 #include "../gpu/small_scene.h"
 
+#include <math.h>
+
 typedef struct mistaken {
     gpu_fixture *f;
     virga_context *context;
@@ -22,7 +24,9 @@ static void open_scene(mistaken *m, void **state)
     const virga_scene_def def = small_scene_def(panes);
     memset(m, 0, sizeof *m);
     m->f = *state;
-    m->context = gpu_context(m->f);
+    virga_context_def context_def = gpu_context_def(m->f);
+    context_def.log_repeats = false;
+    REQUIRE(virga_context_create(&context_def, &m->context) == VIRGA_OK);
     gpu_picture_open(m->f, m->context, &m->picture);
     REQUIRE(virga_scene_create(m->context, &def, &m->scene) == VIRGA_OK);
     small_panes_lay(m->panes);
@@ -122,6 +126,70 @@ static void refused(mistaken *m, const char *part)
     m->view = gpu_view(&m->picture);
 }
 
+/* Only the depth test would have said so, by drawing nothing. */
+static void a_target_whose_depth_runs_the_other_way_is_refused(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    virga_target_def def = virga_default_target_def();
+    host_target_describe_layer(&m.picture.images, &def);
+    def.depth_attached = def.reversed_depth = true;
+    virga_target_destroy(&m.picture.target);
+    REQUIRE(virga_target_create(m.context, &def, &m.picture.target) == VIRGA_OK);
+    for (int i = 0; i < 9; i++) {
+        assert_int_equal(record(&m), VIRGA_OK);
+        gpu_forget_log(m.f);
+        REQUIRE(virga_rain_attach(virga_scene_rain(m.scene), m.picture.target) == VIRGA_OK);
+        assert_int_equal(virga_rain_draw(virga_scene_rain(m.scene), m.cmd, m.picture.target), VIRGA_ERROR_INVALID);
+        assert_int_equal(m.f->errors, i ? 0 : 1); /* once, not in every frame */
+        gpu_submit(m.f);
+    }
+    close_scene(&m);
+}
+
+/* Nothing may step a second time: rain would, and the ground would not. */
+static void a_scene_that_is_recorded_twice_is_refused(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    assert_int_equal(record(&m), VIRGA_OK);
+    const double time_s = virga_rain_time(virga_scene_rain(m.scene));
+    gpu_forget_log(m.f);
+    for (int i = 0; i < 10; i++)
+        assert_int_equal(virga_scene_record(m.scene, m.cmd, &m.frame), VIRGA_ERROR_INVALID);
+    assert_one_error(m.f, VIRGA_LOG_ARGUMENT);
+    assert_true(virga_rain_time(virga_scene_rain(m.scene)) == time_s);
+    gpu_submit(m.f);
+    assert_int_equal(record(&m), VIRGA_OK);
+    gpu_submit(m.f);
+    close_scene(&m);
+}
+
+/* What is wrong in 40 frames is said in the first and in the tenth. */
+static void a_mistake_of_every_frame_is_counted(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    const virga_view good = m.view;
+    const double fine = m.frame.dt_s;
+    static const virga_log_id ids[3] = {VIRGA_LOG_TICKS_DROPPED, VIRGA_LOG_ARGUMENT, VIRGA_LOG_ARGUMENT};
+    for (int mistake = 0; mistake < 3; mistake++) {
+        gpu_forget_log(m.f);
+        for (int i = 0; i < 40; i++) {
+            m.view = good;
+            m.frame.dt_s = mistake == 0 ? 0.5 + 0.01 * i : fine; /* more than four ticks */
+            m.view.viewport[2] = mistake == 1 ? 0.01f * (float)i : good.viewport[2];
+            m.view.position_m[0] = mistake == 2 ? (double)NAN : 0;
+            record(&m);
+            gpu_submit(m.f);
+        }
+        if (m.f->lines[ids[mistake]] != 2)
+            fail_msg("mistake %d: %u lines, the last: %s", mistake, m.f->lines[ids[mistake]], m.f->last);
+        assert_non_null(strstr(m.f->last, "(10 times so far)"));
+    }
+    close_scene(&m);
+}
+
 static void views_that_contradict_themselves_are_refused(void **state)
 {
     mistaken m;
@@ -138,6 +206,11 @@ static void views_that_contradict_themselves_are_refused(void **state)
     m.view = gpu_view(&m.picture);
     m.view.depth = (virga_image){.image = m.picture.images.images[0].image};
     refused(&m, "view.depth: expected an image and its view");
+    m.view.depth = (virga_image){.image = m.picture.images.images[0].image,
+                                 .view = m.picture.images.images[0].view,
+                                 .format = VK_FORMAT_R32_UINT,
+                                 .before = {.layout = VK_IMAGE_LAYOUT_GENERAL}};
+    refused(&m, "view.depth.format");
     m.view.color.view = m.picture.images.images[0].view;
     refused(&m, "view.color: expected an image and its view");
     m.view.color.image = m.picture.images.images[0].image;
@@ -215,6 +288,9 @@ int main(void)
         gpu_kept_test(panes_that_nobody_prepared_are_logged),
         gpu_kept_test(a_view_beyond_the_rain_is_logged),
         gpu_kept_test(views_that_contradict_themselves_are_refused),
+        gpu_kept_test(a_target_whose_depth_runs_the_other_way_is_refused),
+        gpu_kept_test(a_scene_that_is_recorded_twice_is_refused),
+        gpu_kept_test(a_mistake_of_every_frame_is_counted),
         gpu_kept_test(lists_and_pointers_that_are_missing_are_named),
         gpu_kept_test(targets_of_other_contexts_are_refused),
         gpu_kept_test(ground_tells_its_settings),

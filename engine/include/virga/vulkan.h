@@ -296,7 +296,8 @@ typedef struct virga_image {
     /* Covers all layers and levels that are to be read. */
     VkImageView view;
 
-    /* Format of `view`. VK_FORMAT_R32G32B32A32_SFLOAT is read without filtering, all others with linear filtering. */
+    /* Format of `view`. VK_FORMAT_R32G32B32A32_SFLOAT is read without filtering, all others with linear filtering. In
+     * views, formats of integers are refused. */
     VkFormat format;
 
     /* Read by virga_rain_import_occlusion only. */
@@ -504,8 +505,8 @@ typedef struct virga_view {
      * pixels: a host that flips the picture negates element [1][1] of the projection instead. */
     float viewport[4];
 
-    /* Greater depth is nearer. Must match the target and clip_from_view, else it is refused. The projection may have no
-     * far plane. Default false. */
+    /* Greater depth is nearer. Must match clip_from_view, else the view is refused, and the targets with depth that it
+     * is drawn into, else the draw is. The projection may have no far plane. Default false. */
     bool reversed_depth;
 
     /* (optional) Depth of the scene in the target's pixels: a single-sample view of the depth aspect. Sampled for
