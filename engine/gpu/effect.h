@@ -334,6 +334,8 @@ typedef struct virga_effect_view {
     VkDescriptorSet set;
     float viewport[4];
     bool reversed_depth;
+    uint64_t undrawn_frame; /* the frame in which it was prepared and not drawn yet; 0: it was drawn */
+    bool undrawn_logged;    /* it was logged that a prepare replaced a view that was not drawn */
 } virga_effect_view;
 
 /* An upload buffer whose copy was recorded. */

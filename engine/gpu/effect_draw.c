@@ -186,9 +186,24 @@ virga_result virga_effect_push_view(virga_effect *effect, const char *call, virg
 
 /* ---- draws */
 
+/* An effect has room for one prepared view. A host that prepares all of its views first would draw the last one into
+ * each of them. */
+static void log_undrawn(virga_effect *effect)
+{
+    if (effect->view.undrawn_frame != effect->context->frame_index || effect->view.undrawn_logged)
+        return;
+    virga_log_write(&effect->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_NOT_DRAWN,
+                    "%s: a view was prepared, and the one before it was never drawn: draw each view before the next "
+                    "one is prepared",
+                    effect->type->name);
+    effect->view.undrawn_logged = true;
+}
+
 void virga_effect_set_view(virga_effect *effect, VkDescriptorSet set, const virga_view *view)
 {
+    log_undrawn(effect);
     effect->view.ready = true;
+    effect->view.undrawn_frame = effect->context->frame_index;
     effect->view.frame = effect->context->frame_index;
     effect->view.set = set;
     effect->view.reversed_depth = view->reversed_depth;
@@ -231,5 +246,6 @@ virga_result virga_effect_check_draw(virga_effect *effect, const char *call, VkC
     if (!*found || !effect->view.ready || effect->view.frame != effect->context->frame_index)
         return virga_log_not_drawn(effect->context, call, *found != NULL, ready, &effect->not_drawn_logged);
     effect->not_drawn_logged = false;
+    effect->view.undrawn_frame = 0;
     return check_depth(effect, call, target);
 }

@@ -147,6 +147,30 @@ static void a_target_whose_depth_runs_the_other_way_is_refused(void **state)
     close_scene(&m);
 }
 
+/* Split screen with both halves prepared first: the second one would be drawn twice. */
+static void a_view_that_is_replaced_before_it_is_drawn_is_told(void **state)
+{
+    mistaken m;
+    open_scene(&m, state);
+    virga_rain *rain = virga_scene_rain(m.scene);
+    REQUIRE(virga_rain_attach(rain, m.picture.target) == VIRGA_OK);
+    for (int in_turn = 1; in_turn >= 0; in_turn--) {
+        assert_int_equal(record(&m), VIRGA_OK);
+        gpu_forget_log(m.f);
+        for (int i = 0; i < 3; i++) {
+            if (in_turn) {
+                host_target_begin_layer(&m.picture.images, m.cmd);
+                assert_int_equal(virga_rain_draw(rain, m.cmd, m.picture.target), VIRGA_OK);
+                host_target_end_layer(&m.picture.images, m.cmd);
+            }
+            assert_int_equal(virga_rain_prepare(rain, m.cmd, &m.view, virga_rain_time(rain)), VIRGA_OK);
+        }
+        assert_int_equal(m.f->lines[VIRGA_LOG_NOT_DRAWN], in_turn ? 0 : 1);
+        gpu_submit(m.f);
+    }
+    close_scene(&m);
+}
+
 /* Nothing may step a second time: rain would, and the ground would not. */
 static void a_scene_that_is_recorded_twice_is_refused(void **state)
 {
@@ -289,6 +313,7 @@ int main(void)
         gpu_kept_test(a_view_beyond_the_rain_is_logged),
         gpu_kept_test(views_that_contradict_themselves_are_refused),
         gpu_kept_test(a_target_whose_depth_runs_the_other_way_is_refused),
+        gpu_kept_test(a_view_that_is_replaced_before_it_is_drawn_is_told),
         gpu_kept_test(a_scene_that_is_recorded_twice_is_refused),
         gpu_kept_test(a_mistake_of_every_frame_is_counted),
         gpu_kept_test(lists_and_pointers_that_are_missing_are_named),

@@ -102,7 +102,7 @@ typedef enum virga_log_id {
     VIRGA_LOG_SHRUNK = 16,          /* an effect was made smaller for the memory budget: which pools, and how small */
 
     /* A draw call found nothing to draw, because a call before it is missing: which one. Logged once, and again after
-     * a draw that had everything it needs. */
+     * a draw that had everything it needs. Also: a view that was prepared was replaced before it was drawn. */
     VIRGA_LOG_NOT_DRAWN = 17,
 
     /* The device has not executed a frame that was reported as completed, see virga_frame_dropped. Logged at the first
