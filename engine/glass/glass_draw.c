@@ -334,7 +334,7 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
 {
     virga_context *context = glass->base.context;
     const struct glass_picture *picture = &glass->picture;
-    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.plate");
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.plate_copy");
     const VkPipelineStageFlags from =
         view->color.before.stage ? view->color.before.stage : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     virga_barrier(context, cmd, from, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
@@ -360,7 +360,7 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     record_film(glass, cmd);
     record_balls(glass, cmd);
-    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.splat");
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.height_map");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
     virga_indirect_barrier(context, cmd); /* both gather passes write group counts of later passes */
     over_work(glass, cmd, picture->gather_passes[mode | GLASS_GATHER_FILM | (picture->beads ? GLASS_GATHER_BEADS : 0)],

@@ -208,7 +208,7 @@ static virga_result allocate_from_pages(virga_context *context, const VkMemoryRe
         virga_result result = check_budget(context, size, name);
         if (!result)
             result = page_create(context, size, type_index, for_image, &page);
-        if (result)
+        if (!page)
             return result;
         page_allocate(page, need->size, need->alignment, &offset);
     }

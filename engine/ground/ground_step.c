@@ -412,7 +412,7 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
 {
     virga_context *context = ground->base.context;
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
-    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.ripples");
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.rings");
     virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
     context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,

@@ -172,7 +172,7 @@ static const virga_effect_buffer buffers[] = {
     {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL},
     {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
     {"rain.hits", AT(hit_buffer), STORAGE_USE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
-    {"rain.hit_offset_buffer", AT(hit_offset_buffer), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
+    {"rain.hit_offsets", AT(hit_offset_buffer), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
     {"rain.sways", AT(sway_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
     {"rain.points", AT(point_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},
     {"rain.slot_upload", AT(slot_upload), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD, 0,

@@ -177,7 +177,7 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_pass_scope scope;
     if (rain->sway_on) {
-        scope = virga_pass_begin(context, cmd, "rain.sway");
+        scope = virga_pass_begin(context, cmd, "rain.wind");
         virga_dispatch(context, cmd, rain->sway, rain->groups);
         virga_compute_barrier(context, cmd);
         virga_pass_end(context, cmd, scope);

@@ -159,7 +159,7 @@ static const virga_effect_buffer buffers[] = {
     {"splash.droplets1", AT(droplet_buffers[1]), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_droplet_gpu),
      .count = COUNT_DROPLETS, .first = FILL},
     {"splash.marks", AT(marks), VIRGA_USE_STORAGE, DEVICE, .entry = 16, .count = COUNT_MARK_WORDS, .first = FILL},
-    {"splash.places", AT(spawn_offsets), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
+    {"splash.spawn_offsets", AT(spawn_offsets), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
     {"splash.returns", AT(returned_droplets), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
      .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
     {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},

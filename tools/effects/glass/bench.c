@@ -20,8 +20,8 @@ enum { MOTION, FILM, BALLS, SPLAT, PLATE, DRAW, PASSES };
 
 static const char *const names[PASSES] = {"motion", "film",          "balls", "splat, compression, normals",
                                           "plate",  "draw (compose)"};
-static const char *const passes[PASSES] = {NULL,          "glass.film",  "glass.balls",
-                                           "glass.splat", "glass.plate", "glass.draw"};
+static const char *const passes[PASSES] = {
+    NULL, "glass.film", "glass.balls", "glass.height_map", "glass.plate_copy", "glass.draw"};
 
 /* Drops that are large enough to have a shape with texels of 1 mm. Their relative numbers are those of a shower of
  * 10 mm/h (Marshall and Palmer). These are the paper's metaballs, without thousands of fine drops that would become

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* The passes of every step. The last two run only when the window and the map beyond it move. */
-static const char *const passes[] = {"ground.land",    "ground.flow",   "ground.ripples", "ground.map",
+static const char *const passes[] = {"ground.land",    "ground.flow",   "ground.rings", "ground.map",
                                      "ground.measure", "ground.window", "ground.far"};
 
 enum { PASSES = sizeof passes / sizeof passes[0], STEADY_PASSES = PASSES - 2 };
