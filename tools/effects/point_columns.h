@@ -35,4 +35,9 @@
 #member, PLY_FLOAT, offsetof(type, member) \
     }
 
+/* The fields of tool_points that all point caches have: a table of columns, the struct of a row, and two functions. */
+#define TOOL_POINTS(columns, row, record_function, read_function)                                       \
+    .properties = columns, .property_count = sizeof columns / sizeof columns[0], .stride = sizeof(row), \
+    .record = record_function, .read = read_function
+
 #endif

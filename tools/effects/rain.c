@@ -322,13 +322,9 @@ static bool read_drops(shot *s, void *state, void **rows, uint32_t *count, char 
 }
 
 static const tool_points points = {
-    .properties = drop_columns,
-    .property_count = sizeof drop_columns / sizeof drop_columns[0],
-    .stride = sizeof(drop),
+    TOOL_POINTS(drop_columns, drop, record_drops, read_drops),
     .comment = "virga rain: metres, seconds; weight is the drops that a point stands for",
     .help = "the drops under the open sky",
-    .record = record_drops,
-    .read = read_drops,
 };
 
 static void write_stats(shot *s, void *state, jsonl *stats)

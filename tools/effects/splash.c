@@ -205,15 +205,11 @@ static bool read_droplets(shot *s, void *state, void **rows, uint32_t *count, ch
 }
 
 static const tool_points points = {
-    .properties = droplet_columns,
-    .property_count = sizeof droplet_columns / sizeof droplet_columns[0],
-    .stride = sizeof(droplet),
+    TOOL_POINTS(droplet_columns, droplet, record_droplets, read_droplets),
     .comment =
         "virga splash: metres, seconds, microlitres; parent is the drop's id; water_ul is of all the droplets that "
         "a point stands for",
     .help = "the droplets of splashes",
-    .record = record_droplets,
-    .read = read_droplets,
 };
 
 static const char *model_name(uint32_t model)

@@ -112,12 +112,8 @@ static bool read(shot *s, void *state, void **rows, uint32_t *count, char *error
 }
 
 const tool_points glass_points = {
-    .properties = columns,
-    .property_count = sizeof columns / sizeof columns[0],
-    .stride = sizeof(drop_row),
+    TOOL_POINTS(columns, drop_row, record, read),
     .comment = "virga glass: metres, seconds, microlitres; radius is of the base; kind 1 drop, 2 particle; flags 4 "
                "running, 8 left behind, 16 held, 32 pushed",
     .help = "drops and particles on panes",
-    .record = record,
-    .read = read,
 };
