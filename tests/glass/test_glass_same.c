@@ -15,7 +15,7 @@ static float *whole_frame(const char *threads, uint32_t lanes, size_t *size)
 {
     shot s;
     ball balls[BALLS];
-    setenv("LP_NUM_THREADS", threads, 1);
+    effect_device_set_threads(threads);
     open_small(&s);
     if (lanes == 0 || (lanes != OWN_LANES && s.context->software))
         REQUIRE(glass_picture_use_lanes(s.glass, lanes) == VIRGA_OK);
@@ -112,7 +112,7 @@ static void compare_ways(const way *ways, int count)
 static void the_same_bits_come_out_every_time(void **state)
 {
     (void)state;
-    compare_ways((const way[]){{"1", OWN_LANES}, {"2", OWN_LANES}, {"1", OWN_LANES}}, 3);
+    compare_ways((const way[]){{"1", OWN_LANES}, {"1", OWN_LANES}, {"2", OWN_LANES}}, 3);
 }
 
 /* By shared memory, by shuffles among a workgroup's subgroups, and as the device does it by itself. */

@@ -91,15 +91,32 @@ static inline uint32_t effect_device_give_back(fixture *gpu)
     return live + messages;
 }
 
-/* Destroys the device; validation then reports leaked objects. Returns the exit code of main, from the number of failed
- * cases. */
+/* Destroys the device; validation then reports leaked objects. */
+static inline void effect_device_destroy(void)
+{
+    if (!effect_device.there)
+        return;
+    kept_forget();
+    effect_device.there = false;
+    fixture_end(&effect_device.fixture);
+}
+
+/* The number of threads of software Vulkan from the next case on. "0": it runs in the thread of the test. A device
+ * reads the number when it is created, so another number needs another device. */
+static inline void effect_device_set_threads(const char *threads)
+{
+    const char *current = getenv("LP_NUM_THREADS");
+    if (current && !strcmp(current, threads))
+        return;
+    setenv("LP_NUM_THREADS", threads, 1);
+    effect_device_destroy();
+    effect_device.messages = 0;
+}
+
+/* Returns the exit code of main, from the number of failed cases. */
 static inline int effect_fixture_close(int failed)
 {
-    if (effect_device.there) {
-        kept_forget();
-        effect_device.there = false;
-        fixture_end(&effect_device.fixture);
-    }
+    effect_device_destroy();
     return fixture_result(failed);
 }
 
