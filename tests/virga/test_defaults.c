@@ -76,6 +76,11 @@ static void water(void **state)
     const virga_water_settings def = virga_default_water_settings();
     SAME(kernel_spacings);
     SAME(level);
+    SAME(kernel);
+    SAME(smoothing);
+    SAME(stretch);
+    assert_int_equal(SCENE_WATER_KERNEL_ISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC);
+    assert_int_equal(SCENE_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ANISOTROPIC);
     assert_null(from->files);
     scene_file_free(scene);
 }

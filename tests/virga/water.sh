@@ -35,13 +35,15 @@ render() {
 }
 
 # Frames 1, 3 and 5 have a file, frame 4 is between two. A frame alone is the same.
-render all --frames 1-5
+render all --frames 1-5 --meshes
 grep -q 'water.spacing_m: guessed 0.02' "$work/log" || { cat "$work/log"; fail "no line about the guess"; }
 for frame in 1:0 3:0.1 4:0.15 5:0.2; do
     python3 "$here/check_water.py" "$work/all" ${frame%:*} ${frame#*:} || fail "surfels of frame $frame"
 done
-render alone --frames 4
-cmp "$work/all/water.0004.ply" "$work/alone/water.0004.ply" || fail "frame 4 alone is another one"
+render alone --frames 4 --meshes
+for file in water water_mesh; do
+    cmp "$work/all/$file.0004.ply" "$work/alone/$file.0004.ply" || fail "$file of frame 4 alone is another one"
+done
 
 # Z up, and turned back.
 render turned --frames 3 --set water.up=z --set 'water.rotation_deg=[90, 0, 0]'

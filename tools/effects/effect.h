@@ -55,6 +55,26 @@ typedef struct tool_points {
     bool (*read)(shot *s, void *state, void **rows, uint32_t *count, char *error, size_t error_size);
 } tool_points;
 
+/* Vertices and triangles of a mesh. */
+typedef struct tool_mesh_data {
+    void *vertices;
+    uint32_t vertex_count;
+    uint32_t (*triangles)[3];
+    uint32_t triangle_count;
+} tool_mesh_data;
+
+/* A triangle mesh, a file per frame: `name`.%04u.ply. */
+typedef struct tool_mesh {
+    const char *name;
+    const ply_property *properties; /* of vertices */
+    uint32_t property_count;
+    size_t stride;       /* bytes per vertex */
+    const char *comment; /* first line of the file */
+    const char *help;
+    /* Makes that of the newest step. The caller frees vertices and triangles with free(). */
+    bool (*make)(shot *s, void *state, tool_mesh_data *data, char *error, size_t error_size);
+} tool_mesh;
+
 /* The time and the views of an image. */
 typedef struct tool_moment {
     const virga_view *jittered; /* with the jitter of the sub-frame */
@@ -204,6 +224,7 @@ typedef struct tool_effect {
     /* ---- files of a frame */
 
     const tool_points *points;
+    const tool_mesh *mesh;
     /* Writes its object in a line of stats.jsonl. */
     void (*write_stats)(shot *s, void *state, jsonl *stats);
     /* Writes sums over several effects, after the objects of all effects. */

@@ -14,6 +14,8 @@
 static const scene_keyword water_ids[] = {
     {"file", SCENE_WATER_IDS_FILE}, {"rows", SCENE_WATER_IDS_ROWS}, {"none", SCENE_WATER_IDS_NONE}, {NULL, 0}};
 static const scene_keyword water_ups[] = {{"y", SCENE_WATER_UP_Y}, {"z", SCENE_WATER_UP_Z}, {NULL, 0}};
+static const scene_keyword water_kernels[] = {
+    {"isotropic", SCENE_WATER_KERNEL_ISOTROPIC}, {"anisotropic", SCENE_WATER_KERNEL_ANISOTROPIC}, {NULL, 0}};
 
 /* Ranges and defaults of what the library has are its own: virga/water.h. */
 static const scene_row water_rows[] = {
@@ -34,6 +36,11 @@ static const scene_row water_rows[] = {
            "of a particle, in spacing_m^3. 1 fits a guessed spacing; SPlisHSPlasH has 0.8 of the cube of its own"),
     NUMBER(scene_water, kernel_spacings, 1, 4, "2", LIVE, "radius of the kernel, in spacings; larger is smoother"),
     NUMBER(scene_water, level, 0.05, 0.95, "0.5", LIVE, "density of the surface; 1 is inside the water"),
+    CHOICE(scene_water, kernel, water_kernels, "isotropic", LIVE,
+           "isotropic: balls; anisotropic: ellipsoids along the neighbours of each particle"),
+    NUMBER(scene_water, smoothing, 0, 1, "0.9", LIVE,
+           "(anisotropic) how far centers of kernels move towards the mean of their neighbours"),
+    NUMBER(scene_water, stretch, 1, 4, "2", LIVE, "(anisotropic) largest ratio of two axes of a kernel"),
     WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: by the files"),
     WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the files"),
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
@@ -161,6 +168,9 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.volume_m3 = (float)(from->volume * pow(p->source.spacing_m, 3));
     settings.kernel_spacings = (float)from->kernel_spacings;
     settings.level = (float)from->level;
+    settings.kernel = (virga_water_kernel)from->kernel;
+    settings.smoothing = (float)from->smoothing;
+    settings.stretch = (float)from->stretch;
     return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);
 }
 
@@ -236,6 +246,7 @@ const tool_effect water_effect = {
     .apply = apply,
     .fill_frame = fill_frame,
     .points = &water_points,
+    .mesh = &water_surface_mesh,
     .write_stats = write_stats,
     .title = "Water",
     TOOL_ROWS(count, counts),

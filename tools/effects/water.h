@@ -11,6 +11,8 @@ extern "C" {
 typedef enum scene_water_ids { SCENE_WATER_IDS_FILE, SCENE_WATER_IDS_ROWS, SCENE_WATER_IDS_NONE } scene_water_ids;
 typedef enum scene_water_up { SCENE_WATER_UP_Y, SCENE_WATER_UP_Z } scene_water_up;
 
+typedef enum scene_water_kernel { SCENE_WATER_KERNEL_ISOTROPIC, SCENE_WATER_KERNEL_ANISOTROPIC } scene_water_kernel;
+
 typedef struct scene_water {
     char *files; /* NULL: no water */
     double rate_hz;
@@ -23,6 +25,8 @@ typedef struct scene_water {
     double spacing_m; /* 0: guessed */
     double volume;    /* in spacing_m^3 */
     double kernel_spacings, level;
+    uint32_t kernel; /* scene_water_kernel */
+    double smoothing, stretch;
     uint32_t max_particles, max_cells, max_blocks, max_surfels; /* 0: by the particles */
 } scene_water;
 

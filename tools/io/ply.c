@@ -1,4 +1,4 @@
-/* ply.c - writes and reads point caches. */
+/* ply.c - writes point caches and meshes, and reads point caches. */
 #include "ply.h"
 
 #include "file.h"
@@ -47,7 +47,8 @@ static bool check_properties(const char *path, const ply_property *properties, u
     return true;
 }
 
-static char *make_header(const ply_property *properties, uint32_t property_count, uint64_t count,
+/* `faces` is NULL for points. */
+static char *make_header(const ply_property *properties, uint32_t property_count, uint64_t count, const uint64_t *faces,
                          const char *const *comments, size_t *size)
 {
     char *text = NULL;
@@ -61,6 +62,8 @@ static char *make_header(const ply_property *properties, uint32_t property_count
     fprintf(header, "element vertex %llu\n", (unsigned long long)count);
     for (uint32_t i = 0; i < property_count; i++)
         fprintf(header, "property %s %s\n", properties[i].type == PLY_UINT ? "uint" : "float", properties[i].name);
+    if (faces)
+        fprintf(header, "element face %llu\nproperty list uchar int vertex_indices\n", (unsigned long long)*faces);
     fputs("end_header\n", header);
     if (fclose(header) == 0)
         return text;
@@ -85,24 +88,58 @@ static void write_rows(file_writer *file, const ply_property *properties, uint32
     file_write(file, block, used);
 }
 
-bool ply_write(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
-               size_t stride, uint64_t count, const char *const *comments, char *error, size_t error_size)
+static void write_triangles(file_writer *file, const uint32_t (*triangles)[3], uint64_t count)
+{
+    enum { ROW = 1 + 3 * sizeof(uint32_t) };
+    uint8_t block[BLOCK];
+    size_t used = 0;
+    for (uint64_t i = 0; i < count; i++, used += ROW) {
+        if (used + ROW > BLOCK) {
+            if (!file_write(file, block, used))
+                return;
+            used = 0;
+        }
+        block[used] = 3;
+        memcpy(block + used + 1, triangles[i], sizeof triangles[i]);
+    }
+    file_write(file, block, used);
+}
+
+static bool write_file(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
+                       size_t stride, uint64_t count, const uint32_t (*triangles)[3], const uint64_t *triangle_count,
+                       const char *const *comments, char *error, size_t error_size)
 {
     file_writer file;
     size_t size = 0;
     if (!check_properties(path, properties, property_count, stride, error, error_size))
         return false;
-    char *header = make_header(properties, property_count, count, comments, &size);
+    char *header = make_header(properties, property_count, count, triangle_count, comments, &size);
     if (!header)
         return file_fail(error, error_size, "cannot write %s: no memory", path);
     bool ok = file_start(&file, path, error, error_size);
     if (ok) {
         file_write(&file, header, size);
         write_rows(&file, properties, property_count, rows, stride, count);
+        if (triangle_count)
+            write_triangles(&file, triangles, *triangle_count);
         ok = file_finish(&file, error, error_size);
     }
     free(header);
     return ok;
+}
+
+bool ply_write(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
+               size_t stride, uint64_t count, const char *const *comments, char *error, size_t error_size)
+{
+    return write_file(path, properties, property_count, rows, stride, count, NULL, NULL, comments, error, error_size);
+}
+
+bool ply_write_mesh(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
+                    size_t stride, uint64_t count, const uint32_t (*triangles)[3], uint64_t triangle_count,
+                    const char *const *comments, char *error, size_t error_size)
+{
+    return write_file(path, properties, property_count, rows, stride, count, triangles, &triangle_count, comments,
+                      error, error_size);
 }
 
 /* ---- reading ---- */

@@ -1,4 +1,4 @@
-/* ply.h - point caches: binary little-endian PLY with one element, vertex. */
+/* ply.h - point caches and triangle meshes: binary little-endian PLY. */
 #ifndef VIRGA_IO_PLY_H
 #define VIRGA_IO_PLY_H
 
@@ -21,6 +21,11 @@ typedef struct ply_property {
  * NULL) ends with NULL; each is one line of the header. A file without rows is valid. */
 bool ply_write(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
                size_t stride, uint64_t count, const char *const *comments, char *error, size_t error_size);
+
+/* The same with an element `face`: triangles, as lists `vertex_indices`. */
+bool ply_write_mesh(const char *path, const ply_property *properties, uint32_t property_count, const void *rows,
+                    size_t stride, uint64_t count, const uint32_t (*triangles)[3], uint64_t triangle_count,
+                    const char *const *comments, char *error, size_t error_size);
 
 /* A file in memory: property p of row r is value[r * property_count + p]. */
 typedef struct ply_points {

@@ -139,8 +139,9 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     const particle_sample *samples;
     const VkDeviceSize part = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
     float matrix[9];
-    if (!shot_blame_input(s, particle_sequence_at(state->source.sequence, time_s - from->start_s, &samples,
-                                                  &info->count, error, error_size)))
+    state->time_s = time_s - from->start_s;
+    if (!shot_blame_input(
+            s, particle_sequence_at(state->source.sequence, state->time_s, &samples, &info->count, error, error_size)))
         return false;
     world_from_file(from, matrix);
     info->particles = state->particles.buffer;
@@ -154,4 +155,22 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     state->volume_m3 = shares * from->volume * pow(state->source.spacing_m, 3);
     state->step_frame = s->device.frame;
     return true;
+}
+
+virga_particle_gpu *water_copy_particles(const shot *s, const water_state *state, uint32_t *count, char *error,
+                                         size_t error_size)
+{
+    const particle_sample *samples;
+    float matrix[9];
+    if (!particle_sequence_at(state->source.sequence, state->time_s, &samples, count, error, error_size))
+        return NULL;
+    *count = *count < state->max_particles ? *count : state->max_particles;
+    virga_particle_gpu *particles = malloc(*count * sizeof *particles + 1);
+    if (!particles) {
+        host_fail(error, error_size, "no memory for %u particles", *count);
+        return NULL;
+    }
+    world_from_file(scene_water_of(s->scene), matrix);
+    copy_samples(matrix, samples, *count, particles);
+    return particles;
 }

@@ -20,6 +20,7 @@ typedef struct water_state {
     water_source source;
     uint32_t max_particles; /* for which there is room */
     host_buffer particles;  /* HOST_FRAMES parts of max_particles */
+    double time_s;          /* of the files, in the newest step */
     uint32_t count;         /* of the newest step */
     double volume_m3;       /* of all particles of the newest step */
     uint64_t step_frame;    /* device frame of the newest step */
@@ -39,6 +40,11 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
 /* The newest statistics, if they are those of the newest step. */
 bool water_step_stats(shot *s, const water_state *state, virga_water_stats *stats);
 
+/* The particles of the newest step once more, needs free(). NULL: see `error`. */
+virga_particle_gpu *water_copy_particles(const shot *s, const water_state *state, uint32_t *count, char *error,
+                                         size_t error_size);
+
 extern const tool_points water_points;
+extern const tool_mesh water_surface_mesh;
 
 #endif

@@ -34,6 +34,7 @@ static const option_row rows[] = {
      "of the plate everywhere",
      false},
     {"--points", 0, NULL, "also write point caches, see below", false},
+    {"--meshes", 0, NULL, "also write triangle meshes, see below", false},
     {"--stats", 0, NULL, "also write stats.jsonl, one object per frame: counts, water, milliseconds", false},
     {"--preview", 0, NULL, "also write preview.%04d.png and, where ffmpeg is installed, preview.mp4", false},
     {"--plate", 0, "PATTERN",
@@ -61,6 +62,8 @@ void render_help(void)
     frame_layers_help();
     printf("\nPoint caches, with --points:\n");
     frame_points_help();
+    printf("\nTriangle meshes, with --meshes:\n");
+    frame_meshes_help();
     printf("\nExamples:\n"
            "  virga render assets/scenes/street.yaml -o out --frames 1 --size 640x360 --preview\n"
            "  virga render assets/scenes/storm.yaml -o out --samples 16 --points --stats\n"
@@ -81,7 +84,7 @@ typedef struct render_job {
     shot_options how;
     const char *directory;
     uint32_t frames[2], layers;
-    bool points, stats, preview, resume;
+    bool points, meshes, stats, preview, resume;
     jsonl stats_file;
     bool stats_open;
     bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
@@ -100,6 +103,7 @@ static bool read_options(render_job *job, int argc, char **argv)
     if (!job->directory)
         return options_complain("render", "expected -o DIR, the folder for the files");
     job->points = options_value(&job->parsed, "--points");
+    job->meshes = options_value(&job->parsed, "--meshes");
     job->stats = options_value(&job->parsed, "--stats");
     job->preview = options_value(&job->parsed, "--preview");
     job->resume = options_value(&job->parsed, "--resume");
@@ -208,6 +212,7 @@ static resume_request request_of(const render_job *job)
                             .plate = job->how.plate,
                             .water_velocity = job->how.water_velocity,
                             .points = job->points,
+                            .meshes = job->meshes,
                             .preview = job->preview,
                             .stats = job->stats};
 }
@@ -249,6 +254,7 @@ static bool write_frame(render_job *job, uint32_t frame)
         return false;
     virga_frame_completed(s->context, s->device.completed);
     if ((job->points && !frame_write_points(s, job->directory, frame, error, size)) ||
+        (job->meshes && !frame_write_meshes(s, job->directory, frame, error, size)) ||
         (job->preview && !frame_write_preview(s, job->directory, frame, error, size)) ||
         (job->stats && !frame_write_stats(s, &job->stats_file, frame, error, size)) ||
         !frame_write_exr(s, &camera, job->directory, frame, job->layers, error, size))

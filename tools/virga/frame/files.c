@@ -209,3 +209,46 @@ bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *er
             return false;
     return true;
 }
+
+/* ---- meshes */
+
+const char *frame_mesh_name(const scene_file *scene, uint32_t index)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->mesh && tool_effect_is_used(tool_effects[i], scene) && !index--)
+            return tool_effects[i]->mesh->name;
+    return NULL;
+}
+
+void frame_meshes_help(void)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->mesh)
+            printf("    %c %s.%%04d.ply%*s %s\n", tool_effects[i]->is_used ? '*' : ' ', tool_effects[i]->mesh->name,
+                   (int)(19 - strlen(tool_effects[i]->mesh->name)), "", tool_effects[i]->mesh->help);
+}
+
+static bool write_mesh(shot *s, const tool_mesh *mesh, void *state, const char *directory, uint32_t frame, char *error,
+                       size_t error_size)
+{
+    const char *const comments[] = {mesh->comment, NULL};
+    tool_mesh_data data = {0};
+    char path[4096];
+    frame_points_path(directory, mesh->name, frame, path, sizeof path);
+    const bool written =
+        mesh->make(s, state, &data, error, error_size) &&
+        ply_write_mesh(path, mesh->properties, mesh->property_count, data.vertices, mesh->stride, data.vertex_count,
+                       (const uint32_t(*)[3])data.triangles, data.triangle_count, comments, error, error_size);
+    free(data.vertices);
+    free(data.triangles);
+    return written;
+}
+
+bool frame_write_meshes(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; tool_effects[i]; i++)
+        if (tool_effects[i]->mesh && tool_effect_is_used(tool_effects[i], s->scene) &&
+            !write_mesh(s, tool_effects[i]->mesh, s->states[i], directory, frame, error, error_size))
+            return false;
+    return true;
+}

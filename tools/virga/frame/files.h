@@ -29,6 +29,11 @@ void frame_points_help(void);
 /* Writes all of them to DIR. */
 bool frame_write_points(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
 
+/* The same for triangle meshes; frame_points_path is theirs, too. */
+const char *frame_mesh_name(const scene_file *scene, uint32_t index);
+void frame_meshes_help(void);
+bool frame_write_meshes(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+
 /* Adds the frame's line to stats.jsonl: stats.c. */
 bool frame_write_stats(shot *s, jsonl *stats, uint32_t frame, char *error, size_t error_size);
 
