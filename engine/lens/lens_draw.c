@@ -241,7 +241,7 @@ virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const vir
         record_physical(lens, cmd, &filled);
     show_to_readers(context, cmd);
     virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0, 0, sizeof(virga_lens_state_gpu));
-    virga_effect_set_view(&lens->base, set, view->viewport);
+    virga_effect_set_view(&lens->base, set, view);
     return virga_check_uploads(context);
 }
 

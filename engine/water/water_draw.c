@@ -235,7 +235,7 @@ virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const 
     record_volumes(water, cmd, &block.look);
     record_list(water, cmd);
     record_splats(water, cmd, set, &block.look);
-    virga_effect_set_view(&water->base, set, view->viewport);
+    virga_effect_set_view(&water->base, set, view);
     picture->look = (view->depth.view ? VIRGA_WATER_LOOK_DEPTH : 0) | (view->color.view ? VIRGA_WATER_LOOK_COLOR : 0) |
                     (block.look.scale < 1 ? VIRGA_WATER_LOOK_SCALED : 0);
     return virga_check_uploads(context);
