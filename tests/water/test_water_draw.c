@@ -82,7 +82,7 @@ static void a_view_that_is_larger_than_the_images_shows_the_same_ball(void **sta
     (void)state;
     virga_water_def def = water_fixture_def();
     def.max_width = def.max_height = 96;
-    shot_open_with(&s, &def, 192, 192);
+    shot_open_with(&s, &def, 192, 192, false);
     s.scene = empty_scene;
     s.f.settings.spacing_m = (float)SPACING_M;
     water_fixture_shells(&s.f, origin, BALL_M, SPACING_M);

@@ -52,8 +52,20 @@ static void open_look(void)
     def.max_surfels = 2097152;
     def.max_width = WIDTH;
     def.max_height = HEIGHT;
-    shot_open_with(&s, &def, WIDTH, HEIGHT);
+    shot_open_with(&s, &def, WIDTH, HEIGHT, true);
     light_up();
+}
+
+/* Draws and saves a picture, and prints what it took. */
+static void look(const char *name)
+{
+    virga_pass_time times[32];
+    shot_draw(&s);
+    shot_save(&s, name);
+    const uint32_t count = virga_timings_get(s.f.context, times, 32);
+    printf("%s: %u particles, %u surfels\n", name, s.f.count, s.f.stats.surfels);
+    for (uint32_t i = 0; i < count && i < 32; i++)
+        printf("    %-24s %8.1f ms\n", times[i].name, times[i].milliseconds);
 }
 
 static void a_ball(void **state)
@@ -61,11 +73,11 @@ static void a_ball(void **state)
     (void)state;
     const double at[3] = {0.5, 0.45, 0.9}, to[3] = {0, 0.2, 0}, center[3] = {0, 0.22, 0};
     open_look();
+    s.f.settings.kernel = VIRGA_WATER_KERNEL_ANISOTROPIC;
     s.f.settings.spacing_m = 0.015f;
     water_fixture_ball(&s.f, center, 0.2, 0.015);
     shot_aim(&s, at, to);
-    shot_draw(&s);
-    shot_save(&s, "ball");
+    look("ball");
     shot_close(&s);
 }
 
@@ -77,6 +89,8 @@ static void a_cloud(void **state)
     const uint32_t counts[3] = {50, 8, 50};
     uint32_t hash = 5;
     open_look();
+    s.f.settings.kernel = VIRGA_WATER_KERNEL_ANISOTROPIC;
+    s.f.settings.spray_density = 0.35f;
     s.f.settings.spacing_m = 0.01f;
     water_fixture_box(&s.f, low, counts, 0.01, 0.2);
     for (int i = 0; i < 6000; i++) {
@@ -85,8 +99,7 @@ static void a_cloud(void **state)
         water_fixture_add(&s.f, wide * r * cos(phi), 0.08 + 0.35 * up * up, wide * r * sin(phi));
     }
     shot_aim(&s, at, to);
-    shot_draw(&s);
-    shot_save(&s, "cloud");
+    look("cloud");
     shot_close(&s);
 }
 
@@ -95,6 +108,8 @@ static void a_dam_break(void **state)
     (void)state;
     static const int frames[] = {20, 50, 60, 100, 120};
     open_look();
+    s.f.settings.kernel = VIRGA_WATER_KERNEL_ANISOTROPIC;
+    s.f.settings.spray_density = 0.35f;
     s.f.settings.spacing_m = 0.025f;
     s.f.settings.volume_m3 = 0.8f * 0.025f * 0.025f * 0.025f;
     for (int k = 0; k < 5; k++) {
@@ -111,9 +126,8 @@ static void a_dam_break(void **state)
         ply_free(&points);
         const double at[3] = {2.0, 0.75, 1.9}, to[3] = {0.6, 0.22, 0.36};
         shot_aim(&s, at, to);
-        shot_draw(&s);
         snprintf(name, sizeof name, "dam_break_%04d", frames[k]);
-        shot_save(&s, name);
+        look(name);
     }
     shot_close(&s);
 }

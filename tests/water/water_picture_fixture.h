@@ -34,13 +34,13 @@ typedef struct shot {
 static inline double shot_checkers(const shot *s, const double eye[3], const double direction[3], double rgb[3])
 {
     const double up = direction[1], distance = up < -1e-4 ? (s->floor_y - eye[1]) / up : INFINITY;
-    const double zenith[3] = {0.25, 0.45, 0.9}, horizon[3] = {0.85, 0.9, 0.95};
+    const double zenith[3] = {0.12, 0.25, 0.6}, horizon[3] = {0.6, 0.7, 0.8};
     const double x = floor((eye[0] + distance * direction[0]) / 0.1),
                  z = floor((eye[2] + distance * direction[2]) / 0.1);
     for (int i = 0; i < 3; i++) {
         const double sky = horizon[i] + (zenith[i] - horizon[i]) * sqrt(fmax(up, 0));
-        const double far = exp(-distance / 12);
-        const double floor_rgb = fmod(fabs(x + z), 2) < 0.5 ? 0.6 : (i == 0 ? 0.3 : 0.2);
+        const double far = exp(-distance / 8);
+        const double floor_rgb = fmod(fabs(x + z), 2) < 0.5 ? 0.35 : (i == 0 ? 0.09 : 0.05);
         rgb[i] = isfinite(distance) ? far * floor_rgb + (1 - far) * horizon[i] : sky;
     }
     return distance > 0 ? distance : INFINITY;
@@ -61,10 +61,10 @@ static inline void shot_target(shot *s, uint32_t width, uint32_t height)
     REQUIRE(s->pixels && s->plate);
 }
 
-static inline void shot_open_with(shot *s, const virga_water_def *def, uint32_t width, uint32_t height)
+static inline void shot_open_with(shot *s, const virga_water_def *def, uint32_t width, uint32_t height, bool timings)
 {
     memset(s, 0, sizeof *s);
-    water_fixture_open_with(&s->f, def, false);
+    water_fixture_open_with(&s->f, def, timings);
     s->scene = shot_checkers;
     REQUIRE(host_buffer_create(&s->f.gpu.device, 1 << 20, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HOST_BUFFER_UPLOAD, "extra",
                                &s->extra, s->f.gpu.error, sizeof s->f.gpu.error));
@@ -76,7 +76,7 @@ static inline void shot_open(shot *s, uint32_t width, uint32_t height)
     virga_water_def def = water_fixture_def();
     def.max_width = width;
     def.max_height = height;
-    shot_open_with(s, &def, width, height);
+    shot_open_with(s, &def, width, height, false);
 }
 
 static inline void shot_drop_scene(shot *s)
