@@ -103,6 +103,26 @@ static void a_cloud(void **state)
     shot_close(&s);
 }
 
+/* 208,125 particles in a pool with waves. */
+static void a_pool(void **state)
+{
+    (void)state;
+    const double at[3] = {0.4, 0.95, 1.5}, to[3] = {0, 0.35, 0}, d = 1.0 / 75;
+    open_look();
+    s.f.settings.kernel = VIRGA_WATER_KERNEL_ANISOTROPIC;
+    s.f.settings.spacing_m = (float)d;
+    for (int z = 0; z < 75; z++)
+        for (int y = 0; y < 37; y++)
+            for (int x = 0; x < 75; x++) {
+                const double u = d * (x - 37), v = d * (z - 37), up = d * (y + 0.5);
+                const double wave = 0.03 * sin(9 * u + 3 * v) + 0.015 * sin(20 * v - 11 * u + 1);
+                water_fixture_add(&s.f, u, up * (1 + wave / 0.5), v);
+            }
+    shot_aim(&s, at, to);
+    look("pool");
+    shot_close(&s);
+}
+
 static void a_dam_break(void **state)
 {
     (void)state;
@@ -137,6 +157,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball),
         cmocka_unit_test(a_cloud),
+        cmocka_unit_test(a_pool),
         cmocka_unit_test(a_dam_break),
     };
     if (!getenv("VIRGA_TEST_PICTURES")) {

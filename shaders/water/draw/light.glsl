@@ -59,6 +59,13 @@ vec2 inside_view(vec2 pixel)
     return clamp(pixel, low + 0.5, low + vec2(view.viewport[2], view.viewport[3]) - 0.5);
 }
 
+// How far what the scene's picture shows at a pixel lies behind the plane of the surface at the point.
+float below_surface(Point point, vec2 pixel)
+{
+    const float stored = buffer_depth(pixel), depth = stored == view.far_depth ? 1e4 : view_depth(stored);
+    return dot(point.normal, point.position - pixel_ray(floor(pixel) + 0.5) * depth); // where the depth was taken
+}
+
 // Where the ray meets the scene, as a length along the path. The scene behind a pixel is taken as a plane that is
 // parallel to the surface of the water: exact for a flat bottom, and on other scenes each step comes nearer.
 float meeting(Point point, Path path)
@@ -66,10 +73,7 @@ float meeting(Point point, Path path)
     float s = 0.0;
     for (int i = 0; i < STEPS; i++) {
         const vec2 pixel = inside_view(pixel_of(on_path(point, path, s)));
-        const float stored = buffer_depth(pixel);
-        const float depth = stored == view.far_depth ? 1e4 : view_depth(stored);
-        const vec3 seen = pixel_ray(floor(pixel) + 0.5) * depth; // where the depth was taken
-        const float below = max(dot(point.normal, point.position - seen), 0.0), wet = path.length_m * path.cos_water;
+        const float below = max(below_surface(point, pixel), 0.0), wet = path.length_m * path.cos_water;
         s = below < wet ? below / path.cos_water
                         : path.length_m + (below - wet) / max(-dot(path.out_of_water, point.normal), 0.1);
     }
@@ -81,8 +85,7 @@ vec3 scene_through(Point point, float s, Path path)
 {
     const vec2 own = gl_FragCoord.xy, pixel = pixel_of(on_path(point, path, s));
     const vec2 shifted = own + look.refraction * (pixel - own), inside = inside_view(shifted);
-    const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth ||
-                        view_depth(buffer_depth(inside)) > point.depth;
+    const bool behind = !HAS_DEPTH || buffer_depth(inside) == view.far_depth || below_surface(point, inside) > 0.0;
     const vec3 color = textureLod(scene_color, (behind ? inside : own) / vec2(textureSize(scene_color, 0)), 0.0).rgb;
     const vec2 outside = abs(shifted - inside) / vec2(view.viewport[2], view.viewport[3]);
     return mix(color, around(path.in_water), clamp(16.0 * max(outside.x, outside.y), 0.0, 1.0));
