@@ -122,7 +122,8 @@ static virga_result fit_device(const virga_context *context, void *given)
     reduced |= fit_pool(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
     reduced |= fit_pool(context, "water_def.max_spray", 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu),
                         &def->max_spray);
-    reduced |= fit_pool(context, "water_def.max_surfels", sizeof(virga_surfel_gpu), &def->max_surfels);
+    const uint32_t surfel_bytes = def->max_width ? VIRGA_WATER_SPLAT_TEXELS * 16 : sizeof(virga_surfel_gpu);
+    reduced |= fit_pool(context, "water_def.max_surfels", surfel_bytes, &def->max_surfels);
     return reduced ? VIRGA_DEGRADED : VIRGA_OK;
 }
 

@@ -76,7 +76,7 @@ struct virga_water {
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
         *shifts, *shapes, *centers, *surfels;
     water_spray spray;
-    uint32_t splash_half;  /* of the newest step */
+    uint32_t splash_half;  /* of the newest step that was no sub-frame */
     bool spray_goes_on;    /* the newest step had spray */
     uint32_t spray_serial; /* of that step */
     double spray_time_s;   /* of that step */
@@ -96,8 +96,8 @@ void water_read_statistics(void *water, uint64_t frame, uint32_t ring_slot, uint
 
 uint32_t water_table_entries(const virga_water_def *def); /* of one half */
 bool water_has_spray(const virga_water *water);
-void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *out);
-void water_spray_clear(const virga_water *water, VkCommandBuffer cmd);
+void water_spray_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out);
+void water_spray_clear(const virga_water *water, VkCommandBuffer cmd, uint32_t half);
 void water_spray_record(virga_water *water, VkCommandBuffer cmd);
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd);
 /* Volume of a particle (m^3), and the radius of surfels (m). */

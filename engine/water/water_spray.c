@@ -4,6 +4,8 @@
 
 #include "gpu/record.h"
 
+#include <math.h>
+
 /* Steps that are farther apart than this have nothing in common (s). */
 #define MAX_GAP_S 0.25
 
@@ -20,10 +22,13 @@ bool water_has_spray(const virga_water *water)
     return water->settings.spray_density > 0;
 }
 
-void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *out)
+/* The states are in two halves: this step's, and those of the last one. A sub-frame uses the older half as its own, and
+ * does not turn them. */
+void water_spray_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out)
 {
     const virga_water_settings *settings = &water->settings;
-    const double gap_s = time_s - water->spray_time_s;
+    const double gap_s =
+        info->sub_frame ? fabs(info->time_s - water->spray_time_s) : info->time_s - water->spray_time_s;
     double ratio, factor, level;
     water_spray_kernel((double)settings->level, &ratio, &factor, &level);
     /* (physical) By degrees: a particle that leaves the water does not jump from one to the other. */
@@ -40,25 +45,27 @@ void water_spray_fill(virga_water *water, double time_s, virga_water_step_gpu *o
     out->max_pieces = settings->spray_pieces;
     out->max_splashes = water->def.max_spray;
     out->max_droplets = water->def.max_droplets;
-    out->splash_half = water->splash_half ^= 1;
+    out->splash_half = water->splash_half ^ 1;
     out->splash_mask = water_table_entries(&water->def) - 1;
     if (water->spray_goes_on && water->spray_style == settings->style && gap_s >= 0 && gap_s <= MAX_GAP_S)
         out->serial_before = water->spray_serial;
-    if (++water->spray_serial == 0)
-        water->spray_serial = 1;
-    out->serial = water->spray_serial;
+    out->serial = water->spray_serial + 1 ? water->spray_serial + 1 : 1;
     out->gap_s = out->serial_before ? (float)gap_s : 0;
+    if (info->sub_frame)
+        return;
+    water->splash_half ^= 1;
+    water->spray_serial = out->serial;
     water->spray_goes_on = water_has_spray(water);
     water->spray_style = settings->style;
-    water->spray_time_s = time_s;
+    water->spray_time_s = info->time_s;
 }
 
 /* Empties the half of the table that this step fills, before the barrier at the start of its passes. */
-void water_spray_clear(const virga_water *water, VkCommandBuffer cmd)
+void water_spray_clear(const virga_water *water, VkCommandBuffer cmd, uint32_t half)
 {
     const VkDeviceSize bytes = (VkDeviceSize)water_table_entries(&water->def) * 4;
     const virga_context *context = water->base.context;
-    context->vk.CmdFillBuffer(cmd, water->spray.table->buffer, water->splash_half * bytes, bytes, 0);
+    context->vk.CmdFillBuffer(cmd, water->spray.table->buffer, half * bytes, bytes, 0);
     context->vk.CmdFillBuffer(cmd, water->state->buffer, offsetof(virga_water_state_gpu, splashes), 4 * 4, 0);
 }
 

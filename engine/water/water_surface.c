@@ -249,7 +249,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     memcpy(water->origin_m, info->origin_m, sizeof water->origin_m);
     water->step_particles[context->ring_slot] = particles;
     fill_step(water, particles, &step);
-    water_spray_fill(water, info->time_s, &step);
+    water_spray_fill(water, info, &step);
     const uint32_t offset = virga_ring_push(context, &water->step_ring, &step, sizeof step);
     const VkDescriptorSet grid_set = write_set(water, water->grid.bindings, info, particles);
     const step_set kernels = {water->kernel_bindings, write_set(water, water->kernel_bindings, info, particles),
@@ -259,7 +259,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     wait_for_readers(context, cmd);
     if (virga_effect_first_contents(&water->base, cmd))
         water->picture.has_layouts = false; /* the images may have lost their layouts */
-    water_spray_clear(water, cmd);
+    water_spray_clear(water, cmd, step.splash_half);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");

@@ -177,6 +177,21 @@ static void the_largest_speed_counts_until_the_particle_is_water_again(void **st
     water_fixture_close(&f);
 }
 
+static void sub_frames_leave_no_state(void **state)
+{
+    (void)state;
+    set_up();
+    add_drop(1, 1, 0);
+    assert_int_equal(droplets_at_speed(2.001, 0.01), 13);
+    f.sub_frame = true;
+    assert_int_equal(droplets_at_speed(9, -0.005), 25);
+    assert_int_equal(droplets_at_speed(0.5, 0.002), 13); /* as in the frame */
+    f.sub_frame = false;
+    assert_int_equal(droplets_at_speed(0.5, 0.01), 13);
+    assert_int_equal(droplets_at_speed(1.001, 0.01), 13);
+    water_fixture_close(&f);
+}
+
 static void states_follow_ids_through_any_order_and_number(void **state)
 {
     (void)state;
@@ -316,6 +331,7 @@ int main(void)
         cmocka_unit_test(spray_leaves_the_surface),
         cmocka_unit_test(droplets_share_the_volume_of_their_particle),
         cmocka_unit_test(the_largest_speed_counts_until_the_particle_is_water_again),
+        cmocka_unit_test(sub_frames_leave_no_state),
         cmocka_unit_test(states_follow_ids_through_any_order_and_number),
         cmocka_unit_test(the_order_of_particles_changes_no_bit_of_the_spray),
         cmocka_unit_test(surfels_of_spray_lie_on_the_surface_of_touching_droplets),

@@ -20,6 +20,7 @@ typedef struct water_fixture {
     virga_particle_gpu *particles; /* of the next step */
     uint32_t count;
     double origin_m[3], time_s;
+    bool sub_frame;
     /* Read back. */
     const float *densities;
     const virga_surfel_gpu *surfels;
@@ -80,7 +81,8 @@ static inline virga_result water_fixture_try(water_fixture *f)
 {
     VkDeviceSize offset = 0;
     const VkCommandBuffer cmd = effect_fixture_begin(&f->gpu, f->context);
-    virga_water_step_info info = {.particles = f->particle_buffer.buffer, .count = f->count, .time_s = f->time_s};
+    virga_water_step_info info = {
+        .particles = f->particle_buffer.buffer, .count = f->count, .time_s = f->time_s, .sub_frame = f->sub_frame};
     memcpy(info.origin_m, f->origin_m, sizeof info.origin_m);
     const virga_result result = virga_water_step(f->water, cmd, &info);
     effect_fixture_transfers(cmd);

@@ -226,6 +226,10 @@ typedef struct virga_water_step_info {
     /* [-1e9; 1e9] time that the particles are at (s), in the time of virga_water_prepare. Splash particles are followed
      * from step to step if it grows by 0.25 s at most; otherwise they begin anew. */
     double time_s;
+
+    /* true: another time of a frame that was stepped already, e.g. for motion blur. Splash particles are what they were
+     * in the last step without it, and later steps do not see this one. Default false. */
+    bool sub_frame;
 } virga_water_step_info;
 
 /* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device
