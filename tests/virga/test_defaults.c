@@ -79,6 +79,19 @@ static void water(void **state)
     SAME(kernel);
     SAME(smoothing);
     SAME(stretch);
+    for (int c = 0; c < 3; c++) {
+        SAME(absorption_1_m[c]);
+        SAME(scattering_1_m[c]);
+    }
+    SAME(spray_density);
+    SAME(spray_pieces);
+    SAME(spray_speed_m_s);
+    SAME(spray_pattern);
+    SAME(reflection);
+    SAME(refraction);
+    SAME(surfel_radius);
+    SAME(soft_m);
+    SAME(light_gain);
     assert_int_equal(SCENE_WATER_KERNEL_ISOTROPIC, VIRGA_WATER_KERNEL_ISOTROPIC);
     assert_int_equal(SCENE_WATER_KERNEL_ANISOTROPIC, VIRGA_WATER_KERNEL_ANISOTROPIC);
     assert_null(from->files);

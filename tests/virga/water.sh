@@ -45,6 +45,19 @@ for file in water water_mesh; do
     cmp "$work/all/$file.0004.ply" "$work/alone/$file.0004.ply" || fail "$file of frame 4 alone is another one"
 done
 
+# The ball covers some of the picture, and as much with sub-frames, which blur it.
+if command -v oiiotool >/dev/null; then
+    covered() { # FOLDER OPTION...
+        render "$@" --frames 5 --size 96x96 --layers beauty,water --set frames.shutter_deg=360
+        oiiotool --stats "$work/$1/frame.0005.exr" | awk '/Stats Avg/ { print $(NF - 1) }' # water.A, the last
+    }
+    sharp=$(covered sharp)
+    blurred=$(covered blurred --samples 4)
+    awk -v a="$sharp" -v b="$blurred" 'BEGIN { exit !(a > 0.002 && a < 0.1 && b > 0.9 * a && b < 1.1 * a) }' ||
+        fail "water covers '$sharp' of the picture, and '$blurred' with sub-frames"
+    cmp -s "$work/sharp/frame.0005.exr" "$work/blurred/frame.0005.exr" && fail "sub-frames do not blur the water"
+fi
+
 # Z up, and turned back.
 render turned --frames 3 --set water.up=z --set 'water.rotation_deg=[90, 0, 0]'
 python3 "$here/check_water.py" "$work/turned" 3 0.1 || fail "surfels of a turned frame"

@@ -41,6 +41,19 @@ static const scene_row water_rows[] = {
     NUMBER(scene_water, smoothing, 0, 1, "0.9", LIVE,
            "(anisotropic) how far centers of kernels move towards the mean of their neighbours"),
     NUMBER(scene_water, stretch, 1, 4, "2", LIVE, "(anisotropic) largest ratio of two axes of a kernel"),
+    NUMBER(scene_water, spray_density, 0, 0.9, "0.35", LIVE, "particles with less density become droplets; 0: none do"),
+    WHOLE(scene_water, spray_pieces, 1, 32, "25", LIVE, "droplets that a particle becomes at most"),
+    NUMBER(scene_water, spray_speed_m_s, 0.01, 1000, "4", LIVE, "speed at which it becomes so many"),
+    NUMBER(scene_water, spray_pattern, 0, 4, "1.25", LIVE, "radius of the ball that they are in, in spacings"),
+    NUMBER(scene_water, absorption_1_m, 0, 1000, "[0.29, 0.056, 0.0103]", LIVE,
+           "of light in the water (red, green, blue); that of pure water if left out"),
+    NUMBER(scene_water, scattering_1_m, 0, 1000, "[0, 0, 0]", LIVE,
+           "of light in the water (red, green, blue), which makes it milky"),
+    NUMBER(scene_water, reflection, 0, 4, "1", LIVE, "multiplies what the surface mirrors; 1: Fresnel"),
+    NUMBER(scene_water, refraction, 0, 4, "1", LIVE, "multiplies how far what is seen through the water is shifted"),
+    NUMBER(scene_water, surfel_radius, 0.5, 4, "1.25", LIVE, "multiplies the size of surfels; larger is smoother"),
+    NUMBER(scene_water, soft_m, 0, 10, "0.002", LIVE, "water fades over this depth where it meets geometry"),
+    NUMBER(scene_water, light_gain, 0, 1000, "1", LIVE, "multiplies the light of lamps on the water"),
     WHOLE(scene_water, max_particles, 0, 8388608, "0", RESTARTS, "64 bytes each; 0: by the files"),
     WHOLE(scene_water, max_cells, 0, 16777216, "0", RESTARTS, "of the neighbour grid; 17 bytes each; 0: by the files"),
     WHOLE(scene_water, max_blocks, 0, 1048576, "0", RESTARTS,
@@ -116,7 +129,9 @@ static void size_pools(const scene_water *from, const water_source *source, virg
     def->max_particles = size_of(from->max_particles, 2.0 * source->most, 4096, 8388608);
     def->max_cells = size_of(from->max_cells, cells, def->max_cells, 16777216);
     def->max_blocks = size_of(from->max_blocks, source->most, def->max_blocks, 1048576);
-    def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 8388608);
+    def->max_surfels = size_of(from->max_surfels, 4.0 * source->most, def->max_surfels, 2097152);
+    def->max_spray = size_of(0, 0.25 * source->most, def->max_spray, 262144);
+    def->max_droplets = size_of(0, 4.0 * source->most, def->max_droplets, 1048576);
     def->max_particles = def->max_particles < 64 ? 64 : def->max_particles;
     def->max_cells = def->max_cells < 4096 ? 4096 : def->max_cells;
     def->max_blocks = def->max_blocks < 64 ? 64 : def->max_blocks;
@@ -133,13 +148,34 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
     def->with_water = true;
     size_pools(scene_water_of(s->scene), &p->source, &def->water);
     p->max_particles = def->water.max_particles;
+    def->water.max_width = s->options.draw ? s->options.width : 0;
+    def->water.max_height = s->options.draw ? s->options.height : 0;
     return true;
+}
+
+/* A panorama that is turned is seen by its harmonics alone: the library has no angle for it. */
+static bool mirror_environment(shot *s, virga_water *water, char *error, size_t error_size)
+{
+    const host_image *sky = &s->environment.sky;
+    const virga_image panorama = {.image = sky->image,
+                                  .view = sky->view,
+                                  .format = sky->format,
+                                  .extent = {sky->extent.width, sky->extent.height},
+                                  .layers = 1,
+                                  .before = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                             VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT},
+                                  .after = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                            VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT}};
+    return s->environment.rotation != 0 ||
+           shot_ok(s, virga_water_environment(water, &panorama), "mirroring the environment", error, error_size);
 }
 
 static bool open_state(shot *s, void *state, char *error, size_t error_size)
 {
     water_state *p = state;
     p->water = virga_scene_water(s->simulation);
+    if (p->water && !mirror_environment(s, p->water, error, error_size))
+        return false;
     return !p->water ||
            host_buffer_create(&s->device, (VkDeviceSize)p->max_particles * sizeof(virga_particle_gpu) * HOST_FRAMES,
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HOST_BUFFER_UPLOAD, "particles", &p->particles, error,
@@ -168,9 +204,23 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.volume_m3 = (float)(from->volume * pow(p->source.spacing_m, 3));
     settings.kernel_spacings = (float)from->kernel_spacings;
     settings.level = (float)from->level;
+    settings.spray_density = (float)from->spray_density;
+    settings.spray_pieces = from->spray_pieces;
+    settings.spray_speed_m_s = (float)from->spray_speed_m_s;
+    settings.spray_pattern = (float)from->spray_pattern;
     settings.kernel = (virga_water_kernel)from->kernel;
     settings.smoothing = (float)from->smoothing;
     settings.stretch = (float)from->stretch;
+    for (int c = 0; c < 3; c++) {
+        settings.absorption_1_m[c] = (float)from->absorption_1_m[c];
+        settings.scattering_1_m[c] = (float)from->scattering_1_m[c];
+    }
+    settings.reflection = (float)from->reflection;
+    settings.refraction = (float)from->refraction;
+    settings.surfel_radius = (float)from->surfel_radius;
+    settings.soft_m = (float)from->soft_m;
+    settings.light_gain = (float)from->light_gain;
+    settings.lighting = s->lighting;
     return shot_ok(s, virga_water_set(p->water, &settings), "setting the water", error, error_size);
 }
 
@@ -179,8 +229,39 @@ static bool fill_frame(shot *s, void *state, double time_s, const host_camera *c
 {
     water_state *p = state;
     (void)camera;
-    return !p->water || water_fill_particles(s, p, time_s, &frame->water, error, error_size);
+    p->frame_s = time_s - scene_water_of(s->scene)->start_s;
+    return !p->water || water_fill_particles(s, p, p->frame_s, &frame->water, error, error_size);
 }
+
+/* ---- picture -------------------------------------------------------------------------------------------------- */
+
+/* Water is drawn where the particles of its step are. So each sub-frame has a step at its own time, unless the shot has
+ * stepped in this very frame. */
+static bool step_sub_frame(shot *s, water_state *p, VkCommandBuffer cmd, double late_s, char *error, size_t error_size)
+{
+    virga_water_step_info info = {.sub_frame = true};
+    return (p->step_frame == s->device.frame && p->time_s == p->frame_s - late_s) ||
+           (water_fill_particles(s, p, p->frame_s - late_s, &info, error, error_size) &&
+            shot_ok(s, virga_water_step(p->water, cmd, &info), "stepping the water", error, error_size));
+}
+
+static bool prepare(shot *s, void *state, VkCommandBuffer cmd, const tool_moment *at, char *error, size_t error_size)
+{
+    water_state *p = state;
+    return !p->water ||
+           (step_sub_frame(s, p, cmd, at->late_s, error, error_size) &&
+            shot_ok(s, virga_water_prepare(p->water, cmd, at->jittered), "preparing the water", error, error_size));
+}
+
+static virga_result draw(void *state, VkCommandBuffer cmd, const virga_target *target)
+{
+    const water_state *p = state;
+    return p->water ? virga_water_draw(p->water, cmd, target) : VIRGA_OK;
+}
+
+static const tool_layer layers[] = {
+    {TOOL_COLOR_LAYER("water", draw, 15, "water", "the water alone")},
+};
 
 /* ---- files of a frame ----------------------------------------------------------------------------------------- */
 
@@ -204,6 +285,10 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_number(stats, "volume_l", 1000 * p->volume_m3);
     jsonl_uint64(stats, "surfels", now.surfels);
     jsonl_uint64(stats, "surfels_dropped", now.surfels_dropped);
+    jsonl_uint64(stats, "splashes", now.splashes);
+    jsonl_uint64(stats, "splashes_dropped", now.splashes_dropped);
+    jsonl_uint64(stats, "droplets", now.droplets);
+    jsonl_uint64(stats, "droplets_dropped", now.droplets_dropped);
     jsonl_uint64(stats, "blocks", now.blocks);
     jsonl_uint64(stats, "blocks_dropped", now.blocks_dropped);
     jsonl_end(stats);
@@ -245,6 +330,8 @@ const tool_effect water_effect = {
     .close = close_state,
     .apply = apply,
     .fill_frame = fill_frame,
+    TOOL_ROWS(layer, layers),
+    .prepare = prepare,
     .points = &water_points,
     .mesh = &water_surface_mesh,
     .write_stats = write_stats,

@@ -27,6 +27,10 @@ typedef struct scene_water {
     double kernel_spacings, level;
     uint32_t kernel; /* scene_water_kernel */
     double smoothing, stretch;
+    double spray_density, spray_speed_m_s, spray_pattern;
+    uint32_t spray_pieces;
+    double absorption_1_m[3], scattering_1_m[3];
+    double reflection, refraction, surfel_radius, soft_m, light_gain;
     uint32_t max_particles, max_cells, max_blocks, max_surfels; /* 0: by the particles */
 } scene_water;
 

@@ -139,11 +139,12 @@ bool water_fill_particles(shot *s, water_state *state, double time_s, virga_wate
     const particle_sample *samples;
     const VkDeviceSize part = (VkDeviceSize)state->max_particles * sizeof(virga_particle_gpu);
     float matrix[9];
-    state->time_s = time_s - from->start_s;
+    state->time_s = time_s;
     if (!shot_blame_input(
             s, particle_sequence_at(state->source.sequence, state->time_s, &samples, &info->count, error, error_size)))
         return false;
     world_from_file(from, matrix);
+    info->time_s = time_s;
     info->particles = state->particles.buffer;
     info->offset = s->device.frame % HOST_FRAMES * part;
     memcpy(info->origin_m, from->position_m, sizeof info->origin_m);

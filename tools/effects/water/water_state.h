@@ -20,7 +20,7 @@ typedef struct water_state {
     water_source source;
     uint32_t max_particles; /* for which there is room */
     host_buffer particles;  /* HOST_FRAMES parts of max_particles */
-    double time_s;          /* of the files, in the newest step */
+    double frame_s, time_s; /* of the files, in the newest frame of the shot and in the newest step */
     uint32_t count;         /* of the newest step */
     double volume_m3;       /* of all particles of the newest step */
     uint64_t step_frame;    /* device frame of the newest step */
@@ -33,7 +33,7 @@ bool water_open_sequence(const scene_file *scene, particle_sequence **sequence, 
 /* Opens them, and reads the last and the first one. Tells on standard error what was guessed. */
 bool water_open_source(const scene_file *scene, water_source *source, char *error, size_t error_size);
 
-/* Fills the particles of a step. */
+/* Fills the particles of a step at a time of the files. */
 bool water_fill_particles(shot *s, water_state *state, double time_s, virga_water_step_info *info, char *error,
                           size_t error_size);
 
