@@ -279,13 +279,16 @@ static void surfels_of_spray_lie_on_the_surface_of_touching_droplets(void **stat
     water_fixture_close(&f);
 }
 
-/* The half of the states that the frame should have written is not read. */
+/* The half of the states that the frame should have written is not read: it is that of the frame before the last. */
 static void a_frame_that_is_thrown_away_leaves_no_states(void **state)
 {
     (void)state;
     set_up();
     add_drop(1, 1, 0);
     assert_int_equal(droplets_at_speed(2.001, 0.01), 13);
+    f.particles[0].id = 77;
+    assert_int_equal(droplets_at_speed(0.5, 0.01), 4);
+    f.particles[0].id = 0;
     host_device *device = &f.gpu.device;
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
