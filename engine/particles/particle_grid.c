@@ -21,6 +21,25 @@ static uint32_t groups_of(uint32_t items, uint32_t each)
     return (items + each - 1) / each;
 }
 
+static void over_cells(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid,
+                       const virga_pipeline *pass, size_t groups)
+{
+    virga_dispatch_indirect_and_barrier(context, cmd, pass, grid->state->buffer, groups);
+}
+
+/* Counts become indices. */
+static void sum_up(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
+{
+    over_cells(context, cmd, grid, grid->sums, offsetof(virga_particle_grid_gpu, scan_groups));
+    virga_dispatch_and_barrier(context, cmd, grid->scan, 1);
+    over_cells(context, cmd, grid, grid->offsets, offsetof(virga_particle_grid_gpu, scan_groups));
+}
+
+static void put_in_order(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
+{
+    over_cells(context, cmd, grid, grid->order, offsetof(virga_particle_grid_gpu, cell_groups));
+}
+
 void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkDescriptorSet set,
                           uint32_t offset, uint32_t particles)
 {
@@ -39,14 +58,18 @@ void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const par
     virga_dispatch_and_barrier(context, cmd, grid->window, 1);
     virga_dispatch_and_barrier(context, cmd, grid->count, groups);
     virga_dispatch_and_barrier(context, cmd, grid->thin, groups);
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->sums, state,
-                                        offsetof(virga_particle_grid_gpu, scan_groups));
-    virga_dispatch_and_barrier(context, cmd, grid->scan, 1);
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->offsets, state,
-                                        offsetof(virga_particle_grid_gpu, scan_groups));
+    sum_up(context, cmd, grid);
     virga_dispatch_and_barrier(context, cmd, grid->fill, groups);
-    virga_dispatch_indirect_and_barrier(context, cmd, grid->order, state,
-                                        offsetof(virga_particle_grid_gpu, cell_groups));
+    put_in_order(context, cmd, grid);
     virga_dispatch_indirect_and_barrier(context, cmd, grid->copy, state,
                                         offsetof(virga_particle_grid_gpu, sorted_groups));
+}
+
+void particle_grid_sort(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkBuffer arguments,
+                        VkDeviceSize offset)
+{
+    virga_dispatch_indirect_and_barrier(context, cmd, grid->thin, arguments, offset);
+    sum_up(context, cmd, grid);
+    virga_dispatch_indirect_and_barrier(context, cmd, grid->fill, arguments, offset);
+    put_in_order(context, cmd, grid);
 }

@@ -97,4 +97,10 @@ enum { PARTICLE_GRID_BIND_STEP, PARTICLE_GRID_BIND_PARTICLES = 2, PARTICLE_GRID_
 void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkDescriptorSet set,
                           uint32_t offset, uint32_t particles);
 
+/* The sort alone, for an effect that places the grid and counts the particles of its cells itself: from their counts
+ * and tickets to the list of sorted indices. The set is bound, and `arguments` has workgroups for an invocation per
+ * particle. Ends with a barrier. */
+void particle_grid_sort(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkBuffer arguments,
+                        VkDeviceSize offset);
+
 #endif

@@ -14,12 +14,15 @@
 #ifndef GRID_STEP // the uniform block of the effect; it begins with the members of this one
 #define GRID_STEP virga_particle_step_gpu
 #endif
+#ifndef PARTICLES_ACCESS
+#define PARTICLES_ACCESS readonly
+#endif
 #ifndef GRID_ACCESS
 #define GRID_ACCESS readonly
 #endif
 
 layout(scalar, set = 0, binding = 0) uniform Step { GRID_STEP frame; };
-layout(scalar, set = 0, binding = 2) readonly buffer Particles { virga_particle_gpu particles[]; };
+layout(scalar, set = 0, binding = 2) PARTICLES_ACCESS buffer Particles { virga_particle_gpu particles[]; };
 layout(scalar, set = 0, binding = 3) GRID_ACCESS buffer Grid { virga_particle_grid_gpu grid; };
 // For each cell: the number of its particles. After the prefix sum: index of its first sorted particle.
 layout(std430, set = 0, binding = 4) GRID_ACCESS buffer CellStarts { uint cell_starts[]; };

@@ -3,6 +3,7 @@
 #define VIRGA_VIRGA_H
 #include <virga/base.h>
 #include <virga/drops.h>
+#include <virga/fluid.h>
 #include <virga/glass.h>
 #include <virga/ground.h>
 #include <virga/lens.h>

@@ -1,0 +1,359 @@
+/* fluid/fluid.c - creates and destroys fluid objects, applies settings, takes blocks of water, and answers queries. */
+#include "fluid/fluid_internal.h"
+
+#include "core/settings.h"
+#include "gpu/errors.h"
+#include "particles/particle_grid_shaders.inc"
+
+#include "shaders/fluid_add_comp.spv.h"
+#include "shaders/fluid_advance_comp.spv.h"
+#include "shaders/fluid_begin_comp.spv.h"
+#include "shaders/fluid_check_comp.spv.h"
+#include "shaders/fluid_copy_comp.spv.h"
+#include "shaders/fluid_correct_comp.spv.h"
+#include "shaders/fluid_count_comp.spv.h"
+#include "shaders/fluid_forces_comp.spv.h"
+#include "shaders/fluid_neighbours_comp.spv.h"
+#include "shaders/fluid_push_comp.spv.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define DEF_COOKIE      VIRGA_COOKIE(33)
+#define SETTINGS_COOKIE VIRGA_COOKIE(34)
+
+/* ---- defaults */
+
+#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(fluid_def, virga_fluid_def, kind, member, __VA_ARGS__)
+#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(fluid_settings, virga_fluid_settings, kind, member, __VA_ARGS__)
+
+static const virga_setting_row def_rows[] = {
+    DEF(U32, max_particles, 64, 2097152, 65536),
+    DEF(U32, max_cells, 4096, 16777216, 262144),
+    DEF(U32, max_substeps, 1, 64, 8),
+    DEF(U32, max_iterations, 1, 100, 20),
+};
+
+static const virga_setting_row setting_rows[] = {
+    SETTING(FLOAT, spacing_m, 1e-4, 10, 0.02),
+    SETTING(FLOAT, viscosity_m2_s, 0, 10, 0.001),
+    SETTING(FLOAT, cfl, 0.05, 1, 0.4),
+    SETTING(FLOAT, solver_error, 1e-6, 0.01, 0.0001),
+};
+
+virga_fluid_def virga_default_fluid_def(void)
+{
+    virga_fluid_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
+    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
+    return def;
+}
+
+virga_fluid_settings virga_default_fluid_settings(void)
+{
+    virga_fluid_settings settings = {.size = sizeof settings,
+                                     .cookie = SETTINGS_COOKIE,
+                                     .low_m = {-0.5f, 0, -0.5f},
+                                     .high_m = {0.5f, 1, 0.5f},
+                                     .gravity_m_s2 = {0, -9.81f, 0}};
+    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
+    return settings;
+}
+
+static virga_result check_def(const virga_log *log, void *given)
+{
+    virga_fluid_def *def = given;
+    (void)log;
+    /* Whole workgroups of the passes over cells. */
+    def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
+    return VIRGA_OK;
+}
+
+/* The lists are the largest buffer by far. */
+static virga_result fit_device(const virga_context *context, void *given)
+{
+    virga_fluid_def *def = given;
+    const uint32_t bytes = context->properties.limits.maxStorageBufferRange;
+    const uint32_t max = bytes / (16 * VIRGA_FLUID_LIST_TEXELS);
+    if (def->max_particles <= max)
+        return VIRGA_OK;
+    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "fluid_def.max_particles: %u, as storage buffers of this device hold no more than %u bytes", max,
+                    bytes);
+    def->max_particles = max;
+    return VIRGA_DEGRADED;
+}
+
+/* ---- resources */
+
+enum { COUNT_PARTICLES = 1, COUNT_CELLS, COUNT_SCAN_GROUPS, COUNT_LIST_TEXELS, COUNT_BLOCKS };
+
+static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
+{
+    const virga_fluid_def *def = given;
+    counts[COUNT_PARTICLES] = def->max_particles;
+    counts[COUNT_CELLS] = def->max_cells;
+    counts[COUNT_SCAN_GROUPS] = def->max_cells / VIRGA_GRID_SCAN_CELLS;
+    counts[COUNT_LIST_TEXELS] = (VkDeviceSize)def->max_particles * VIRGA_FLUID_LIST_TEXELS;
+    counts[COUNT_BLOCKS] = FLUID_MAX_BLOCKS + 1;
+}
+
+#define AT(member) offsetof(virga_fluid, member)
+#define DEVICE     VIRGA_HEAP_DEVICE
+
+static const virga_effect_buffer buffers[] = {
+    PARTICLE_GRID_BUFFERS(virga_fluid, "fluid", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
+    {"fluid.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_fluid_state_gpu),
+     .first = VIRGA_FIRST_FILL},
+    {"fluid.particles", AT(slots), VIRGA_USE_STORAGE, DEVICE, .entry = sizeof(virga_particle_gpu),
+     .count = COUNT_PARTICLES, .first = VIRGA_FIRST_FILL},
+    {"fluid.pressures", AT(slot_pressures), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PARTICLES,
+     .first = VIRGA_FIRST_FILL},
+    {"fluid.places", AT(places), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"fluid.moved", AT(moved), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"fluid.walls", AT(walls), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"fluid.solved", AT(solved), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
+    {"fluid.lists", AT(lists), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_LIST_TEXELS},
+};
+
+static const virga_effect_ring rings[] = {
+    {"fluid.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_step_gpu), VIRGA_COUNT_ONE},
+    {"fluid.adds", AT(add_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_add_gpu), COUNT_BLOCKS},
+};
+
+#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
+#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+#define DYNAMIC VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+
+static const virga_binding_kind grid_bindings[] = {
+    PARTICLE_GRID_BINDING_ROWS(virga_fluid, step_ring, virga_fluid_step_gpu),
+};
+
+static const virga_binding_kind add_bindings[] = {
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(add_ring), sizeof(virga_fluid_add_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                               /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                               /* 2 */
+    [FLUID_BIND_ADDED] = {STORAGE, COMPUTE},                                          /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                      /* 4 */
+};
+
+static const virga_binding_kind bindings[] = {
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_fluid_step_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slots)},                                 /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.tickets)},                          /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                        /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(places)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(walls)},                                 /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(lists)},                                 /* 14 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(places)},                                 /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                  /* 18 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                  /* 19 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                  /* 20 */
+};
+
+static const virga_effect_layout layouts[] = {
+    [FLUID_LAYOUT_GRID] = PARTICLE_GRID_LAYOUT(virga_fluid, grid_bindings, 1),
+    [FLUID_LAYOUT_ADD] = {AT(add_bindings), add_bindings, VIRGA_ROWS(add_bindings), 1, 0},
+    [FLUID_LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
+};
+
+#define PASS(pass, layout)                                                           \
+    {                                                                                \
+        "fluid." #pass, AT(pass), VIRGA_SPIRV_ROW(fluid_##pass##_comp), 0, 0, layout \
+    }
+#define GRID_PASS(pass) PARTICLE_GRID_PASS(virga_fluid, "fluid", pass, FLUID_LAYOUT_GRID)
+static const virga_effect_pass passes[] = {
+    PASS(add, FLUID_LAYOUT_ADD),
+    PASS(begin, FLUID_LAYOUT_STEP),
+    PASS(count, FLUID_LAYOUT_STEP),
+    GRID_PASS(thin),
+    GRID_PASS(sums),
+    GRID_PASS(scan),
+    GRID_PASS(offsets),
+    GRID_PASS(fill),
+    GRID_PASS(order),
+    PASS(copy, FLUID_LAYOUT_STEP),
+    PASS(neighbours, FLUID_LAYOUT_STEP),
+    PASS(push, FLUID_LAYOUT_STEP),
+    PASS(correct, FLUID_LAYOUT_STEP),
+    PASS(check, FLUID_LAYOUT_STEP),
+    PASS(forces, FLUID_LAYOUT_STEP),
+    PASS(advance, FLUID_LAYOUT_STEP),
+};
+
+static const virga_effect_pool pools[] = {
+    {"max_particles", offsetof(virga_fluid_def, max_particles), 64, 64},
+    {"max_cells", offsetof(virga_fluid_def, max_cells), 4096, VIRGA_GRID_SCAN_CELLS},
+};
+
+static void describe(const void *object, char *line, size_t size)
+{
+    const virga_fluid *fluid = object;
+    snprintf(line, size, "fluid: up to %u particles", fluid->def.max_particles);
+}
+
+/* ---- settings */
+
+#define MAX_POSITION_M 10000.0f
+#define MIN_SPACINGS   4 /* of a side of the box */
+
+void fluid_grid_box(const virga_fluid_settings *settings, int32_t first[3], uint32_t dims[3])
+{
+    const float inv_cell_m = 1 / (2 * settings->spacing_m);
+    for (int axis = 0; axis < 3; axis++) {
+        const int32_t low = (int32_t)floorf(settings->low_m[axis] * inv_cell_m);
+        const int32_t high = (int32_t)floorf(settings->high_m[axis] * inv_cell_m);
+        first[axis] = low - VIRGA_GRID_MARGIN;
+        dims[axis] = (uint32_t)(high - low + 1 + 2 * VIRGA_GRID_MARGIN);
+    }
+}
+
+static virga_result check_box(const virga_fluid *fluid, const virga_fluid_settings *settings)
+{
+    const virga_log *log = &fluid->base.context->log;
+    int32_t first[3];
+    uint32_t dims[3];
+    for (int axis = 0; axis < 3; axis++) {
+        const double side = (double)settings->high_m[axis] - (double)settings->low_m[axis];
+        const double spacing = (double)settings->spacing_m;
+        if (side < MIN_SPACINGS * spacing)
+            return virga_wrong_argument(log,
+                                        "fluid_settings.high_m[%d]: expected at least %d spacings of %g m above "
+                                        "low_m, got a side of %g m",
+                                        axis, MIN_SPACINGS, spacing, side);
+        if (side > 2 * spacing * fluid->def.max_cells || fabsf(settings->low_m[axis]) / settings->spacing_m > 4e5f ||
+            fabsf(settings->high_m[axis]) / settings->spacing_m > 4e5f)
+            return virga_wrong_argument(log,
+                                        "fluid_settings.low_m, high_m: too large or too far for particles %g m "
+                                        "apart",
+                                        spacing);
+    }
+    fluid_grid_box(settings, first, dims);
+    if ((double)dims[0] * dims[1] * dims[2] > fluid->def.max_cells)
+        return virga_wrong_argument(log,
+                                    "fluid_settings.low_m, high_m: the box needs %u x %u x %u cells, and "
+                                    "fluid_def.max_cells is %u",
+                                    dims[0], dims[1], dims[2], fluid->def.max_cells);
+    return VIRGA_OK;
+}
+
+static virga_result check_settings(const void *object, void *settings, bool *changed)
+{
+    const virga_fluid *fluid = object;
+    const virga_log *log = &fluid->base.context->log;
+    virga_fluid_settings *next = settings;
+    if (virga_settings_check_finite(log, "fluid_settings.low_m", next->low_m, 3) ||
+        virga_settings_check_finite(log, "fluid_settings.high_m", next->high_m, 3) ||
+        virga_settings_check_finite(log, "fluid_settings.gravity_m_s2", next->gravity_m_s2, 3))
+        return VIRGA_ERROR_INVALID;
+    virga_clamp_vector(log, "fluid_settings.low_m", next->low_m, MAX_POSITION_M, changed);
+    virga_clamp_vector(log, "fluid_settings.high_m", next->high_m, MAX_POSITION_M, changed);
+    virga_clamp_vector(log, "fluid_settings.gravity_m_s2", next->gravity_m_s2, VIRGA_MAX_ACCELERATION_M_S2, changed);
+    return check_box(fluid, next);
+}
+
+VIRGA_EFFECT_FUNCTIONS(fluid)
+VIRGA_EFFECT_STATISTICS_FUNCTION(fluid)
+
+const virga_effect_type fluid_type = {
+    VIRGA_EFFECT_TYPE(fluid, "fluid", "fluid_settings"),
+    .fit_device = fit_device,
+    .check_settings = check_settings,
+    .lost = fluid_lost,
+};
+
+/* ---- blocks of water */
+
+/* Particles along an axis; 0 if there is none, or far too many. */
+static uint32_t particles_along(const virga_fluid_block *block, int axis, double spacing)
+{
+    const double side = (double)block->high_m[axis] - (double)block->low_m[axis], along = floor(side / spacing + 0.5);
+    return along >= 1 && along <= 1e6 ? (uint32_t)along : 0;
+}
+
+static virga_result check_block(const virga_log *log, const virga_fluid_block *block)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (!(fabsf(block->low_m[axis]) <= MAX_POSITION_M && fabsf(block->high_m[axis]) <= MAX_POSITION_M &&
+              fabsf(block->velocity_m_s[axis]) <= VIRGA_MAX_SPEED_M_S))
+            return virga_wrong_argument(log, "fluid_block: axis %d from %g to %g m at %g m/s is out of range", axis,
+                                        (double)block->low_m[axis], (double)block->high_m[axis],
+                                        (double)block->velocity_m_s[axis]);
+    return VIRGA_OK;
+}
+
+virga_result virga_fluid_add(virga_fluid *fluid, const virga_fluid_block *block)
+{
+    if (!fluid || !block)
+        return VIRGA_ERROR_INVALID;
+    const virga_log *log = &fluid->base.context->log;
+    const double spacing = (double)fluid->settings.spacing_m;
+    if (check_block(log, block))
+        return VIRGA_ERROR_INVALID;
+    if (fluid->block_count == FLUID_MAX_BLOCKS)
+        return virga_wrong_argument(log, "virga_fluid_add: expected up to %d blocks between two steps",
+                                    FLUID_MAX_BLOCKS);
+    virga_fluid_add_gpu add = {.spacing_m = fluid->settings.spacing_m, .first_slot = fluid->particles};
+    double count = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        add.counts[axis] = particles_along(block, axis, spacing);
+        add.low_m[axis] = block->low_m[axis] + fluid->settings.spacing_m / 2;
+        add.velocity_m_s[axis] = block->velocity_m_s[axis];
+        count *= add.counts[axis];
+    }
+    if (!(count >= 1))
+        return virga_wrong_argument(log, "fluid_block: a block of %u x %u x %u particles", add.counts[0], add.counts[1],
+                                    add.counts[2]);
+    if (count > fluid->def.max_particles - fluid->particles)
+        return virga_wrong_argument(log, "fluid_block: %.0f particles, and there is room for %u more", count,
+                                    fluid->def.max_particles - fluid->particles);
+    add.count = (uint32_t)count;
+    add.first_id = fluid->particles;
+    fluid->particles += add.count;
+    fluid->blocks[fluid->block_count++] = add;
+    return VIRGA_OK;
+}
+
+virga_result virga_fluid_clear(virga_fluid *fluid)
+{
+    if (!fluid)
+        return VIRGA_ERROR_INVALID;
+    fluid->particles = fluid->block_count = 0;
+    memset(fluid->sent, 0, sizeof fluid->sent);
+    return VIRGA_OK;
+}
+
+/* ---- queries */
+
+static virga_fluid_buffer first_bytes(const virga_fluid *fluid, const virga_buffer *buffer, VkDeviceSize each)
+{
+    const bool any = fluid->base.contents && fluid->particles;
+    return any ? (virga_fluid_buffer){buffer->buffer, 0, fluid->particles * each} : (virga_fluid_buffer){0};
+}
+
+void virga_fluid_particles(const virga_fluid *fluid, virga_fluid_buffer *particles, uint32_t *number)
+{
+    const virga_fluid_buffer found =
+        fluid ? first_bytes(fluid, fluid->slots, sizeof(virga_particle_gpu)) : (virga_fluid_buffer){0};
+    if (particles)
+        *particles = found;
+    if (number)
+        *number = (uint32_t)(found.size / sizeof(virga_particle_gpu));
+}
+
+void virga_fluid_pressures(const virga_fluid *fluid, virga_fluid_buffer *pressures)
+{
+    if (pressures)
+        *pressures = fluid ? first_bytes(fluid, fluid->slot_pressures, 8) : (virga_fluid_buffer){0};
+}

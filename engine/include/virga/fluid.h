@@ -1,0 +1,187 @@
+/* virga/fluid.h - simulates water: particles in a box.
+ *
+ * The method is smoothed particle hydrodynamics with a flow that is kept free of divergence (DFSPH, Bender and Koschier
+ * 2015 and 2017). The water keeps its volume, and time steps are as long as a particle needs for a part of its own
+ * size, not as short as waves of sound ask for. Two things differ from the papers. One solver does the work of two: it
+ * keeps the flow free of divergence and takes back, little by little, what the density is too high; a second solver for
+ * the density makes standing water boil. And its iterations are accelerated (Nesterov's method), so that their number
+ * grows with the depth in particles and not with its square. Walls of the box have no particles but closed forms.
+ *
+ * The particles are in a buffer that virga_water_step takes as it is:
+ *
+ *     virga_fluid_add(fluid, &block);                 // once
+ *
+ *     virga_fluid_step(fluid, cmd, &info);            // each frame, outside rendering
+ *     virga_fluid_particles(fluid, &buffer, &count);
+ *     virga_water_step(water, cmd, &water_info);
+ *
+ * What is shown (tests/fluid): the front of a collapsing column runs as Martin and Moyce measured (1952); the depth of
+ * standing water is kept within 1 %, and its pressure is hydrostatic within 5 % of that at the floor; a collapse loses
+ * energy in every step.
+ *
+ * Deterministic: the same calls with the same values give the same bits, for any number of threads. The device decides
+ * on substeps and iterations; the host never waits for it.
+ * Thread-safety: as virga/vulkan.h says. */
+#ifndef VIRGA_FLUID_H
+#define VIRGA_FLUID_H
+
+#include <virga/shared/particle.h>
+#include <virga/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct virga_fluid virga_fluid; /* opaque */
+
+typedef struct virga_fluid_def {
+    uint32_t size, cookie;
+
+    /* [64; 2097152] particles; 408 bytes each. Default 65536. */
+    uint32_t max_particles;
+
+    /* [4096; 16777216] cells of the neighbour grid, 8 bytes each. A cell is two spacings wide, and the grid has four
+     * cells more than the box on each axis. Default 262144. */
+    uint32_t max_cells;
+
+    /* [1; 64] substeps of a step. Each that is recorded and not needed costs about 0.1 ms on two cores of software
+     * Vulkan, and less on a GPU. Default 8. */
+    uint32_t max_substeps;
+
+    /* [1; 100] iterations of the solver in a substep. Each that is recorded and not needed costs about 0.02 ms there.
+     * Water that is deeper than this many particles takes some substeps to feel its weight. Default 20. */
+    uint32_t max_iterations;
+} virga_fluid_def;
+
+VIRGA_API virga_fluid_def virga_default_fluid_def(void);
+
+typedef struct virga_fluid_settings {
+    uint32_t size, cookie;
+
+    /* [0.0001; 10] distance of particles at rest (m). A particle stands for spacing_m^3 of water. Smaller is finer and
+     * slower: half of it has eight times as many particles, and twice as many substeps. Default 0.02. */
+    float spacing_m;
+
+    /* [-10000; 10000] the box that the water is in: two opposite corners (m), relative to an origin of the host's
+     * choice, which is also that of the particles. Its walls let water slide. Each side is at least four spacings long.
+     * Default (-0.5, 0, -0.5) to (0.5, 1, 0.5). */
+    float low_m[3], high_m[3];
+
+    /* [-1000; 1000] acceleration (m/s^2). For a box that moves: of gravity less that of the box. Default (0, -9.81, 0).
+     */
+    float gravity_m_s2[3];
+
+    /* [0; 10] kinematic viscosity (m^2/s). That of water, 1e-6, is far less than the resolution shows: a little more
+     * calms the noise of particles. Limited to what is stable. Default 0.001. */
+    float viscosity_m2_s;
+
+    /* [0.05; 1] how far a particle may move in a substep, in spacings. Default 0.4. */
+    float cfl;
+
+    /* [0.000001; 0.01] at which mean error the iterations of the solver end: what the density would still grow by in a
+     * substep, as a part of it. There are at least 4 iterations, and at most def.max_iterations. Default 0.0001. */
+    float solver_error;
+} virga_fluid_settings;
+
+VIRGA_API virga_fluid_settings virga_default_fluid_settings(void);
+
+/* Allocates, and builds pipelines when virga_context_def.pipeline_build_mode says so. VIRGA_DEGRADED: pools were made
+ * smaller to fit the context's memory_budget; the log says how small. Errors as virga_context_create; *fluid is NULL
+ * then. */
+VIRGA_API virga_result virga_fluid_create(virga_context *context, const virga_fluid_def *def, virga_fluid **fluid);
+
+/* Destroys it and sets *fluid to NULL. Accepts NULL. Frames in flight may still use it: its resources are freed when
+ * they have completed. */
+VIRGA_API void virga_fluid_destroy(virga_fluid **fluid);
+
+/* Returns VIRGA_OK if its pipelines are built, VIRGA_NOT_READY if some are missing, or the error of one that could not
+ * be built. See virga_pipelines_build. Costs nothing. */
+VIRGA_API virga_result virga_fluid_ready(const virga_fluid *fluid);
+
+/* Applies new settings from the next step on. Out of range: clamped, logged, VIRGA_DEGRADED. NaN, infinity, a wrong
+ * cookie, a box with a side of less than four spacings, or one that needs more cells than max_cells:
+ * VIRGA_ERROR_INVALID, and nothing changes. */
+VIRGA_API virga_result virga_fluid_set(virga_fluid *fluid, const virga_fluid_settings *settings);
+
+/* Reads the current settings. */
+VIRGA_API void virga_fluid_get(const virga_fluid *fluid, virga_fluid_settings *settings);
+
+/* Returns the device memory in bytes that virga_fluid_create will allocate at most, with eight frames in flight. */
+VIRGA_API VkDeviceSize virga_fluid_estimate(const virga_fluid_def *def);
+
+/* A block of water: a lattice of particles, half a spacing inside its faces. */
+typedef struct virga_fluid_block {
+    /* [-10000; 10000] two opposite corners (m). A side has as many particles as spacings fit, rounded to the nearest.
+     * */
+    float low_m[3], high_m[3];
+
+    /* [-1000; 1000] m/s. */
+    float velocity_m_s[3];
+} virga_fluid_block;
+
+/* Adds a block of water in the next step. Its particles follow those that are there, x running fastest, then y, and
+ * have their number as id. Where there is water already, the solver pushes it apart. Up to 16 blocks between two steps.
+ * VIRGA_ERROR_INVALID, with a line in the log, and nothing is added: a value out of its range, a block without
+ * particles, one block too many, or more particles than there is room for. */
+VIRGA_API virga_result virga_fluid_add(virga_fluid *fluid, const virga_fluid_block *block);
+
+/* Removes all water, also blocks that were not yet added. The next particle has the id 0 again. */
+VIRGA_API virga_result virga_fluid_clear(virga_fluid *fluid);
+
+/* Arguments of one step. */
+typedef struct virga_fluid_step_info {
+    /* [0; 1] time of the step (s). 0: particles are added, and nothing moves. It is divided into the substeps that
+     * settings.cfl asks for, at most def.max_substeps: longer ones than asked for lose precision. */
+    float dt_s;
+
+    /* `count` virga_particle_gpu from `offset` on that are added before the step; a storage buffer, ready to be read by
+     * compute shaders. The offset is a multiple of the device's minStorageBufferOffsetAlignment. Positions and
+     * velocities count; ids are given anew, `share` is not read, and positions that are not finite make particles that
+     * stay out. So do all of a frame that the device did not execute. VK_NULL_HANDLE is allowed if count is 0. */
+    VkBuffer particles;
+    VkDeviceSize offset;
+    uint32_t count;
+} virga_fluid_step_info;
+
+/* Moves the water on by the time of a step. Outside rendering, at most once per frame. */
+VIRGA_API virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info);
+
+/* A range of a buffer, in bytes. */
+typedef struct virga_fluid_buffer {
+    VkBuffer buffer;
+    VkDeviceSize offset, size;
+} virga_fluid_buffer;
+
+/* Reads where the particles are: `count` virga_particle_gpu, in the order in which they were added, as the newest step
+ * left them. Ready to be read by transfers and compute shaders. Particles outside the box stay where they are. */
+VIRGA_API void virga_fluid_particles(const virga_fluid *fluid, virga_fluid_buffer *particles, uint32_t *count);
+
+/* Reads where the pressures of the particles are: two floats for each, over the density of water (m^2/s^2). The first,
+ * times 1000 kg/m^3, is the pressure in pascals, a mean over the particle and its neighbours. The second is the
+ * solver's own, with which the next substep begins. Ready to be read by transfers and compute shaders. */
+VIRGA_API void virga_fluid_pressures(const virga_fluid *fluid, virga_fluid_buffer *pressures);
+
+/* The newest statistics of completed frames. */
+typedef struct virga_fluid_stats {
+    /* 0: none yet. */
+    uint64_t frame_index;
+
+    /* Particles, and those of them that the last substep moved: others are outside the box, or too many in one cell. */
+    uint32_t particles, moved;
+
+    /* Substeps of the step, and the solver's iterations in them. */
+    uint32_t substeps, iterations;
+
+    /* Mean error of the solver in the last substep. More than settings.solver_error: the iterations were too few. */
+    float solver_error;
+
+    /* Speed of the fastest particle after the step (m/s). */
+    float max_speed_m_s;
+} virga_fluid_stats;
+
+VIRGA_API void virga_fluid_stats_get(virga_fluid *fluid, virga_fluid_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

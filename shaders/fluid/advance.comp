@@ -1,0 +1,75 @@
+// advance.comp - moves the particles with their new velocities, and keeps them in the box. The pressure for the host is
+// that which acts between the particles (the virial of their forces), a mean over each of them and its neighbours:
+//
+//     P_i = 1/3 (sum_j (p_i + p_j) / 2 V |x_ij . grad W| + p_i (the walls' part of this sum)).
+//
+// One invocation per sorted particle. Reads: moved, places, sorted, lists, solved. Writes: particles, slot_pressures,
+// state.max_speed2.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define FLUID_ACCESS
+#define STATE_ACCESS
+#define PARTICLES_ACCESS
+#include "fluid.glsl"
+#include "kernel.glsl"
+
+layout(local_size_x = VIRGA_FLUID_LANES) in;
+
+shared uint group_speed2;
+
+vec4 own;
+float sum;
+
+void pair(uint j)
+{
+    const vec4 other = place_at(j);
+    const vec3 apart = own.xyz - other.xyz;
+    const float r2 = dot(apart, apart);
+    sum -= (own.w + other.w) * slope(r2) * r2;
+}
+
+float mean_pressure(uint i, float wall_pull)
+{
+    own = place_at(i);
+    sum = 0.0;
+    const uint texels = uint(sorted_at(i).w);
+    for (uint t = 0u, at = i; t < texels; t++, at += frame.stride) {
+        const uvec4 four = list_texel(at);
+        pair(four.x);
+        pair(four.y);
+        pair(four.z);
+        pair(four.w);
+    }
+    return (0.5 * KERNEL_FACTOR * sum + own.w * wall_pull) / 3.0;
+}
+
+// Returns the square of the particle's speed.
+float advance(uint i, vec3 velocity)
+{
+    const uint slot = sorted_indices[i];
+    const vec3 free = to_vec(particles[slot].position) + state.dt_s * velocity;
+    const vec3 p = clamp(free, to_vec(frame.low_m), to_vec(frame.high_m));
+    velocity = mix(velocity, vec3(0.0), notEqual(free, p));
+    for (uint axis = 0u; axis < 3u; axis++) {
+        particles[slot].position[axis] = p[axis];
+        particles[slot].velocity[axis] = velocity[axis];
+    }
+    return dot(velocity, velocity);
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (gl_LocalInvocationIndex == 0u)
+        group_speed2 = 0u;
+    barrier();
+    if (i < grid.sorted) {
+        const vec4 velocity = moved_at(i);
+        slot_pressures[sorted_indices[i]] = vec2(mean_pressure(i, velocity.w), solved[i]);
+        atomicMax(group_speed2, floatBitsToUint(advance(i, velocity.xyz)));
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0u)
+        atomicMax(state.max_speed2, group_speed2);
+}

@@ -1,0 +1,47 @@
+// begin.comp - begins a substep: its time, the grid, and the sizes of its passes. After the step's time is over all of
+// them are 0.
+// One invocation. Reads and writes: state. Writes: the grid's state.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#define GRID_ACCESS
+#define STATE_ACCESS
+#include "fluid.glsl"
+
+layout(local_size_x = 1) in;
+
+uint[3] groups(bool on, uint items, uint each) { return uint[3](on ? (items + each - 1u) / each : 0u, 1u, 1u); }
+
+// Nothing may move farther than cfl spacings (the condition of Courant, Friedrichs and Lewy). The second speed is what
+// gravity gives to a particle that falls a spacing: it bounds the substeps of water at rest. The rest of the step is
+// divided evenly, and the last of max_substeps takes whatever is left.
+float substep_time()
+{
+    const float speed = sqrt(uintBitsToFloat(state.max_speed2)) +
+                        sqrt(20.0 * length(to_vec(frame.gravity_m_s2)) * frame.spacing_m);
+    const uint left = frame.max_substeps - min(state.substeps, frame.max_substeps - 1u);
+    const float wanted = state.time_left_s * speed * frame.inv_spacing_m / frame.cfl;
+    return state.time_left_s / clamp(ceil(wanted), 1.0, float(left));
+}
+
+void main()
+{
+    const bool on = state.time_left_s > 0.0 && state.substeps < frame.max_substeps;
+    const float dt = on ? substep_time() : 0.0;
+    const uint cells = on ? frame.dims[0] * frame.dims[1] * frame.dims[2] : 0u;
+    const bool last = state.substeps + 1u >= frame.max_substeps || dt > 0.999 * state.time_left_s;
+    state.dt_s = dt;
+    state.time_left_s = last ? 0.0 : state.time_left_s - dt;
+    state.substeps += on ? 1u : 0u;
+    if (on)
+        state.max_speed2 = 0u;
+    state.slot_groups = groups(on, frame.particles, VIRGA_FLUID_LANES);
+    state.fluid_groups = state.loop_groups = state.loop_one_group = groups(false, 0u, 1u); // see copy.comp
+    grid.first = frame.first_cell;
+    grid.dims = frame.dims;
+    grid.cells = cells;
+    grid.scan_groups = groups(on, cells, VIRGA_GRID_SCAN_CELLS);
+    grid.cell_groups = groups(on, cells, VIRGA_GRID_LANES);
+    grid.sorted = 0u;
+    grid.sorted_groups = groups(false, 0u, 1u);
+}

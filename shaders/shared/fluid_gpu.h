@@ -1,0 +1,79 @@
+/* fluid_gpu.h - the fluid effect's uniform block and state. Internal to Virga. */
+#ifndef VIRGA_SHARED_FLUID_GPU_H
+#define VIRGA_SHARED_FLUID_GPU_H
+
+#include "particle_grid.h"
+
+#ifndef VIRGA_GLSL
+#define uint virga_uint
+typedef struct virga_fluid_step_gpu virga_fluid_step_gpu;
+typedef struct virga_fluid_add_gpu virga_fluid_add_gpu;
+typedef struct virga_fluid_state_gpu virga_fluid_state_gpu;
+#endif
+
+#define VIRGA_FLUID_LANES       VIRGA_GRID_LANES
+#define VIRGA_FLUID_LIST_TEXELS 16 /* of four neighbours each, for every particle */
+/* Sums of errors in fixed point: those of a workgroup, and those of all of them, which fit into 32 bits for two million
+ * particles. */
+#define VIRGA_FLUID_ERROR_ONE   1048576.0
+#define VIRGA_FLUID_ERROR_MAX   262144u /* of one particle */
+#define VIRGA_FLUID_ERROR_SHIFT 8u      /* from a workgroup's sum to the sum of all */
+
+/* One step. Lengths in m, where nothing else is said. The first members are those of virga_particle_step_gpu. */
+struct virga_fluid_step_gpu {
+    float cell_m;     /* side of a cell: the kernel's radius, two spacings */
+    float inv_cell_m; /* 1/m */
+    uint particles;   /* slots */
+    uint max_cells;
+    float spacing_m;
+    float inv_spacing_m; /* 1/m */
+    float low_m[3];      /* inner faces of the box */
+    float high_m[3];
+    float gravity_m_s2[3];
+    float viscosity_m2_s;
+    float dt_s; /* time of the whole step */
+    float cfl;  /* distance of a substep, in spacings */
+    uint max_substeps;
+    float solver_error; /* mean error at which iterations end: growth of the density in a substep */
+    int first_cell[3];  /* of the grid */
+    uint dims[3];
+    uint stride; /* of the lists of neighbours: texels from one to the next of a particle */
+};
+
+/* Particles that are added before a step: a block of them, or those of a host's buffer. */
+struct virga_fluid_add_gpu {
+    float low_m[3]; /* position of the first particle */
+    float spacing_m;
+    uint counts[3]; /* particles along each axis; 0: from the host's buffer */
+    uint first_slot;
+    float velocity_m_s[3];
+    uint count;
+    uint first_id;
+};
+
+/* Written by the passes of a step; read back as statistics. */
+struct virga_fluid_state_gpu {
+    float time_left_s;    /* of the step */
+    uint substeps;        /* of the step, with dt above 0 */
+    uint iterations;      /* of the step, all substeps */
+    float solver_error;   /* of the newest substep */
+    uint moved;           /* particles of the newest substep */
+    uint max_speed2;      /* bits of the largest speed squared (m^2/s^2), of all particles */
+    float dt_s;           /* of the substep */
+    uint error;           /* sum of an iteration, in fixed point */
+    uint iteration;       /* of the present loop */
+    uint slot_groups[3];  /* indirect arguments: an invocation for each slot; 0 after the last substep */
+    uint fluid_groups[3]; /* an invocation for each sorted particle */
+    uint loop_groups[3];  /* the same, 0 when iterations have ended */
+    uint loop_one_group[3];
+};
+
+#ifndef VIRGA_GLSL
+VIRGA_ASSERT_OFFSET(virga_fluid_step_gpu, spacing_m, sizeof(virga_particle_step_gpu));
+VIRGA_ASSERT_SIZE(virga_fluid_step_gpu, 108);
+VIRGA_ASSERT_SIZE(virga_fluid_add_gpu, 52);
+VIRGA_ASSERT_SIZE(virga_fluid_state_gpu, 84);
+#undef uint
+#endif
+
+#endif
