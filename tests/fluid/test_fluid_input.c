@@ -109,6 +109,41 @@ static void blocks_that_do_not_fit_are_refused(void **state)
     fluid_fixture_close(&f);
 }
 
+/* The host throws its command buffer away: an empty one goes to the queue in its place. */
+static void lose_a_step(void)
+{
+    host_device *device = &f.gpu.device;
+    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    const VkCommandBuffer cmd = effect_fixture_begin(&f.gpu, f.context);
+    const virga_fluid_step_info info = {.dt_s = 0.01f};
+    REQUIRE(virga_fluid_step(f.fluid, cmd, &info) == VIRGA_OK);
+    REQUIRE(vkEndCommandBuffer(cmd) == VK_SUCCESS);
+    REQUIRE(vkResetCommandPool(device->device, device->frames[device->frame % HOST_FRAMES].pool, 0) == VK_SUCCESS);
+    REQUIRE(vkBeginCommandBuffer(cmd, &begin) == VK_SUCCESS);
+    REQUIRE(virga_frame_dropped(f.context, device->frame) == VIRGA_OK);
+    effect_fixture_complete(&f.gpu, f.context);
+}
+
+static void blocks_of_a_lost_frame_are_added_again(void **state)
+{
+    (void)state;
+    static virga_particle_gpu expected[500];
+    for (int lost = 0; lost < 2; lost++) {
+        set_up();
+        fluid_fixture_block(&f, 0, 0, 0, 0.4, 0.12, 0.4);
+        if (lost)
+            lose_a_step();
+        fluid_fixture_block(&f, 0, 0.2, 0, 0.4, 0.28, 0.4);
+        fluid_fixture_step(&f, 0.01);
+        assert_int_equal(f.stats.moved, 500);
+        if (lost)
+            assert_memory_equal(f.particles, expected, sizeof expected);
+        memcpy(expected, f.particles, sizeof expected);
+        fluid_fixture_close(&f);
+    }
+}
+
 static void wrong_settings_are_refused(void **state)
 {
     (void)state;
@@ -163,6 +198,7 @@ int main(void)
         cmocka_unit_test(particles_outside_the_box_or_not_finite_stay_out),
         cmocka_unit_test(all_particles_at_one_position_break_nothing),
         cmocka_unit_test(blocks_that_do_not_fit_are_refused),
+        cmocka_unit_test(blocks_of_a_lost_frame_are_added_again),
         cmocka_unit_test(wrong_settings_are_refused),
         cmocka_unit_test(wrong_steps_are_refused),
     };
