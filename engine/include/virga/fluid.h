@@ -44,8 +44,8 @@ typedef struct virga_fluid_def {
      * cells more than the box on each axis. Default 262144. */
     uint32_t max_cells;
 
-    /* [1; 64] substeps of a step. Each that is recorded and not needed costs about 0.1 ms on two cores of software
-     * Vulkan, and less on a GPU. Default 8. */
+    /* [1; 64] substeps of a step. Each that is recorded and not needed costs about 0.5 ms on two cores of software
+     * Vulkan, most of it for the iterations that it might have had. Default 8. */
     uint32_t max_substeps;
 
     /* [1; 100] iterations of the solver in a substep. Each that is recorded and not needed costs about 0.02 ms there.
