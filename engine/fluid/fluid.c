@@ -42,22 +42,13 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, solver_error, 1e-6, 0.01, 0.0001),
 };
 
-virga_fluid_def virga_default_fluid_def(void)
+static void fill_settings(void *given)
 {
-    virga_fluid_def def = {.size = sizeof def, .cookie = DEF_COOKIE};
-    virga_settings_fill(def_rows, VIRGA_ROWS(def_rows), &def);
-    return def;
-}
-
-virga_fluid_settings virga_default_fluid_settings(void)
-{
-    virga_fluid_settings settings = {.size = sizeof settings,
-                                     .cookie = SETTINGS_COOKIE,
-                                     .low_m = {-0.5f, 0, -0.5f},
-                                     .high_m = {0.5f, 1, 0.5f},
-                                     .gravity_m_s2 = {0, -9.81f, 0}};
-    virga_settings_fill(setting_rows, VIRGA_ROWS(setting_rows), &settings);
-    return settings;
+    static const float low_m[3] = {-0.5f, 0, -0.5f}, high_m[3] = {0.5f, 1, 0.5f}, gravity_m_s2[3] = {0, -9.81f, 0};
+    virga_fluid_settings *settings = given;
+    memcpy(settings->low_m, low_m, sizeof low_m);
+    memcpy(settings->high_m, high_m, sizeof high_m);
+    memcpy(settings->gravity_m_s2, gravity_m_s2, sizeof gravity_m_s2);
 }
 
 static virga_result check_def(const virga_log *log, void *given)
@@ -269,6 +260,7 @@ VIRGA_EFFECT_STATISTICS_FUNCTION(fluid)
 const virga_effect_type fluid_type = {
     VIRGA_EFFECT_TYPE(fluid, "fluid", "fluid_settings"),
     .fit_device = fit_device,
+    .fill_settings = fill_settings,
     .check_settings = check_settings,
     .lost = fluid_lost,
 };
