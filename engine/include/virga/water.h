@@ -4,8 +4,8 @@
  * Particle-based Simulation". Each particle adds a density around it; the surface is where the density has a certain
  * value. It is sampled on the edges of a grid, and every sample is a surfel: a small disk with the surface's normal.
  *
- * The particles come from the host, in a buffer, in each step: from files, from a simulation of the host, or from
- * virga_water_solver.
+ * The particles come from the host, in a buffer, in each step: from files, from a simulation of the host, or from the
+ * one of virga/fluid.h.
  *
  * A frame, outside rendering:
  *
@@ -235,7 +235,8 @@ typedef struct virga_water_step_info {
 /* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device
  * executes the step, and not afterwards.
  *
- * Cost on two cores of software Vulkan: see tests/bench/lavapipe_water.txt. */
+ * Cost on two cores of software Vulkan: 27 ms for 7,290 particles and 230 ms for 209,440, with isotropic kernels of two
+ * spacings; with anisotropic ones 1.6 to 2.7 times as much. */
 VIRGA_API virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info);
 
 /* Builds the pipelines for a target, once per target, up to eight targets. Does nothing without max_width. Errors as
