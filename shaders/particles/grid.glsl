@@ -60,10 +60,15 @@ uint cell_at(vec3 p)
     return cell_index(uvec3(local), dims);
 }
 
-// The sorted particles in one of the nine rows of three cells around a cell that is not at the grid's border: the first
-// one, and one past the last.
+// The middle cell of one of the nine rows of three cells around a cell that is not at the grid's border.
+uint row_middle(uint cell, uint row, uvec3 dims)
+{
+    return cell + (row % 3u) * dims.x + (row / 3u) * dims.x * dims.y - dims.x - dims.x * dims.y;
+}
+
+// The sorted particles in such a row: the first one, and one past the last.
 uvec2 neighbour_row(uint cell, uint row, uvec3 dims)
 {
-    const uint middle = cell + (row % 3u) * dims.x + (row / 3u) * dims.x * dims.y - dims.x - dims.x * dims.y;
+    const uint middle = row_middle(cell, row, dims);
     return uvec2(cell_starts[middle - 1u], cell_starts[middle + 2u]);
 }

@@ -107,6 +107,20 @@ static void every_edge_that_the_surface_crosses_has_a_surfel(void **state)
     water_fixture_close(&f);
 }
 
+/* Particles a tenth nearer to each other: also the outermost ones have the density of water. */
+static void water_that_is_compressed_has_its_surface(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.1, 0.1, 0.2};
+    const uint32_t counts[3] = {20, 10, 20};
+    water_fixture_open(&f);
+    f.settings.spacing_m = 0.02f;
+    water_fixture_box(&f, low, counts, 0.0182, 0);
+    water_fixture_step(&f);
+    assert_int_equal(f.stats.surfels, count_crossings());
+    water_fixture_close(&f);
+}
+
 static void a_ball_has_the_volume_of_its_particles(void **state)
 {
     (void)state;
@@ -172,6 +186,7 @@ int main(void)
         cmocka_unit_test(densities_are_those_of_double_precision),
         cmocka_unit_test(surfels_lie_on_the_surface_with_its_normal),
         cmocka_unit_test(every_edge_that_the_surface_crosses_has_a_surfel),
+        cmocka_unit_test(water_that_is_compressed_has_its_surface),
         cmocka_unit_test(a_ball_has_the_volume_of_its_particles),
         cmocka_unit_test(the_order_of_particles_changes_nothing),
         cmocka_unit_test(the_same_particles_give_the_same_bits),

@@ -1,6 +1,7 @@
 // density.comp - the density of the water at each particle (equations 1 and 2 of Iwasaki et al. 2006): the sum of the
 // density functions of all particles around it, its own included. 1 is inside the water. Particles with a low density
-// are near the surface; they mark the cells that the surface may run through.
+// are near the surface, and so are those beside an empty cell, also in water that is compressed. They mark the cells
+// that the surface may run through.
 //
 // For anisotropic kernels the same loop sums up how the neighbours lie around the particle: the mean of their offsets,
 // and their covariance (equations 9 and 10 of Yu and Turk 2013), with the weights 1 - (r / h)^3 of equation 11.
@@ -38,6 +39,23 @@ void visit(vec4 particle)
 }
 #include "water/gather.glsl"
 
+// Whether one of the 27 cells around a cell has no particles.
+bool beside_empty_cell(uint cell)
+{
+    const uvec3 dims = grid_dims();
+    bool empty = false;
+    for (uint row = 0u; row < 9u; row++) {
+        const uint middle = row_middle(cell, row, dims);
+        uint start = cell_starts[middle - 1u];
+        for (uint next = middle; next <= middle + 2u; next++) {
+            const uint end = cell_starts[next];
+            empty = empty || start == end;
+            start = end;
+        }
+    }
+    return empty;
+}
+
 void main()
 {
     const uint own = gl_GlobalInvocationID.x;
@@ -53,7 +71,7 @@ void main()
     densities[sorted_indices[own]] = density;
     // A splash particle all alone has no part in the surface, and there is none around it.
     const bool alone = density < frame.spray_low && sum <= 1.01 * uintBitsToFloat(sorted_texel(own)).w;
-    if (density < frame.full && !alone)
+    if ((density < frame.full || beside_empty_cell(cell)) && !alone)
         atomicOr(cell_marks[cell], reached_cells(here * frame.inv_cell_m));
     if (KERNEL == VIRGA_WATER_ANISOTROPIC) {
         const float share = 1.0 / max(weight_sum, 1e-20);
