@@ -22,7 +22,7 @@ virga: 1
 camera: {keys: [{position_m: [0, 1, 2], look_at_m: [0, 0.8, 0]}]}
 frames: {fps: 20, first: 1, last: 8, size: [32, 32]}
 rain: {rate_mm_h: 0, max_drops: 1024, occlusion_size: 64}
-water: {files: ball_%04d.ply, rate_hz: 10}
+water: {files: ball_%04d.ply, rate_hz: 10, spray_density: 0}
 YAML
 
 # render FOLDER OPTION...
