@@ -64,8 +64,7 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, affinity_size_m, 0.0005, 0.1, 0.006),
     DEF(U32, max_drops, 256, 262144, 32768),
     DEF(U32, max_texels, 64, 4096, 1024),
-    DEF(U32, max_ticks_per_step, 1, 64, 16),
-    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    VIRGA_TICK_ROWS,
 };
 /* clang-format on */
 

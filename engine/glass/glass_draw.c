@@ -444,7 +444,7 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     virga_context *context = glass->base.context;
     struct glass_picture *picture = &glass->picture;
     virga_result result =
-        virga_effect_check_prepare(&glass->base, "virga_glass_prepare", cmd, pose ? view : NULL, time_s);
+        virga_effect_check_prepare(&glass->base, "virga_glass_prepare", cmd, pose ? view : NULL, time_s, true);
     if (result)
         return result;
     if (glass_pose_check(&context->log, pose))

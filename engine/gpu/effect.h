@@ -216,6 +216,9 @@ typedef struct virga_effect_type {
     virga_result (*draw)(void *object, VkCommandBuffer cmd, const virga_target *target);
 } virga_effect_type;
 
+/* The rows of a definition with ticks, made with its DEF. */
+#define VIRGA_TICK_ROWS DEF(U32, max_ticks_per_step, 1, 64, 16), DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60)
+
 /* The fields .<row>s and .<row>_count for a table of that name, e.g. VIRGA_TABLE(image) for the table `images`. */
 #define VIRGA_TABLE(row) .row##s = row##s, .row##_count = VIRGA_ROWS(row##s)
 
@@ -504,9 +507,10 @@ void virga_effects_free_targets(virga_context *context);
  * for another target of its class, if there is one. */
 void virga_effects_forget_target(const virga_target *target);
 
-/* The common checks of a prepare. Draws need a new prepare from now on. VIRGA_NOT_READY if passes are not built. */
+/* The common checks of a prepare. Draws need a new prepare from now on. VIRGA_NOT_READY if passes are not built, or if
+ * `stepped` is false: before the first step. */
 virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                        const virga_view *view, double time_s);
+                                        const virga_view *view, double time_s, bool stepped);
 
 /* Pushes the block of a view into a ring. Returns the index of the view in this frame, and the offset of the block. An
  * error if the frame has no room for another view. */

@@ -162,15 +162,17 @@ void virga_effects_forget_target(const virga_target *target)
 /* ---- prepares */
 
 virga_result virga_effect_check_prepare(virga_effect *effect, const char *call, VkCommandBuffer cmd,
-                                        const virga_view *view, double time_s)
+                                        const virga_view *view, double time_s, bool stepped)
 {
     if (!cmd || !view)
         return virga_wrong_argument(&effect->context->log, "%s: NULL argument", call);
     if (effect->context->lost)
         return VIRGA_ERROR_DEVICE_LOST;
     effect->view.ready = false;
-    const virga_result result = virga_view_check(effect->context, view, time_s);
-    return result ? result : virga_effect_ready(effect);
+    virga_result result = virga_view_check(effect->context, view, time_s);
+    if (!result)
+        result = virga_effect_ready(effect);
+    return result ? result : stepped ? VIRGA_OK : VIRGA_NOT_READY;
 }
 
 virga_result virga_effect_push_view(virga_effect *effect, const char *call, virga_ring *ring, const void *block,

@@ -41,12 +41,11 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, far_cells, 0, 2048, 512),
     DEF(U32, ripple_texels, 64, 4096, 1024),
     DEF(FLOAT, ripple_texel_m, 0.002, 0.05, 0.005),
-    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    VIRGA_TICK_ROWS,
     DEF(U32, flow_ticks, 1, 60, 4),
     DEF(U32, max_impacts, 256, 4194240, 65536),
     DEF(U32, max_spawns, 0, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
-    DEF(U32, max_ticks_per_step, 1, 64, 16),
     DEF(U32, occluder_strides[0], 0, UINT32_MAX, 12),
     DEF(U32, occluder_strides[1], 0, UINT32_MAX, 32),
 };

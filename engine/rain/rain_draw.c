@@ -189,11 +189,10 @@ virga_result virga_rain_prepare(virga_rain *rain, VkCommandBuffer cmd, const vir
 {
     if (!rain)
         return VIRGA_ERROR_INVALID;
-    virga_result result = virga_effect_check_prepare(&rain->base, "virga_rain_prepare", cmd, view, time_s);
+    virga_result result =
+        virga_effect_check_prepare(&rain->base, "virga_rain_prepare", cmd, view, time_s, rain->stepped);
     if (result)
         return result;
-    if (!rain->stepped)
-        return VIRGA_NOT_READY;
     rain_begin_frame(rain, cmd);
     uint32_t index;
     rain_view_block block;

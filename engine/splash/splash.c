@@ -37,8 +37,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_droplets, 256, 4194304, 131072),
     DEF(U32, max_spawns, 256, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
-    DEF(U32, max_ticks_per_step, 1, 64, 16),
-    DEF(DOUBLE, tick_s, 1e-3, 0.05, 1.0 / 60),
+    VIRGA_TICK_ROWS,
 };
 /* clang-format on */
 
@@ -184,43 +183,8 @@ static const virga_effect_image images[] = {
      VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
 };
 
-#define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX   VK_SHADER_STAGE_VERTEX_BIT
-#define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
-#define STORAGE  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define DYNAMIC  VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
-#define SAMPLED  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-#define TEXELS   VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-
-enum { BIND_SPAWNS = 3, BIND_DROPLETS = 6, BIND_KEPT = 12, BIND_DEPTH = 16, BIND_COLOR, BIND_DROPLET_TEXELS };
-
-/* The same bindings as in shaders/splash, where each file declares those it uses. */
-static const virga_binding_kind bindings[] = {
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_splash_tick_gpu)},   /* 0 */
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(splash_view_block)},       /* 1 */
-    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(rules_ring), sizeof(virga_splash_rules_gpu)}, /* 2 */
-    [BIND_SPAWNS] = {STORAGE, COMPUTE},                                                             /* 3 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(state)},                                    /* 4 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(splashes)},                                 /* 5 */
-    [BIND_DROPLETS] = {STORAGE, COMPUTE | VERTEX},                                                  /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(marks)},                                             /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawn_offsets)},                                     /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(returned_droplets)},                                 /* 9 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picks)},                                    /* 10 */
-    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(lists)},                                    /* 11 */
-    [BIND_KEPT] = {STORAGE, COMPUTE},                              /* 12 droplets that stay after the tick */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(sprites)}, /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(prepared_buffer)},  /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(index_buffer)},     /* 15 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                            /* 16 */
-    [BIND_COLOR] = {SAMPLED, FRAGMENT},                            /* 17 */
-    [BIND_DROPLET_TEXELS] = {TEXELS, VIRGA_ALL_STAGES},            /* 18 */
-    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(splashes)}, /* 19 */
-    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(sprites)},  /* 20 */
-};
-
 static const virga_effect_layout layouts[] = {
-    {AT(bindings), bindings, VIRGA_ROWS(bindings), SPLASH_SETS, sizeof(uint32_t)},
+    {AT(bindings), splash_bindings, SPLASH_BINDINGS, SPLASH_SETS, sizeof(uint32_t)},
 };
 
 /* clang-format off */
@@ -290,47 +254,7 @@ const virga_effect_type splash_type = {
     .prepare = prepare,
 };
 
-/* ---- descriptors */
-
-uint32_t splash_current(const virga_splash *splash)
-{
-    return splash->droplets == splash->droplet_buffers[1];
-}
-
-VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view)
-{
-    virga_context *context = splash->base.context;
-    const virga_image *depth = view ? &view->depth : NULL, *color = view ? &view->color : NULL;
-    const virga_buffer *droplets = splash->droplet_buffers[current];
-    virga_bound bound[VIRGA_MAX_BINDINGS];
-    virga_effect_bound(&splash->base, splash->bindings, bound);
-    bound[BIND_SPAWNS] =
-        (virga_bound){.buffer = splash->spawns, .offset = splash->spawns_offset, .range = splash->spawns_range};
-    bound[BIND_DROPLETS] = (virga_bound){.buffer = droplets->buffer};
-    bound[BIND_DROPLET_TEXELS] = (virga_bound){.texels = droplets->texels};
-    bound[BIND_KEPT] = (virga_bound){.buffer = splash->droplet_buffers[current ^ 1]->buffer};
-    bound[BIND_DEPTH] = virga_bound_or_blank(depth, splash->blank_depth, context->nearest);
-    bound[BIND_COLOR] = virga_bound_or_blank(color, splash->blank_color, virga_color_sampler(context, color));
-    return virga_bindings_write(context, splash->bindings, index, bound);
-}
-
-void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
-{
-    const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
-    splash->base.context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
-}
-
 /* ---- queries */
-
-void splash_push_rules(virga_splash *splash)
-{
-    virga_context *context = splash->base.context;
-    virga_splash_rules_gpu rules;
-    if (virga_ring_used(context, &splash->rules_ring))
-        return;
-    splash_fill_rules(splash, &rules);
-    splash->rules_offset = virga_ring_push(context, &splash->rules_ring, &rules, sizeof rules);
-}
 
 void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rules)
 {

@@ -127,11 +127,10 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
     if (!splash)
         return VIRGA_ERROR_INVALID;
     virga_context *context = splash->base.context;
-    virga_result result = virga_effect_check_prepare(&splash->base, "virga_splash_prepare", cmd, view, time_s);
+    virga_result result =
+        virga_effect_check_prepare(&splash->base, "virga_splash_prepare", cmd, view, time_s, splash->ticks);
     if (result)
         return result;
-    if (!splash->ticks)
-        return VIRGA_NOT_READY;
     virga_timers_reset(context, cmd);
     splash_push_rules(splash);
     splash_view_block block;

@@ -1,9 +1,10 @@
 /* splash/splash_internal.h - defines the struct of virga_splash and the functions its files share. Internal.
  *
- *   splash.c         create, destroy, settings, queries
- *   splash_table.c   the splash rule of each material and state
- *   splash_step.c    ticks
- *   splash_draw.c    prepare, attach, draw
+ *   splash.c              create, destroy, settings, queries
+ *   splash_table.c        the splash rule of each material and state
+ *   splash_descriptors.c  the bindings of all passes
+ *   splash_step.c         ticks
+ *   splash_draw.c         prepare, attach, draw
  */
 #ifndef VIRGA_SPLASH_INTERNAL_H
 #define VIRGA_SPLASH_INTERNAL_H
@@ -20,13 +21,17 @@
 void splash_default_rows(virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES]);
 virga_result splash_check_rows(const virga_log *log,
                                virga_splash_rule rows[VIRGA_GROUND_MATERIALS][VIRGA_GROUND_STATES], bool *changed);
-void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules);
+
+/* Writes the rules of this frame. Later calls in the same frame do nothing. */
+void splash_push_rules(virga_splash *splash);
 
 /* ---- the object */
 
 #define SPLASH_MAX_VIEWS VIRGA_SPLASH_MAX_VIEWS
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
+
+enum { SPLASH_BINDINGS = 21 };
 
 #define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of the passes that depend only on the style */
 
@@ -109,15 +114,13 @@ static inline uint32_t splash_max_crowns(const virga_splash_def *def)
     return def->max_splashes < max ? def->max_splashes : max;
 }
 
-/* ---- splash.c */
+/* ---- splash_descriptors.c */
+extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS];
 
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
 uint32_t splash_current(const virga_splash *splash);
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
-
-/* Writes the rules of this frame. Later calls in the same frame do nothing. */
-void splash_push_rules(virga_splash *splash);
 
 /* ---- splash_step.c */
 void splash_lost(void *splash, uint64_t frame, uint32_t did);

@@ -135,7 +135,7 @@ virga_result splash_check_rows(const virga_log *log,
 
 /* ---- uniforms */
 
-void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules)
+static void fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules)
 {
     const virga_splash_settings *settings = &splash->settings;
     const float degree = 0.0174532925f;
@@ -159,4 +159,14 @@ void splash_fill_rules(const virga_splash *splash, virga_splash_rules_gpu *rules
             rule->speed[end] = row->speed_m_s[end];
         }
     }
+}
+
+void splash_push_rules(virga_splash *splash)
+{
+    virga_context *context = splash->base.context;
+    virga_splash_rules_gpu rules;
+    if (virga_ring_used(context, &splash->rules_ring))
+        return;
+    fill_rules(splash, &rules);
+    splash->rules_offset = virga_ring_push(context, &splash->rules_ring, &rules, sizeof rules);
 }
