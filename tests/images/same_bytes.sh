@@ -6,6 +6,7 @@ set -eu
 virga=$1 scene=$2 systems=$3
 shift 3
 options=("$@")
+[[ " $* " == *" --size "* ]] || options+=(--size 160x90)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -14,7 +15,7 @@ render() { # folder frames [environment...]
     shift 2
     # Validation has seen these passes in the first run.
     [ ! -d "$work/once" ] || export VIRGA_VALIDATE=0
-    env "$@" "$virga" render "$scene" -o "$folder" --frames "$frames" --size 160x90 --points --device cpu \
+    env "$@" "$virga" render "$scene" -o "$folder" --frames "$frames" --points --device cpu \
         --set rain.max_drops=16384 "${options[@]}" 2>"$folder.log" || { cat "$folder.log"; exit 1; }
     ! grep '^validation: ' "$folder.log" || exit 1
 }

@@ -1,11 +1,17 @@
 // tile_quads.comp - the quads to draw: for each tile that shows something, a quad around the texels with water, with
 // its six indices. A pixel interpolates four texels, so texels of the neighbouring tiles count too.
+//
+// Quads are in the order of their tiles. They overlap a little at their borders, and there the last one wins: in
+// another order a pixel would differ in its last bits. Each workgroup counts the quads of all tiles before its own,
+// which is a few thousand bits to read. A pass of its own costs more.
 // One invocation per tile. Reads: the tiles' bits. Writes: index buffer, quads, draw arguments.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "tiles.glsl"
+#define SCAN_LANES uint(VIRGA_GLASS_GROUP)
+#include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 // writing two words at a time is faster
@@ -23,22 +29,37 @@ uint tile_bits(ivec2 tile)
 // 9 the one behind its last.
 uint shift_spans(uint spans, int side) { return side < 0 ? spans >> 7 : side > 0 ? (spans & 1u) << 9 : spans << 1; }
 
+bool is_shown(uint tile) { return (tiles[tile].film & VIRGA_GLASS_SHOWN) != 0u; }
+
+// The tiles of earlier workgroups that show something, as far as this invocation counts them.
+uint shown_before()
+{
+    uint count = 0u;
+    for (uint tile = gl_LocalInvocationIndex; tile < gl_WorkGroupID.x * VIRGA_GLASS_GROUP; tile += VIRGA_GLASS_GROUP)
+        count += is_shown(tile) ? 1u : 0u;
+    return count;
+}
+
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     const ivec2 tile = ivec2(i % look.tile_columns, i / look.tile_columns);
-    uint columns = 0u, rows = 0u, own_bits = 0u;
+    const bool shown = i < look.tile_columns * look.tile_rows && is_shown(i);
+    uvec2 all;
+    const uint before = scan_group(uvec2(shown ? 1u : 0u, shown_before()), all).x;
+    if (i == (gl_NumWorkGroups.x - 1u) * VIRGA_GLASS_GROUP)
+        atomicAdd(work.drops.index_count, 6u * (all.y + all.x)); // it was 0; passes beside this one read other words
+    uint columns = 0u, rows = 0u;
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
             const uint bits = tile_bits(tile + ivec2(x, y)), spans = bits >> VIRGA_GLASS_SPANS_BIT;
             const uint columns_here = shift_spans(spans & 0xffu, x), rows_here = shift_spans(spans >> 8, y);
             columns |= rows_here != 0u ? columns_here : 0u;
             rows |= columns_here != 0u ? rows_here : 0u;
-            own_bits = x == 0 && y == 0 ? bits : own_bits;
         }
-    if (i >= look.tile_columns * look.tile_rows || (own_bits & VIRGA_GLASS_SHOWN) == 0u)
+    if (!shown)
         return;
-    const uint index = atomicAdd(work.drops.index_count, 6u) / 6u, first = 4u * index;
+    const uint index = all.y + before, first = 4u * index;
     corners[3u * index] = uvec2(first, first + 1u);
     corners[3u * index + 1u] = uvec2(first + 2u);
     corners[3u * index + 2u] = uvec2(first + 1u, first + 3u);
