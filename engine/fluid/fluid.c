@@ -100,7 +100,7 @@ static const virga_effect_buffer buffers[] = {
      .count = COUNT_PARTICLES, .first = VIRGA_FIRST_FILL},
     {"fluid.pressures", AT(slot_pressures), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_PARTICLES,
      .first = VIRGA_FIRST_FILL},
-    {"fluid.places", AT(places), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
+    {"fluid.positions", AT(positions), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.moved", AT(moved), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.walls", AT(walls), VIRGA_USE_TEXELS, DEVICE, .entry = 16, .count = COUNT_PARTICLES},
     {"fluid.solved", AT(solved), VIRGA_USE_STORAGE, DEVICE, .entry = 4, .count = COUNT_PARTICLES},
@@ -141,13 +141,13 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_pressures)},                        /* 8 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(solved)},                                /* 9 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(places)},                                /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(positions)},                             /* 11 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 12 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(walls)},                                 /* 13 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(lists)},                                 /* 14 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 15 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(places)},                                 /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(positions)},                              /* 17 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(moved)},                                  /* 18 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(walls)},                                  /* 19 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(lists)},                                  /* 20 */

@@ -42,7 +42,7 @@ struct virga_fluid {
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
 
     particle_grid grid;
-    virga_buffer *state, *slots, *slot_pressures, *places, *moved, *walls, *solved, *lists;
+    virga_buffer *state, *slots, *slot_pressures, *positions, *moved, *walls, *solved, *lists;
     virga_ring step_ring, add_ring;
     virga_bindings *add_bindings, *bindings;
     virga_pipeline *add, *begin, *count, *copy, *neighbours, *push, *correct, *check, *forces, *advance;

@@ -27,7 +27,7 @@
 #include "shaders/water_spray_compact_comp.spv.h"
 #include "shaders/water_spray_fly_comp.spv.h"
 #include "shaders/water_spray_mark_comp.spv.h"
-#include "shaders/water_spray_place_comp.spv.h"
+#include "shaders/water_spray_range_comp.spv.h"
 #include "shaders/water_spray_scan_comp.spv.h"
 #include "shaders/water_spray_starts_comp.spv.h"
 #include "shaders/water_spray_surfel_comp.spv.h"
@@ -336,7 +336,7 @@ static const virga_effect_pass passes[] = {
     SPRAY_PASS(starts, starts_scan),
     SPRAY_PASS(write, write),
     SPRAY_PASS(write_pieces, write_pieces),
-    SPRAY_PASS(place, place),
+    SPRAY_PASS(range, range),
     SPRAY_PASS(surfel, surfel),
     DRAW_PASS(splat_mark),
     DRAW_PASS(splat_scan),

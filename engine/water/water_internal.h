@@ -62,7 +62,7 @@ typedef struct water_picture {
 typedef struct water_spray {
     virga_buffer *picks, *list, *splashes, *pieces, *table, *starts, *droplets;
     virga_bindings *bindings;
-    virga_pipeline *mark, *scan, *compact, *break_up, *fly, *starts_scan, *write, *write_pieces, *place, *surfel;
+    virga_pipeline *mark, *scan, *compact, *break_up, *fly, *starts_scan, *write, *write_pieces, *range, *surfel;
 } water_spray;
 
 struct virga_water {

@@ -88,7 +88,7 @@ void water_spray_record(virga_water *water, VkCommandBuffer cmd)
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd)
 {
     virga_context *context = water->base.context;
-    virga_dispatch_and_barrier(context, cmd, water->spray.place, 1);
+    virga_dispatch_and_barrier(context, cmd, water->spray.range, 1);
     virga_dispatch_indirect_and_barrier(context, cmd, water->spray.surfel, water->state->buffer,
                                         offsetof(virga_water_state_gpu, spray_surfel_groups));
 }

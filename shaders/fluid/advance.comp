@@ -3,8 +3,8 @@
 //
 //     P_i = 1/3 (sum_j (p_i + p_j) / 2 V |x_ij . grad W| + p_i (the walls' part of this sum)).
 //
-// One invocation per sorted particle. Reads: moved, places, sorted, lists, solved. Writes: particles, slot_pressures,
-// state.max_speed2.
+// One invocation per sorted particle. Reads: moved, positions, sorted, lists, solved. Writes: particles,
+// slot_pressures, state.max_speed2.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
 // copy.comp - copies particles into the sorted lists, with positions in spacings.
 // One invocation per sorted particle. Reads: sorted_indices, particles, slot_pressures. Writes: sorted, velocities,
-// moved, places, solved.
+// moved, positions, solved.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -28,6 +28,6 @@ void main()
     velocities[i] = vec4(to_vec(particles[slot].velocity), 0.0);
     moved[i] = velocities[i];
     const float pressure = slot_pressures[slot].y;
-    places[i] = vec4(p, pressure);
+    positions[i] = vec4(p, pressure);
     solved[i] = pressure;
 }

@@ -18,8 +18,8 @@
 // see Beck and Teboulle 2009, A Fast Iterative Shrinkage-Thresholding Algorithm). Without it pressure takes as many
 // iterations as the square of the depth in particles to arrive at the floor; with it, as the depth.
 //
-// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, solved. Writes: places, solved,
-// state.error.
+// One invocation per sorted particle. Reads: sorted, moved, velocities, walls, lists, solved. Writes: positions,
+// solved, state.error.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -70,7 +70,7 @@ float improve(uint i)
     const float step = state.dt_s * frame.inv_spacing_m, gain = OMEGA * wall.w / (step * step);
     const float from = place_at(i).w, pressure = max(from + gain * error, 0.0), before = solved[i];
     const float ahead = float(state.iteration) / float(state.iteration + 3u);
-    places[i] = vec4(here, max(pressure + ahead * (pressure - before), 0.0));
+    positions[i] = vec4(here, max(pressure + ahead * (pressure - before), 0.0));
     solved[i] = pressure;
     // A particle that has no pressure and parts from the others has no error.
     return gain > 0.0 ? abs(pressure - from) / gain : 0.0;

@@ -25,7 +25,7 @@ layout(std430, set = 0, binding = 9) FLUID_ACCESS buffer Solved { float solved[]
 // Its velocity without pressure, and its density, which is 1 at rest:
 layout(std430, set = 0, binding = 10) FLUID_ACCESS buffer Velocities { vec4 velocities[]; };
 // Its position, and the pressure that the next iteration begins with:
-layout(std430, set = 0, binding = 11) FLUID_ACCESS buffer Places { vec4 places[]; };
+layout(std430, set = 0, binding = 11) FLUID_ACCESS buffer Positions { vec4 positions[]; };
 // Its velocity with pressure, and the walls' part of its own pressure:
 layout(std430, set = 0, binding = 12) FLUID_ACCESS buffer Moved { vec4 moved[]; };
 // The gradient of the walls' part of its density, and alpha:

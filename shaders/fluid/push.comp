@@ -1,6 +1,6 @@
 // push.comp - the velocities that the pressures lead to (Bender and Koschier 2017, equation 7): each pair of particles
 // is pushed apart by the sum of both pressures.
-// One invocation per sorted particle. Reads: places, sorted, velocities, walls, lists. Writes: moved.
+// One invocation per sorted particle. Reads: positions, sorted, velocities, walls, lists. Writes: moved.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// place.comp - where the surfels of the droplets are: after those of the surface, as far as there is room.
+// range.comp - where the surfels of the droplets are: after those of the surface, as far as there is room.
 // One invocation. Reads and writes: state.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

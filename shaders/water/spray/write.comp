@@ -21,15 +21,15 @@ void main()
         return;
     const uint sorted_index = splash_sorted[splash], particle = sorted_indices[sorted_index];
     const virga_water_splash_gpu own = splashes[splash_now(splash)];
-    const vec4 place = sorted[sorted_index];
+    const vec4 sorted_particle = sorted[sorted_index];
     const vec3 velocity = particle_velocity(particle);
-    const float volume = frame.volume * place.w * spray_part(densities[particle]);
+    const float volume = frame.volume * sorted_particle.w * spray_part(densities[particle]);
     const float radius = pow(0.2387324146 * volume / float(own.pieces), 1.0 / 3.0); // 3 / (4 pi)
     for (uint i = 0u; i < own.pieces; i++) {
         const uint at = droplet_starts[splash] + i;
         if (at >= frame.max_droplets)
             return;
-        vec3 p = place.xyz;
+        vec3 p = sorted_particle.xyz;
         if (own.pieces > 1u)
             p += frame.spray_pattern * pattern_point(own.id, i, own.pieces);
         droplets[at] = virga_spray_gpu(float[3](p.x, p.y, p.z), radius, float[3](velocity.x, velocity.y, velocity.z),

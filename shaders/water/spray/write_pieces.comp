@@ -21,14 +21,14 @@ void main()
         return;
     const uint sorted_index = splash_sorted[splash], particle = sorted_indices[sorted_index];
     const virga_water_splash_gpu own = splashes[splash_now(splash)];
-    const vec4 place = sorted[sorted_index];
-    const float volume = frame.volume * place.w * spray_part(densities[particle]);
+    const vec4 sorted_particle = sorted[sorted_index];
+    const float volume = frame.volume * sorted_particle.w * spray_part(densities[particle]);
     for (uint i = 0u; i < own.pieces; i++) {
         const uint at = droplet_starts[splash] + i;
         if (at >= frame.max_droplets)
             return;
         const virga_water_piece_gpu piece = pieces[piece_now(splash, i)];
-        const vec3 p = place.xyz + to_vec(piece.offset), v = to_vec(own.velocity) + to_vec(piece.drift);
+        const vec3 p = sorted_particle.xyz + to_vec(piece.offset), v = to_vec(own.velocity) + to_vec(piece.drift);
         const float radius = pow(0.2387324146 * volume * piece.part, 1.0 / 3.0); // 3 / (4 pi)
         droplets[at] = virga_spray_gpu(float[3](p.x, p.y, p.z), radius, float[3](v.x, v.y, v.z),
                                        virga_hash2(own.id, i));
