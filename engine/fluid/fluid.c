@@ -3,18 +3,9 @@
 
 #include "core/settings.h"
 #include "gpu/errors.h"
-#include "particles/particle_grid_shaders.inc"
 
-#include "shaders/fluid_add_comp.spv.h"
-#include "shaders/fluid_advance_comp.spv.h"
-#include "shaders/fluid_begin_comp.spv.h"
-#include "shaders/fluid_check_comp.spv.h"
-#include "shaders/fluid_copy_comp.spv.h"
-#include "shaders/fluid_correct_comp.spv.h"
-#include "shaders/fluid_count_comp.spv.h"
-#include "shaders/fluid_forces_comp.spv.h"
-#include "shaders/fluid_neighbours_comp.spv.h"
-#include "shaders/fluid_push_comp.spv.h"
+#include "shaders/fluid_shaders.h"
+#include "shaders/particles_shaders.h"
 
 #include <math.h>
 #include <stdio.h>

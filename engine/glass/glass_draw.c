@@ -9,19 +9,7 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/glass_draw_mist_frag.spv.h"
-#include "shaders/glass_draw_mist_vert.spv.h"
-#include "shaders/glass_draw_pane_vert.spv.h"
-#include "shaders/glass_draw_paper_frag.spv.h"
-#include "shaders/glass_draw_paper_frag_both.spv.h"
-#include "shaders/glass_draw_paper_frag_motion.spv.h"
-#include "shaders/glass_draw_paper_frag_reactive.spv.h"
-#include "shaders/glass_draw_paper_vert.spv.h"
-#include "shaders/glass_draw_physical_frag.spv.h"
-#include "shaders/glass_draw_physical_frag_both.spv.h"
-#include "shaders/glass_draw_physical_frag_motion.spv.h"
-#include "shaders/glass_draw_physical_frag_reactive.spv.h"
-#include "shaders/glass_draw_refraction_frag.spv.h"
+#include "shaders/glass_shaders.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,11 +4,7 @@
 
 #include "gpu/errors.h"
 
-#include "shaders/glass_draw_height_comp.spv.h"
-#include "shaders/glass_draw_height_narrow_comp.spv.h"
-#include "shaders/glass_draw_height_shuffle_comp.spv.h"
-#include "shaders/glass_draw_relief_comp.spv.h"
-#include "shaders/glass_draw_relief_narrow_comp.spv.h"
+#include "shaders/glass_shaders.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -6,7 +6,7 @@
 #include "gpu/errors.h"
 #include "gpu/record.h"
 
-#include "shaders/gpu_first_fill_comp.spv.h"
+#include "shaders/gpu_shaders.h"
 
 #include <string.h>
 

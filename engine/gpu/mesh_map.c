@@ -9,8 +9,7 @@
 #include "gpu/pipelines.h"
 #include "gpu/record.h"
 #include "gpu/retire.h"
-#include "shaders/gpu_mesh_map_frag.spv.h"
-#include "shaders/gpu_mesh_map_vert.spv.h"
+#include "shaders/gpu_shaders.h"
 
 #include <virga/shared/mesh_map.h>
 

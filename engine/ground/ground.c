@@ -6,19 +6,7 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
-#include "shaders/ground_far_floor_comp.spv.h"
-#include "shaders/ground_far_map_comp.spv.h"
-#include "shaders/ground_flow_comp.spv.h"
-#include "shaders/ground_land_comp.spv.h"
-#include "shaders/ground_map_comp.spv.h"
-#include "shaders/ground_measure_comp.spv.h"
-#include "shaders/ground_ring_comp.spv.h"
-#include "shaders/ground_share_comp.spv.h"
-#include "shaders/ground_soak_comp.spv.h"
-#include "shaders/ground_spawn_mark_comp.spv.h"
-#include "shaders/ground_spawn_scan_comp.spv.h"
-#include "shaders/ground_tile_discard_comp.spv.h"
-#include "shaders/ground_tile_load_comp.spv.h"
+#include "shaders/ground_shaders.h"
 
 #include <math.h>
 #include <stddef.h>

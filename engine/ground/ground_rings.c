@@ -6,8 +6,7 @@
 #include "gpu/retire.h"
 #include "ground/ring_table.h"
 
-#include "shaders/ground_ring_frag.spv.h"
-#include "shaders/ground_ring_vert.spv.h"
+#include "shaders/ground_shaders.h"
 
 #include <math.h>
 #include <string.h>

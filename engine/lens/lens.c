@@ -5,15 +5,7 @@
 #include "gpu/errors.h"
 #include "lens/lens.h"
 
-#include "shaders/lens_aperture_comp.spv.h"
-#include "shaders/lens_combine_comp.spv.h"
-#include "shaders/lens_focus_comp.spv.h"
-#include "shaders/lens_gather_comp.spv.h"
-#include "shaders/lens_layer_comp.spv.h"
-#include "shaders/lens_paper_comp.spv.h"
-#include "shaders/lens_reach_comp.spv.h"
-#include "shaders/lens_sample_comp.spv.h"
-#include "shaders/lens_tile_comp.spv.h"
+#include "shaders/lens_shaders.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,7 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/lens_show_frag.spv.h"
-#include "shaders/lens_show_vert.spv.h"
+#include "shaders/lens_shaders.h"
 
 #include <math.h>
 

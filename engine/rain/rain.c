@@ -5,26 +5,7 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
-#include "shaders/rain_compact_comp.spv.h"
-#include "shaders/rain_draw_order_count_comp.spv.h"
-#include "shaders/rain_draw_order_indices_comp.spv.h"
-#include "shaders/rain_draw_order_scan_comp.spv.h"
-#include "shaders/rain_draw_streak_mark_comp.spv.h"
-#include "shaders/rain_draw_streak_scan_comp.spv.h"
-#include "shaders/rain_draw_streak_write_comp.spv.h"
-#include "shaders/rain_step_hit_count_comp.spv.h"
-#include "shaders/rain_step_hit_mark_comp.spv.h"
-#include "shaders/rain_step_hit_offsets_comp.spv.h"
-#include "shaders/rain_step_hit_scan_comp.spv.h"
-#include "shaders/rain_step_hit_write_comp.spv.h"
-#include "shaders/rain_step_impact_mark_comp.spv.h"
-#include "shaders/rain_step_impact_near_mark_comp.spv.h"
-#include "shaders/rain_step_impact_near_scan_comp.spv.h"
-#include "shaders/rain_step_impact_scan_comp.spv.h"
-#include "shaders/rain_step_impact_write_comp.spv.h"
-#include "shaders/rain_step_move_comp.spv.h"
-#include "shaders/rain_step_points_comp.spv.h"
-#include "shaders/rain_step_sway_comp.spv.h"
+#include "shaders/rain_shaders.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -10,22 +10,7 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/rain_draw_glow_frag.spv.h"
-#include "shaders/rain_draw_glow_vert.spv.h"
-#include "shaders/rain_draw_haze_frag.spv.h"
-#include "shaders/rain_draw_haze_vert.spv.h"
-#include "shaders/rain_draw_streak_thin_frag.spv.h"
-#include "shaders/rain_draw_streak_thin_frag_both.spv.h"
-#include "shaders/rain_draw_streak_thin_frag_motion.spv.h"
-#include "shaders/rain_draw_streak_thin_frag_reactive.spv.h"
-#include "shaders/rain_draw_streak_thin_vert.spv.h"
-#include "shaders/rain_draw_streak_thin_vert_motion.spv.h"
-#include "shaders/rain_draw_streak_wide_frag.spv.h"
-#include "shaders/rain_draw_streak_wide_frag_both.spv.h"
-#include "shaders/rain_draw_streak_wide_frag_motion.spv.h"
-#include "shaders/rain_draw_streak_wide_frag_reactive.spv.h"
-#include "shaders/rain_draw_streak_wide_vert.spv.h"
-#include "shaders/rain_draw_streak_wide_vert_motion.spv.h"
+#include "shaders/rain_shaders.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,19 +5,7 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
-#include "shaders/splash_draw_droplet_mark_comp.spv.h"
-#include "shaders/splash_draw_few_mark_comp.spv.h"
-#include "shaders/splash_draw_indices_comp.spv.h"
-#include "shaders/splash_draw_splash_mark_comp.spv.h"
-#include "shaders/splash_draw_sprite_write_comp.spv.h"
-#include "shaders/splash_draw_view_compact_comp.spv.h"
-#include "shaders/splash_draw_view_scan_comp.spv.h"
-#include "shaders/splash_step_fall_compact_comp.spv.h"
-#include "shaders/splash_step_fall_scan_comp.spv.h"
-#include "shaders/splash_step_fly_comp.spv.h"
-#include "shaders/splash_step_rebase_comp.spv.h"
-#include "shaders/splash_step_spawn_comp.spv.h"
-#include "shaders/splash_step_spawn_scan_comp.spv.h"
+#include "shaders/splash_shaders.h"
 
 #include <stddef.h>
 #include <stdio.h>

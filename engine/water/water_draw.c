@@ -8,11 +8,7 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
-#include "shaders/water_draw_water_frag.spv.h"
-#include "shaders/water_draw_water_frag_both.spv.h"
-#include "shaders/water_draw_water_frag_motion.spv.h"
-#include "shaders/water_draw_water_frag_reactive.spv.h"
-#include "shaders/water_draw_water_vert.spv.h"
+#include "shaders/water_shaders.h"
 
 #include <math.h>
 #include <string.h>

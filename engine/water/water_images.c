@@ -4,9 +4,7 @@
 #include "gpu/errors.h"
 #include "gpu/record.h"
 
-#include "shaders/water_draw_splat_depth_frag.spv.h"
-#include "shaders/water_draw_splat_sum_frag.spv.h"
-#include "shaders/water_draw_splat_vert.spv.h"
+#include "shaders/water_shaders.h"
 
 #define SAMPLED   VK_IMAGE_USAGE_SAMPLED_BIT
 #define COLOR_BIT VK_IMAGE_ASPECT_COLOR_BIT
