@@ -4,9 +4,19 @@
 #include <inttypes.h>
 #include <math.h>
 
-virga_result virga_settings_check(const virga_log *log, const char *name, uint32_t size, uint32_t expected_size,
-                                  uint32_t cookie, uint32_t expected_cookie)
+/* FNV-1a. */
+uint32_t virga_settings_cookie(const char *name)
 {
+    uint32_t hash = 2166136261u;
+    for (; *name; name++)
+        hash = (hash ^ (unsigned char)*name) * 16777619u;
+    return hash;
+}
+
+virga_result virga_settings_check(const virga_log *log, const char *name, uint32_t size, uint32_t expected_size,
+                                  uint32_t cookie)
+{
+    const uint32_t expected_cookie = virga_settings_cookie(name);
     if (cookie != expected_cookie) {
         virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_COOKIE,
                         "%s: cookie is 0x%08" PRIx32 ", expected 0x%08" PRIx32 "; fill it with virga_default_%s", name,

@@ -19,14 +19,12 @@
 #define VIRGA_MAX_ACCELERATION_M_S2   1000.0f
 #define VIRGA_MAX_ANGULAR_SPEED_RAD_S 100.0f
 
-/* The cookie of a settings struct. `tag` is a constant expression, different for each struct. The odd factor keeps
- * different tags apart. No small tag gives 0 or all ones, which uninitialised memory often holds. */
-#define VIRGA_COOKIE(tag) (((uint32_t)(tag)*0x9e3779b1u) ^ 0x76697267u)
+/* The cookie of a settings struct: a hash of the name of the type without its prefix, e.g. "rain_def". */
+uint32_t virga_settings_cookie(const char *name);
 
-/* VIRGA_OK, or VIRGA_ERROR_INVALID with one log line that names the struct. `name` is the name of the type without its
- * prefix, e.g. "rain_def": the log line mentions "virga_default_rain_def". */
+/* VIRGA_OK, or VIRGA_ERROR_INVALID with one log line that names the struct. It mentions "virga_default_<name>". */
 virga_result virga_settings_check(const virga_log *log, const char *name, uint32_t size, uint32_t expected_size,
-                                  uint32_t cookie, uint32_t expected_cookie);
+                                  uint32_t cookie);
 
 /* Clamps a value to [lo; hi]. If it changed, sets *changed (may be NULL; never cleared) and logs it. `name` is the
  * host's name of the setting, e.g. "rain.rate_mm_h". NaN becomes `lo`: check with virga_settings_check_finite first. */

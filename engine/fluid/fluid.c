@@ -4,6 +4,9 @@
 #include "core/settings.h"
 #include "gpu/errors.h"
 
+#define EFFECT fluid
+#include "gpu/effect_rows.h"
+
 #include "shaders/fluid_shaders.h"
 #include "shaders/particles_shaders.h"
 
@@ -11,13 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(33)
-#define SETTINGS_COOKIE VIRGA_COOKIE(34)
-
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(fluid_def, virga_fluid_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(fluid_settings, virga_fluid_settings, kind, member, __VA_ARGS__)
 
 static const virga_setting_row def_rows[] = {
     DEF(U32, max_particles, 64, 2097152, 65536),
@@ -80,9 +77,6 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_BLOCKS] = FLUID_MAX_BLOCKS + 1;
 }
 
-#define AT(member) offsetof(virga_fluid, member)
-#define DEVICE     VIRGA_HEAP_DEVICE
-
 static const virga_effect_buffer buffers[] = {
     PARTICLE_GRID_BUFFERS(virga_fluid, "fluid", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
     {"fluid.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_fluid_state_gpu),
@@ -102,11 +96,6 @@ static const virga_effect_ring rings[] = {
     {"fluid.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_step_gpu), VIRGA_COUNT_ONE},
     {"fluid.adds", AT(add_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_fluid_add_gpu), COUNT_BLOCKS},
 };
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-#define DYNAMIC VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
 
 static const virga_binding_kind grid_bindings[] = {
     PARTICLE_GRID_BINDING_ROWS(virga_fluid, step_ring, virga_fluid_step_gpu),
@@ -150,33 +139,30 @@ static const virga_effect_layout layouts[] = {
     [FLUID_LAYOUT_STEP] = {AT(bindings), bindings, VIRGA_ROWS(bindings), 1, 0},
 };
 
-#define PASS(pass, layout)                                                           \
-    {                                                                                \
-        "fluid." #pass, AT(pass), VIRGA_SPIRV_ROW(fluid_##pass##_comp), 0, 0, layout \
-    }
+#define STEP_PASS(pass) PASS(pass, .layout = FLUID_LAYOUT_STEP)
 #define GRID_PASS(pass) PARTICLE_GRID_PASS(virga_fluid, "fluid", pass, FLUID_LAYOUT_GRID)
 static const virga_effect_pass passes[] = {
-    PASS(add, FLUID_LAYOUT_ADD),
-    PASS(begin, FLUID_LAYOUT_STEP),
-    PASS(count, FLUID_LAYOUT_STEP),
+    PASS(add, .layout = FLUID_LAYOUT_ADD),
+    STEP_PASS(begin),
+    STEP_PASS(count),
     GRID_PASS(thin),
     GRID_PASS(sums),
     GRID_PASS(scan),
     GRID_PASS(offsets),
     GRID_PASS(fill),
     GRID_PASS(order),
-    PASS(copy, FLUID_LAYOUT_STEP),
-    PASS(neighbours, FLUID_LAYOUT_STEP),
-    PASS(push, FLUID_LAYOUT_STEP),
-    PASS(correct, FLUID_LAYOUT_STEP),
-    PASS(check, FLUID_LAYOUT_STEP),
-    PASS(forces, FLUID_LAYOUT_STEP),
-    PASS(advance, FLUID_LAYOUT_STEP),
+    STEP_PASS(copy),
+    STEP_PASS(neighbours),
+    STEP_PASS(push),
+    STEP_PASS(correct),
+    STEP_PASS(check),
+    STEP_PASS(forces),
+    STEP_PASS(advance),
 };
 
 static const virga_effect_pool pools[] = {
-    {"max_particles", offsetof(virga_fluid_def, max_particles), 64, 64},
-    {"max_cells", offsetof(virga_fluid_def, max_cells), 4096, VIRGA_GRID_SCAN_CELLS},
+    POOL(max_particles, 64, 64),
+    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
 };
 
 static void describe(const void *object, char *line, size_t size)

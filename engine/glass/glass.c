@@ -5,6 +5,9 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
+#define EFFECT glass
+#include "gpu/effect_rows.h"
+
 #include <virga/shared/impact.h>
 
 #include "shaders/glass_shaders.h"
@@ -14,14 +17,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(11)
-#define SETTINGS_COOKIE VIRGA_COOKIE(12)
-#define MAX_CELLS       4194304.0
+#define MAX_CELLS 4194304.0
 
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(glass_def, virga_glass_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(glass_settings, virga_glass_settings, kind, member, __VA_ARGS__)
 
 /* clang-format off */
 static const virga_setting_row def_rows[] = {
@@ -179,12 +177,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     count_picture(def, counts);
 }
 
-#define AT(member)  offsetof(virga_glass, member)
-#define DEVICE      VIRGA_HEAP_DEVICE
-#define STORAGE_USE VIRGA_USE_STORAGE
-#define FILL        VIRGA_FIRST_FILL
-#define LIST_HEAD   sizeof(virga_list_gpu)
-#define NODE_BYTES  (VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu))
+#define LIST_HEAD  sizeof(virga_list_gpu)
+#define NODE_BYTES (VIRGA_GLASS_NODES * VIRGA_GLASS_NODES * sizeof(virga_glass_node_gpu))
 
 _Static_assert(NODE_BYTES <= 16 * VIRGA_GUARANTEED_TEXELS, "nodes are texels on every device");
 _Static_assert(VIRGA_MAX_FRAMES_IN_FLIGHT *VIRGA_GLASS_MAX_VIEWS *VIRGA_RING_BYTES(glass_view_block) <=
@@ -194,28 +188,28 @@ _Static_assert(VIRGA_MAX_FRAMES_IN_FLIGHT *VIRGA_GLASS_MAX_VIEWS *VIRGA_RING_BYT
 static const virga_effect_buffer buffers[] = {
     /* The state of the pane. */
     {"glass.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_state_gpu), .first = FILL},
-    {"glass.drops", AT(drops), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
-    {"glass.picks", AT(picks), STORAGE_USE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"glass.drops", AT(drops), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_drop_gpu), COUNT_SLOTS, FILL},
+    {"glass.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
     {"glass.list", AT(list), VIRGA_USE_INDIRECT, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
-    {"glass.active", AT(active), STORAGE_USE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
-    {"glass.claims", AT(claims), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
-    {"glass.occupants", AT(occupants), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
-    {"glass.film", AT(film), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
-    {"glass.passed", AT(passed), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS, FILL},
-    {"glass.film_blocks", AT(film_blocks), STORAGE_USE, DEVICE, 0, 8, COUNT_FILM_BLOCKS, FILL},
-    {"glass.seeds", AT(seeds), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_seed_gpu), COUNT_SEEDS, FILL},
-    {"glass.ranks", AT(ranks), STORAGE_USE, DEVICE, 0, 4, COUNT_SEEDS},
-    {"glass.grid", AT(grid), STORAGE_USE, DEVICE, 0, 4, COUNT_GRID, FILL},
-    {"glass.moved", AT(moved), STORAGE_USE, DEVICE, 0, 16, COUNT_SLOTS},
+    {"glass.active", AT(active), VIRGA_USE_STORAGE, DEVICE, LIST_HEAD, 4, COUNT_SLOTS},
+    {"glass.claims", AT(claims), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL, VIRGA_GLASS_NONE},
+    {"glass.occupants", AT(occupants), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.film", AT(film), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.passed", AT(passed), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS, FILL},
+    {"glass.film_blocks", AT(film_blocks), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_FILM_BLOCKS, FILL},
+    {"glass.seeds", AT(seeds), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_seed_gpu), COUNT_SEEDS, FILL},
+    {"glass.ranks", AT(ranks), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_SEEDS},
+    {"glass.grid", AT(grid), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_GRID, FILL},
+    {"glass.moved", AT(moved), VIRGA_USE_STORAGE, DEVICE, 0, 16, COUNT_SLOTS},
     /* The surface of the pane. */
-    {"glass.surface", AT(surface), STORAGE_USE, DEVICE, 0, 4, COUNT_CELLS},
+    {"glass.surface", AT(surface), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_CELLS},
     {"glass.nodes", AT(nodes), VIRGA_USE_TEXELS, DEVICE, NODE_BYTES},
     /* The height map and the draws. */
-    {"glass.balls", AT(picture.balls), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_ball_gpu), COUNT_BALLS},
-    {"glass.tiles", AT(picture.tiles), STORAGE_USE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
-    {"glass.entries", AT(picture.entries), STORAGE_USE, DEVICE, 0, 4, COUNT_ENTRIES},
-    {"glass.mist", AT(picture.mist), STORAGE_USE, DEVICE, 0, 1, COUNT_MIST},
-    {"glass.written", AT(picture.written), STORAGE_USE, DEVICE, 0, 4, COUNT_TILES},
+    {"glass.balls", AT(picture.balls), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_ball_gpu), COUNT_BALLS},
+    {"glass.tiles", AT(picture.tiles), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_glass_tile_gpu), COUNT_TILES},
+    {"glass.entries", AT(picture.entries), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_ENTRIES},
+    {"glass.mist", AT(picture.mist), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_MIST},
+    {"glass.written", AT(picture.written), VIRGA_USE_STORAGE, DEVICE, 0, 4, COUNT_TILES},
     {"glass.work", AT(picture.work), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_glass_work_gpu), 4, COUNT_WORK},
     {"glass.corners", AT(picture.corners), VIRGA_USE_INDEX, DEVICE, 0, 4, COUNT_CORNERS},
 };
@@ -226,40 +220,33 @@ static const virga_effect_ring rings[] = {
      VIRGA_RING_BYTES(glass_view_block), COUNT_VIEWS},
 };
 
-#define COLOR_ASPECT VK_IMAGE_ASPECT_COLOR_BIT
-#define SAMPLED_USE  VK_IMAGE_USAGE_SAMPLED_BIT
-#define CLEARED_USE  (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
-#define WRITTEN_USE  (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)
-#define READ_BACK    VK_IMAGE_USAGE_TRANSFER_SRC_BIT
+#define SAMPLED_USE VK_IMAGE_USAGE_SAMPLED_BIT
+#define CLEARED_USE (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
+#define WRITTEN_USE (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)
+#define READ_BACK   VK_IMAGE_USAGE_TRANSFER_SRC_BIT
 
 /* Images that draws filter are cleared first. The filter also reads texels next to those that a view writes. If such a
  * texel were NaN, the result would be NaN even with a weight of 0. */
 static const virga_effect_image images[] = {
-    {"glass.relief", AT(picture.relief), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT,
-     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
-    {"glass.map", AT(picture.map), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR_ASPECT, WRITTEN_USE | READ_BACK,
-     COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
-    {"glass.paper_map", AT(picture.paper_map), VK_FORMAT_R32_UINT, COLOR_ASPECT, WRITTEN_USE, COUNT_MAP_COLUMNS,
+    {"glass.relief", AT(picture.relief), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, CLEARED_USE | WRITTEN_USE | READ_BACK,
+     COUNT_MAP_COLUMNS, COUNT_MAP_ROWS, 1, FILL},
+    {"glass.map", AT(picture.map), VK_FORMAT_R32G32B32A32_SFLOAT, COLOR, WRITTEN_USE | READ_BACK, COUNT_MAP_COLUMNS,
      COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
-    {"glass.copies", AT(picture.copies), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT,
-     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
-    {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR_ASPECT, CLEARED_USE, COUNT_MIST_COLUMNS,
+    {"glass.paper_map", AT(picture.paper_map), VK_FORMAT_R32_UINT, COLOR, WRITTEN_USE, COUNT_MAP_COLUMNS,
+     COUNT_MAP_ROWS, 1, VIRGA_FIRST_STORAGE},
+    {"glass.copies", AT(picture.copies), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, CLEARED_USE | WRITTEN_USE | READ_BACK,
+     COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
+    {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR, CLEARED_USE, COUNT_MIST_COLUMNS,
      COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE},
-    {"glass.blank_depth", AT(picture.blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, SAMPLED_USE,
-     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
-    {"glass.blank_color", AT(picture.blank_color), VK_FORMAT_R8G8B8A8_UNORM, COLOR_ASPECT, SAMPLED_USE, VIRGA_COUNT_ONE,
-     VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    BLANK_DEPTH("glass.blank_depth", picture.blank_depth),
+    BLANK_COLOR("glass.blank_color", picture.blank_color),
 };
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
 
 enum { BIND_IMPACTS = 14 };
 
 /* The same bindings as in shaders/glass, where each file declares those it uses. */
 static const virga_binding_kind bindings[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring),
-     sizeof(virga_glass_tick_gpu)},                                                     /* 0 */
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_glass_tick_gpu)}, /* 0 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                                 /* 2 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 3 */
@@ -272,7 +259,7 @@ static const virga_binding_kind bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(ranks)},                                 /* 10 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid)},                                  /* 11 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                               /* 12 */
-    {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, COMPUTE, VIRGA_SOURCE_TEXELS, AT(nodes)}, /* 13 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(nodes)},                                  /* 13 */
     [BIND_IMPACTS] = {STORAGE, COMPUTE},                                                /* 14 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(moved)},                                 /* 15 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(active)},                                /* 16 */
@@ -286,11 +273,7 @@ static const virga_effect_layout layouts[] = {
     [LAYOUT_PICTURE] = {AT(picture.bindings), glass_picture_bindings, GLASS_PICTURE_BINDINGS, VIRGA_GLASS_MAX_VIEWS, 0},
 };
 
-/* clang-format off */
-#define STEP(pass) {"glass." #pass, AT(pass), VIRGA_SPIRV_ROW(glass_step_##pass##_comp)}
-#define DRAW(pass) \
-    {"glass." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(glass_draw_##pass##_comp), .layout = LAYOUT_PICTURE}
-/* clang-format on */
+#define PICTURE(pass, member, ...) PASS_AT(draw, pass, picture.member, .layout = LAYOUT_PICTURE, __VA_ARGS__)
 
 static const virga_effect_pass passes[] = {
     STEP(live_mark),
@@ -317,23 +300,22 @@ static const virga_effect_pass passes[] = {
     STEP(dry_film),
     STEP(film_compact),
     STEP(measure),
-    {"glass.balls", AT(picture.ball_pass), VIRGA_SPIRV_ROW(glass_draw_balls_comp), .layout = LAYOUT_PICTURE},
-    DRAW(mist_blocks),
-    DRAW(film_tiles),
-    DRAW(tile_list),
-    DRAW(tile_fill),
-    DRAW(tile_quads),
-    DRAW(plate_copy),
-    DRAW(plate_shrink),
-    {"glass.mist", AT(picture.mist_passes), VIRGA_SPIRV_ROW(glass_draw_mist_comp), .forms = GLASS_MIST_FORMS,
-     .layout = LAYOUT_PICTURE},
+    PICTURE(balls, ball_pass),
+    PICTURE(mist_blocks, mist_blocks),
+    PICTURE(film_tiles, film_tiles),
+    PICTURE(tile_list, tile_list),
+    PICTURE(tile_fill, tile_fill),
+    PICTURE(tile_quads, tile_quads),
+    PICTURE(plate_copy, plate_copy),
+    PICTURE(plate_shrink, plate_shrink),
+    PICTURE(mist, mist_passes, .forms = GLASS_MIST_FORMS),
 };
 
 /* The sizes that may shrink to fit the memory budget: the number of drops and the resolution of the height map. The
  * number of cells is fixed, because cells define where drops can be. */
 static const virga_effect_pool pools[] = {
-    {"max_drops", offsetof(virga_glass_def, max_drops), VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP},
-    {"max_texels", offsetof(virga_glass_def, max_texels), 64, 1},
+    POOL(max_drops, VIRGA_GLASS_GROUP, VIRGA_GLASS_GROUP),
+    POOL(max_texels, 64, 1),
 };
 
 /* Size of the upload buffers of the shape. */

@@ -4,6 +4,9 @@
 
 #include "gpu/errors.h"
 
+#define EFFECT glass
+#include "gpu/effect_rows.h"
+
 #include "shaders/glass_shaders.h"
 
 #include <math.h>
@@ -44,35 +47,24 @@ void glass_picture_fill_sizes(const virga_glass_def *def, struct glass_picture *
 
 /* ---- bindings */
 
-#define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX   VK_SHADER_STAGE_VERTEX_BIT
-#define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
-#define STORAGE  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define IMAGE    VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-#define SAMPLED  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-#define TEXELS   VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-
-#define AT(member) offsetof(virga_glass, member)
-
 enum { BIND_RELIEF = 12, BIND_DEPTH = 15, BIND_COLOR, BIND_MOTION = 24, BIND_VIEWS = 28 };
 
 /* The same bindings as in shaders/glass, where each file declares those it uses. */
 const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring),
-     sizeof(glass_view_block)},                                                  /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                          /* 1 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                           /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                         /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                        /* 4 */
-    {TEXELS, COMPUTE | VERTEX, VIRGA_SOURCE_TEXELS, AT(nodes)},                  /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.balls)},                  /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.tiles)},                  /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.entries)},                /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.mist)},                   /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                           /* 10 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                       /* 11 */
-    [BIND_RELIEF] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.relief)}, /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)},                    /* 13 copies of the plate, written */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(picture.view_ring), sizeof(glass_view_block)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drops)},                                              /* 1 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                                               /* 2 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                                             /* 3 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                                            /* 4 */
+    {TEXELS, COMPUTE | VERTEX, VIRGA_SOURCE_TEXELS, AT(nodes)},                                      /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.balls)},                                      /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.tiles)},                                      /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.entries)},                                    /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.mist)},                                       /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list)},                                               /* 10 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                                           /* 11 */
+    [BIND_RELIEF] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.relief)},                     /* 12 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)}, /* 13 copies of the plate, written */
     {SAMPLED, FRAGMENT | VERTEX, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
     [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                                    /* 15 */
     [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                          /* 16 */

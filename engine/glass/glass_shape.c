@@ -9,7 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#define SHAPE_COOKIE   VIRGA_COOKIE(13)
 #define NODES          VIRGA_GLASS_NODES
 #define MAX_GRID       1025    /* columns and rows of positions */
 #define MAX_POSITION_M 1000.0f /* from the origin of a pane's own frame */
@@ -17,7 +16,7 @@
 virga_glass_shape virga_default_glass_shape(void)
 {
     return (virga_glass_shape){.size = sizeof(virga_glass_shape),
-                               .cookie = SHAPE_COOKIE,
+                               .cookie = virga_settings_cookie("glass_shape"),
                                .columns = 2,
                                .rows = 2,
                                .mask_columns = 1,
@@ -327,8 +326,7 @@ static void fill_cells(const virga_glass *glass, const virga_glass_shape *shape,
 
 static virga_result check_shape(const virga_log *log, const virga_glass_shape *shape)
 {
-    const virga_result result =
-        virga_settings_check(log, "glass_shape", shape->size, sizeof *shape, shape->cookie, SHAPE_COOKIE);
+    const virga_result result = virga_settings_check(log, "glass_shape", shape->size, sizeof *shape, shape->cookie);
     if (result)
         return result;
     if (shape->positions &&

@@ -12,14 +12,12 @@
 
 #include <string.h>
 
-#define CONTEXT_COOKIE VIRGA_COOKIE(1)
-
 #define LARGEST_POOL_TEXELS 33554432 /* lower bound: the largest pools hold 4194304 streaks or sprites of 5 texels */
 
 virga_context_def virga_default_context_def(void)
 {
     return (virga_context_def){.size = sizeof(virga_context_def),
-                               .cookie = CONTEXT_COOKIE,
+                               .cookie = virga_settings_cookie("context_def"),
                                .frames_in_flight = 3,
                                .timings = true,
                                .debug_names = true};
@@ -27,8 +25,7 @@ virga_context_def virga_default_context_def(void)
 
 static virga_result check_def(const virga_log *log, const virga_context_def *def)
 {
-    const virga_result result =
-        virga_settings_check(log, "context_def", def->size, sizeof *def, def->cookie, CONTEXT_COOKIE);
+    const virga_result result = virga_settings_check(log, "context_def", def->size, sizeof *def, def->cookie);
     if (result)
         return result;
     if (!def->instance || !def->physical_device || !def->device || !def->get_instance_proc_addr)

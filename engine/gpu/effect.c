@@ -42,7 +42,7 @@ static void fill_defaults(const virga_effect_struct *kind, void *out)
     uint32_t *head = out;
     memset(out, 0, kind->size);
     head[0] = kind->size;
-    head[1] = kind->cookie;
+    head[1] = virga_settings_cookie(kind->name);
     virga_settings_fill(kind->rows, kind->row_count, out);
 }
 
@@ -70,7 +70,7 @@ static virga_result copy_checked(const virga_log *log, const virga_effect_struct
                                  bool *changed)
 {
     const uint32_t *head = given;
-    const virga_result result = virga_settings_check(log, kind->name, head[0], kind->size, head[1], kind->cookie);
+    const virga_result result = virga_settings_check(log, kind->name, head[0], kind->size, head[1]);
     if (result)
         return result;
     memcpy(copy, given, kind->size);

@@ -139,7 +139,7 @@ typedef struct virga_effect_pool {
 /* A public struct that begins with size and cookie: a definition or settings. */
 typedef struct virga_effect_struct {
     const char *name; /* as in virga_settings_check */
-    uint32_t size, cookie;
+    uint32_t size;
     size_t member; /* offset in the object */
     const virga_setting_row *rows;
     uint32_t row_count;
@@ -227,11 +227,10 @@ typedef struct virga_effect_type {
  * callbacks check_def, count, describe and <name>_read_statistics. */
 #define VIRGA_EFFECT_TYPE(effect, title, settings_log_name)                                                          \
     .name = title, .log_name = settings_log_name, .size = sizeof(virga_##effect),                                    \
-    .def = {#effect "_def", sizeof(virga_##effect##_def), DEF_COOKIE, offsetof(virga_##effect, def),                 \
-            def_rows,       VIRGA_ROWS(def_rows)},                                                                   \
-    .settings = {#effect "_settings", sizeof(virga_##effect##_settings),                                             \
-                 SETTINGS_COOKIE,     offsetof(virga_##effect, settings),                                            \
-                 setting_rows,        VIRGA_ROWS(setting_rows)},                                                     \
+    .def = {#effect "_def", sizeof(virga_##effect##_def), offsetof(virga_##effect, def), def_rows,                   \
+            VIRGA_ROWS(def_rows)},                                                                                   \
+    .settings = {#effect "_settings", sizeof(virga_##effect##_settings), offsetof(virga_##effect, settings),         \
+                 setting_rows, VIRGA_ROWS(setting_rows)},                                                            \
     VIRGA_TABLE(buffer), VIRGA_TABLE(ring), VIRGA_TABLE(layout), .passes = passes, .pass_count = VIRGA_ROWS(passes), \
     VIRGA_TABLE(pool), .readback_name = #effect ".readback", .readback_bytes = sizeof(effect##_readback),            \
     .check_def = check_def, .count = count, .describe = describe, .read_statistics = effect##_read_statistics

@@ -10,12 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TARGET_COOKIE VIRGA_COOKIE(2)
-
 virga_target_def virga_default_target_def(void)
 {
     return (virga_target_def){.size = sizeof(virga_target_def),
-                              .cookie = TARGET_COOKIE,
+                              .cookie = virga_settings_cookie("target_def"),
                               .color_count = 1,
                               .samples = VK_SAMPLE_COUNT_1_BIT,
                               .depth_attached = true};
@@ -87,8 +85,7 @@ static virga_result check_formats(const virga_context *context, const virga_targ
 
 static virga_result check_def(const virga_log *log, const virga_target_def *def)
 {
-    const virga_result result =
-        virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie, TARGET_COOKIE);
+    const virga_result result = virga_settings_check(log, "target_def", def->size, sizeof *def, def->cookie);
     if (result)
         return result;
     if ((uint32_t)def->kind > VIRGA_TARGET_DYNAMIC)

@@ -11,8 +11,6 @@
 
 #include <virga/drops.h>
 
-#define VIEW_COOKIE VIRGA_COOKIE(4)
-
 /* Limits of the first two diagonal elements of a projection. These are the cotangents of half the field of view, which
  * is between a tenth of a microradian and 179.99 degrees. Larger elements are useless, and their products exceed the
  * range of floats. */
@@ -24,7 +22,8 @@
 virga_view virga_default_view(void)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    virga_view view = {.size = sizeof view, .cookie = VIEW_COOKIE, .shutter_s = 1.0 / 96, .sub_frames = 1};
+    virga_view view = {
+        .size = sizeof view, .cookie = virga_settings_cookie("view"), .shutter_s = 1.0 / 96, .sub_frames = 1};
     view.temporal = (virga_temporal){.motion_scale = {1, 1}, .motion_coverage = 0.5f, .reactive_gain = 8};
     memcpy(view.view_from_world, identity, sizeof identity);
     memcpy(view.clip_from_view, identity, sizeof identity);
@@ -162,7 +161,7 @@ static virga_result check_viewport(const virga_context *context, const float box
 virga_result virga_view_check(const virga_context *context, const virga_view *view, double time_s)
 {
     const virga_log *log = &context->log;
-    const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie, VIEW_COOKIE);
+    const virga_result result = virga_settings_check(log, "view", view->size, sizeof *view, view->cookie);
     if (result)
         return result;
     if (check_camera(log, view) || check_images(log, view))

@@ -6,6 +6,9 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
+#define EFFECT ground
+#include "gpu/effect_rows.h"
+
 #include "shaders/ground_shaders.h"
 
 #include <math.h>
@@ -13,13 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(7)
-#define SETTINGS_COOKIE VIRGA_COOKIE(8)
-
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(ground_def, virga_ground_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(ground_settings, virga_ground_settings, kind, member, __VA_ARGS__)
 
 static const virga_setting_row def_rows[] = {
     DEF(U32, seed, 0, UINT32_MAX, 1),
@@ -102,31 +99,26 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more where the window moves */
 }
 
-#define AT(member)   offsetof(virga_ground, member)
-#define DEVICE       VIRGA_HEAP_DEVICE
-#define STORAGE_USE  VIRGA_USE_STORAGE
-#define FILL         VIRGA_FIRST_FILL
 #define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */
 #define MAP_USE      (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)
-#define COLOR_ASPECT VK_IMAGE_ASPECT_COLOR_BIT
 
 static const virga_effect_buffer buffers[] = {
     {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS},
     {"ground.cells", AT(cells), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_CELLS, FILL},
-    {"ground.arrivals", AT(arrivals), STORAGE_USE, DEVICE, 0, sizeof(virga_arrivals_gpu), COUNT_CELLS, FILL},
-    {"ground.stirs", AT(stirs), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
-    {"ground.swings", AT(swings), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
-    {"ground.spots", AT(spots), STORAGE_USE, DEVICE, 0, 8, COUNT_CELLS, FILL},
-    {"ground.cached_cells", AT(cached_cells), STORAGE_USE, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_KEPT, FILL},
-    {"ground.cached_spots", AT(cached_spots), STORAGE_USE, DEVICE, 0, 8, COUNT_KEPT},
-    {"ground.counts", AT(counts), STORAGE_USE, DEVICE, sizeof(ground_readback), .first = FILL},
-    {"ground.landings", AT(landings), STORAGE_USE, DEVICE, 0, sizeof(virga_landing_gpu), COUNT_LANDINGS, FILL},
+    {"ground.arrivals", AT(arrivals), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_arrivals_gpu), COUNT_CELLS, FILL},
+    {"ground.stirs", AT(stirs), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
+    {"ground.swings", AT(swings), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
+    {"ground.spots", AT(spots), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL},
+    {"ground.cached_cells", AT(cached_cells), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_KEPT, FILL},
+    {"ground.cached_spots", AT(cached_spots), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_KEPT},
+    {"ground.counts", AT(counts), VIRGA_USE_STORAGE, DEVICE, sizeof(ground_readback), .first = FILL},
+    {"ground.landings", AT(landings), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_landing_gpu), COUNT_LANDINGS, FILL},
     {"ground.spawns", AT(spawns), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_spawns_gpu), sizeof(virga_spawn_gpu),
      COUNT_SPAWNS, FILL, .word = offsetof(virga_spawns_gpu, near_m) / sizeof(uint32_t), .word_value = FIRST_NEAR_M},
     {"ground.no_rules", AT(no_rules), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_TRANSFER_DST_BIT, DEVICE,
      sizeof(virga_splash_rules_gpu), .first = FILL},
-    {"ground.rings", AT(rings), STORAGE_USE, DEVICE, sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu),
-     .first = FILL},
+    {"ground.rings", AT(rings), VIRGA_USE_STORAGE, DEVICE,
+     sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu), .first = FILL},
     {"ground.far_floors", AT(far.floors), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, DEVICE, 0, sizeof(virga_far_floor_gpu),
      COUNT_FAR_CELLS},
 };
@@ -138,22 +130,15 @@ static const virga_effect_ring rings[] = {
 };
 
 static const virga_effect_image images[] = {
-    {"ground.wet_map", AT(wet_map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT, MAP_USE, COUNT_SIDE, COUNT_SIDE, 1,
+    {"ground.wet_map", AT(wet_map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, MAP_USE, COUNT_SIDE, COUNT_SIDE, 1,
      VIRGA_FIRST_STORAGE},
-    {"ground.spot_map", AT(spot_map), VK_FORMAT_R32_UINT, COLOR_ASPECT, MAP_USE, COUNT_TWO_SIDES, COUNT_SIDE, 1,
+    {"ground.spot_map", AT(spot_map), VK_FORMAT_R32_UINT, COLOR, MAP_USE, COUNT_TWO_SIDES, COUNT_SIDE, 1,
      VIRGA_FIRST_STORAGE},
-    {"ground.far_map", AT(far.map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR_ASPECT, MAP_USE, COUNT_FAR_WIDTH,
-     COUNT_FAR_HEIGHT, 1, VIRGA_FIRST_STORAGE, .keeps = true},
-    {"ground.blank_materials", AT(blank_materials), VK_FORMAT_R8_UINT, COLOR_ASPECT, VK_IMAGE_USAGE_SAMPLED_BIT,
+    {"ground.far_map", AT(far.map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, MAP_USE, COUNT_FAR_WIDTH, COUNT_FAR_HEIGHT, 1,
+     VIRGA_FIRST_STORAGE, .keeps = true},
+    {"ground.blank_materials", AT(blank_materials), VK_FORMAT_R8_UINT, COLOR, VK_IMAGE_USAGE_SAMPLED_BIT,
      VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
 };
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX  VK_SHADER_STAGE_VERTEX_BIT
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-#define IMAGE   VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
 
 enum {
     BIND_IMPACTS = 2,
@@ -171,10 +156,8 @@ enum {
 
 /* The bindings as the files in shaders/ground declare them. */
 static const virga_binding_kind bindings[] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring),
-     sizeof(virga_ground_tick_gpu)}, /* 0 */
-    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring),
-     sizeof(ground_lists)},                                      /* 1 tile lists */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(virga_ground_tick_gpu)}, /* 0 */
+    {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(list_ring), sizeof(ground_lists)},           /* 1 tile lists */
     [BIND_IMPACTS] = {STORAGE, COMPUTE},                         /* 2 impacts or returned droplets */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(floors)},         /* 3 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cells)},          /* 4 */
@@ -189,9 +172,9 @@ static const virga_binding_kind bindings[] = {
     [BIND_WET_MAP] = {IMAGE, COMPUTE},                           /* 13 */
     [BIND_SPOT_MAP] = {IMAGE, COMPUTE},                          /* 14 */
     {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(rings)}, /* 15 */
-    [BIND_WAVES] = {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT},      /* 16 */
+    [BIND_WAVES] = {SAMPLED, FRAGMENT},                          /* 16 */
     [BIND_MATERIALS] = {SAMPLED, COMPUTE},                       /* 17 */
-    [BIND_RULES] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, COMPUTE}, /* 18 rules of the splashes */
+    [BIND_RULES] = {UNIFORM, COMPUTE},                           /* 18 rules of the splashes */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spawns)},         /* 19 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(swings)},         /* 20 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(floors)},          /* 21 */
@@ -205,10 +188,6 @@ static const virga_binding_kind bindings[] = {
 static const virga_effect_layout layouts[] = {
     {AT(bindings), bindings, VIRGA_ROWS(bindings), GROUND_SOURCES, sizeof(uint32_t)},
 };
-
-/* clang-format off */
-#define PASS(pass) {"ground." #pass, AT(pass), VIRGA_SPIRV_ROW(ground_##pass##_comp)}
-/* clang-format on */
 
 static const virga_effect_pass passes[] = {
     PASS(tile_load),
@@ -230,10 +209,10 @@ static const virga_effect_pass passes[] = {
 /* What shrinks to fit the memory budget: the window, the tile cache, the ripple map and the distant map. Sizes shared
  * with rain and splashes stay. */
 static const virga_effect_pool pools[] = {
-    {"cells", offsetof(virga_ground_def, cells), 128, 0},
-    {"cached_tiles", offsetof(virga_ground_def, cached_tiles), 0, 1},
-    {"ripple_texels", offsetof(virga_ground_def, ripple_texels), 64, 1},
-    {"far_cells", offsetof(virga_ground_def, far_cells), 0, VIRGA_GROUND_TILE},
+    POOL(cells, 128, 0),
+    POOL(cached_tiles, 0, 1),
+    POOL(ripple_texels, 64, 1),
+    POOL(far_cells, 0, VIRGA_GROUND_TILE),
 };
 
 /* The window may have become smaller, so the sizes that depend on it are adjusted again. */

@@ -5,19 +5,16 @@
 #include "gpu/errors.h"
 #include "lens/lens.h"
 
+#define EFFECT lens
+#include "gpu/effect_rows.h"
+
 #include "shaders/lens_shaders.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(41)
-#define SETTINGS_COOKIE VIRGA_COOKIE(42)
-
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(lens_def, virga_lens_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(lens_settings, virga_lens_settings, kind, member, __VA_ARGS__)
 
 static const virga_setting_row def_rows[] = {
     DEF(U32, max_width, 16, 16384, 1920),
@@ -73,9 +70,6 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_APERTURE] = VIRGA_LENS_APERTURE;
 }
 
-#define AT(member) offsetof(virga_lens, member)
-#define DEVICE     VIRGA_HEAP_DEVICE
-
 static const virga_effect_buffer buffers[] = {
     {"lens.state", AT(state), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_lens_state_gpu),
      .first = VIRGA_FIRST_FILL},
@@ -88,7 +82,6 @@ static const virga_effect_ring rings[] = {
     {"lens.views", AT(view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_lens_gpu), VIRGA_COUNT_ONE},
 };
 
-#define COLOR   VK_IMAGE_ASPECT_COLOR_BIT
 #define WRITTEN (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)
 
 static const virga_effect_image images[] = {
@@ -100,35 +93,27 @@ static const virga_effect_image images[] = {
      VIRGA_LENS_FIRST_LAYER + VIRGA_LENS_LAYERS, VIRGA_FIRST_STORAGE},
     {"lens.picture", AT(picture), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, WRITTEN | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
      COUNT_WIDTH, COUNT_HEIGHT, 1, VIRGA_FIRST_STORAGE},
-    {"lens.blank_depth", AT(blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
-     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
-    {"lens.blank_color", AT(blank_color), VK_FORMAT_R8G8B8A8_UNORM, COLOR, VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE,
-     VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    BLANK_DEPTH("lens.blank_depth", blank_depth),
+    BLANK_COLOR("lens.blank_color", blank_color),
 };
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define IMAGE   VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
 /* The same bindings as in shaders/lens, where each file declares those it uses. */
 static const virga_binding_kind bindings[LENS_BINDINGS] = {
-    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, COMPUTE | VK_SHADER_STAGE_FRAGMENT_BIT, VIRGA_SOURCE_RING,
-     AT(view_ring), sizeof(virga_lens_gpu)},                                  /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                       /* 1 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                     /* 2 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                       /* 3 */
-    [LENS_BIND_DEPTH] = {SAMPLED, COMPUTE},                                   /* 4 */
-    [LENS_BIND_COLOR] = {SAMPLED, COMPUTE},                                   /* 5 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                        /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                     /* 7 */
-    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                      /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                       /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                     /* 10 */
-    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                            /* 11 */
-    [LENS_BIND_FIELDS] = {SAMPLED, COMPUTE},                                  /* 12 */
-    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                        /* 13 */
-    {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT, VIRGA_SOURCE_IMAGE, AT(picture)}, /* 14 */
+    {DYNAMIC, COMPUTE | FRAGMENT, VIRGA_SOURCE_RING, AT(view_ring), sizeof(virga_lens_gpu)}, /* 0 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                      /* 1 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                                    /* 2 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(aperture)},                                      /* 3 */
+    [LENS_BIND_DEPTH] = {SAMPLED, COMPUTE},                                                  /* 4 */
+    [LENS_BIND_COLOR] = {SAMPLED, COMPUTE},                                                  /* 5 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                                       /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spreads)},                                    /* 7 */
+    {SAMPLED, COMPUTE, VIRGA_SOURCE_IMAGE, AT(samples)},                                     /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(tiles)},                                      /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(reaches)},                                    /* 10 */
+    [LENS_BIND_FIELDS_WRITTEN] = {IMAGE, COMPUTE},                                           /* 11 */
+    [LENS_BIND_FIELDS] = {SAMPLED, COMPUTE},                                                 /* 12 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture)},                                       /* 13 */
+    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture)},                                    /* 14 */
     {SAMPLED, COMPUTE},
     {SAMPLED, COMPUTE},
     {SAMPLED, COMPUTE},
@@ -142,15 +127,15 @@ static const virga_binding_kind bindings[LENS_BINDINGS] = {
 static const virga_effect_layout layouts[] = {{AT(bindings), bindings, LENS_BINDINGS, 1, 0}};
 
 static const virga_effect_pass passes[] = {
-    {"lens.focus", AT(focus), VIRGA_SPIRV_ROW(lens_focus_comp)},
+    PASS(focus),
     {"lens.aperture", AT(aperture_reach), VIRGA_SPIRV_ROW(lens_aperture_comp)},
-    {"lens.sample", AT(sample), VIRGA_SPIRV_ROW(lens_sample_comp)},
-    {"lens.tile", AT(tile), VIRGA_SPIRV_ROW(lens_tile_comp)},
-    {"lens.reach", AT(reach), VIRGA_SPIRV_ROW(lens_reach_comp)},
-    {"lens.gather", AT(gather), VIRGA_SPIRV_ROW(lens_gather_comp)},
-    {"lens.layer", AT(layer), VIRGA_SPIRV_ROW(lens_layer_comp), .forms = VIRGA_LENS_LAYERS},
-    {"lens.combine", AT(combine), VIRGA_SPIRV_ROW(lens_combine_comp)},
-    {"lens.paper", AT(paper), VIRGA_SPIRV_ROW(lens_paper_comp)},
+    PASS(sample),
+    PASS(tile),
+    PASS(reach),
+    PASS(gather),
+    PASS(layer, .forms = VIRGA_LENS_LAYERS),
+    PASS(combine),
+    PASS(paper),
 };
 
 static void fill_areas(virga_lens *lens)
@@ -204,9 +189,8 @@ const virga_effect_type lens_type = {
     .name = "a lens",
     .log_name = "lens_settings",
     .size = sizeof(virga_lens),
-    .def = {"lens_def", sizeof(virga_lens_def), DEF_COOKIE, AT(def), def_rows, VIRGA_ROWS(def_rows)},
-    .settings = {"lens_settings", sizeof(virga_lens_settings), SETTINGS_COOKIE, AT(settings), setting_rows,
-                 VIRGA_ROWS(setting_rows)},
+    .def = {"lens_def", sizeof(virga_lens_def), AT(def), def_rows, VIRGA_ROWS(def_rows)},
+    .settings = {"lens_settings", sizeof(virga_lens_settings), AT(settings), setting_rows, VIRGA_ROWS(setting_rows)},
     VIRGA_TABLE(buffer),
     VIRGA_TABLE(ring),
     VIRGA_TABLE(image),

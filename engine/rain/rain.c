@@ -5,6 +5,9 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
+#define EFFECT rain
+#include "gpu/effect_rows.h"
+
 #include "shaders/rain_shaders.h"
 
 #include <math.h>
@@ -12,16 +15,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE        VIRGA_COOKIE(3)
-#define SETTINGS_COOKIE   VIRGA_COOKIE(5)
 #define REAL_DROPS_PER_M3 3200.0 /* in a cloudburst, from 0.2 mm up: limits the size of the innermost box */
 /* Share of the largest box's half side with full density, see FADE_FROM in field.glsl. */
 #define RANGE_SHARE 0.75
 
 /* ---- defaults */
 
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(rain_def, virga_rain_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(rain, virga_rain_settings, kind, member, __VA_ARGS__)
+/* Log lines name them "rain". */
+#define RAIN(...) VIRGA_SETTING_ROW(rain, virga_rain_settings, __VA_ARGS__)
 
 /* clang-format off */
 static const virga_setting_row def_rows[] = {
@@ -40,26 +41,26 @@ static const virga_setting_row def_rows[] = {
 /* clang-format on */
 
 static const virga_setting_row setting_rows[] = {
-    SETTING(FLOAT, rate_mm_h, 0, 200, 10),
-    SETTING(FLOAT, air_density, 0.3, 2, VIRGA_AIR_DENSITY),
-    SETTING(FLOAT, transition_s, 0, 60, 0.5),
-    SETTING(FLOAT, wind_m_s[0], -60, 60, 0),
-    SETTING(FLOAT, wind_m_s[1], -60, 60, 0),
-    SETTING(FLOAT, wind_m_s[2], -60, 60, 0),
-    SETTING(FLOAT, gust_m_s, 0, 30, 0),
-    SETTING(FLOAT, gust_time_s, 0.1, 600, 4),
-    SETTING(FLOAT, streak_gain, 0, 100, 1),
-    SETTING(FLOAT, light_gain, 0, 100, 1),
-    SETTING(FLOAT, min_width_px, 0.5, 4, 1),
-    SETTING(FLOAT, soft_m, 0, 1, 0.05),
-    SETTING(FLOAT, near_fade_m, 0, 5, 0.15),
-    SETTING(FLOAT, oscillation, 0, 4, 1),
-    SETTING(FLOAT, haze, 0, 4, 1),
-    SETTING(FLOAT, haze_sky_m, 0, 1e5, 400),
-    SETTING(FLOAT, glow, 0, 100, 1),
-    SETTING(FLOAT, streak_min_mm, 0.2, 2, 0.4),
-    SETTING(U32, default_material, 0, 255, 0),
-    SETTING(U32, occlusion_interval, 1, 16, 1),
+    RAIN(FLOAT, rate_mm_h, 0, 200, 10),
+    RAIN(FLOAT, air_density, 0.3, 2, VIRGA_AIR_DENSITY),
+    RAIN(FLOAT, transition_s, 0, 60, 0.5),
+    RAIN(FLOAT, wind_m_s[0], -60, 60, 0),
+    RAIN(FLOAT, wind_m_s[1], -60, 60, 0),
+    RAIN(FLOAT, wind_m_s[2], -60, 60, 0),
+    RAIN(FLOAT, gust_m_s, 0, 30, 0),
+    RAIN(FLOAT, gust_time_s, 0.1, 600, 4),
+    RAIN(FLOAT, streak_gain, 0, 100, 1),
+    RAIN(FLOAT, light_gain, 0, 100, 1),
+    RAIN(FLOAT, min_width_px, 0.5, 4, 1),
+    RAIN(FLOAT, soft_m, 0, 1, 0.05),
+    RAIN(FLOAT, near_fade_m, 0, 5, 0.15),
+    RAIN(FLOAT, oscillation, 0, 4, 1),
+    RAIN(FLOAT, haze, 0, 4, 1),
+    RAIN(FLOAT, haze_sky_m, 0, 1e5, 400),
+    RAIN(FLOAT, glow, 0, 100, 1),
+    RAIN(FLOAT, streak_min_mm, 0.2, 2, 0.4),
+    RAIN(U32, default_material, 0, 255, 0),
+    RAIN(U32, occlusion_interval, 1, 16, 1),
 };
 
 /* ---- the sizes that follow from a definition */
@@ -136,25 +137,20 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_VIEWS] = VIRGA_RAIN_MAX_VIEWS;
 }
 
-#define AT(member)  offsetof(virga_rain, member)
-#define DEVICE      VIRGA_HEAP_DEVICE
-#define STORAGE_USE VIRGA_USE_STORAGE
-#define FILL        VIRGA_FIRST_FILL
-
 static const virga_effect_buffer buffers[] = {
     {"rain.slots", AT(slot_buffer), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_slot_gpu), COUNT_SLOTS},
     {"rain.drops", AT(drop_buffer), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_drop_gpu), COUNT_SLOTS},
     {"rain.impacts", AT(impact_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_impacts_gpu), sizeof(virga_impact_gpu),
      COUNT_IMPACTS, FILL},
-    {"rain.picks", AT(pick_buffer), STORAGE_USE, DEVICE, 0, 1, COUNT_PICK_BYTES},
+    {"rain.picks", AT(pick_buffer), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
     {"rain.list", AT(list_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_list_gpu), sizeof(uint32_t), COUNT_SLOTS},
     {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS},
     {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL},
     {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
-    {"rain.hits", AT(hit_buffer), STORAGE_USE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
-    {"rain.hit_offsets", AT(hit_offset_buffer), STORAGE_USE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
-    {"rain.sways", AT(sway_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
-    {"rain.points", AT(point_buffer), STORAGE_USE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},
+    {"rain.hits", AT(hit_buffer), VIRGA_USE_STORAGE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
+    {"rain.hit_offsets", AT(hit_offset_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
+    {"rain.sways", AT(sway_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_sway_gpu), COUNT_SWAYS, FILL},
+    {"rain.points", AT(point_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_point_gpu), COUNT_POINTS},
     {"rain.slot_upload", AT(slot_upload), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, VIRGA_HEAP_UPLOAD, 0,
      sizeof(virga_slot_gpu), COUNT_SLOTS},
 };
@@ -167,8 +163,7 @@ static const virga_effect_ring rings[] = {
 
 /* Bound if a view has no scene depth, or the host gave no wind. */
 static const virga_effect_image images[] = {
-    {"rain.blank", AT(blank), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
-     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    BLANK_DEPTH("rain.blank", blank),
     {"rain.blank_wind", AT(blank_wind), VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT,
      VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 0, VIRGA_FIRST_SAMPLED},
 };
@@ -177,40 +172,19 @@ static const virga_effect_layout layouts[] = {
     {AT(bindings), rain_bindings, RAIN_BINDINGS, RAIN_SETS, sizeof(virga_rain_pane_gpu)},
 };
 
-/* clang-format off */
-#define STEP(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_step_##pass##_comp)}
-#define DRAW(pass) {"rain." #pass, AT(pass), VIRGA_SPIRV_ROW(rain_draw_##pass##_comp)}
-/* clang-format on */
-
 static const virga_effect_pass passes[] = {
-    STEP(move),
-    STEP(sway),
-    STEP(impact_near_mark),
-    STEP(impact_near_scan),
-    STEP(impact_mark),
-    {"rain.compact", AT(compact), VIRGA_SPIRV_ROW(rain_compact_comp)},
-    STEP(impact_scan),
-    STEP(impact_write),
-    DRAW(streak_mark),
-    DRAW(streak_scan),
-    DRAW(streak_write),
-    DRAW(order_count),
-    DRAW(order_scan),
-    DRAW(order_indices),
-    STEP(hit_mark),
-    STEP(hit_scan),
-    STEP(hit_count),
-    STEP(hit_offsets),
-    STEP(hit_write),
-    STEP(points),
+    STEP(move),         STEP(sway),        STEP(impact_near_mark), STEP(impact_near_scan), STEP(impact_mark),
+    PASS(compact),      STEP(impact_scan), STEP(impact_write),     DRAW(streak_mark),      DRAW(streak_scan),
+    DRAW(streak_write), DRAW(order_count), DRAW(order_scan),       DRAW(order_indices),    STEP(hit_mark),
+    STEP(hit_scan),     STEP(hit_count),   STEP(hit_offsets),      STEP(hit_write),        STEP(points),
 };
 
 /* What shrinks to fit the memory budget: drops, streaks, impacts and occlusion maps. */
 static const virga_effect_pool pools[] = {
-    {"max_drops", offsetof(virga_rain_def, max_drops), 1024, 1},
-    {"max_streaks", offsetof(virga_rain_def, max_streaks), 256, 1},
-    {"max_impacts", offsetof(virga_rain_def, max_impacts), 256, 1},
-    {"occlusion_size", offsetof(virga_rain_def, occlusion_size), 64, 1},
+    POOL(max_drops, 1024, 1),
+    POOL(max_streaks, 256, 1),
+    POOL(max_impacts, 256, 1),
+    POOL(occlusion_size, 64, 1),
 };
 
 static VkDeviceSize extra_bytes(const void *given)

@@ -4,15 +4,8 @@
 
 #include "gpu/device_check.h"
 
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX  VK_SHADER_STAGE_VERTEX_BIT
-#define UNIFORM VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define DYNAMIC VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC
-#define SAMPLED VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-
-#define AT(member) offsetof(virga_rain, member)
+#define EFFECT rain
+#include "gpu/effect_rows.h"
 
 enum {
     BIND_SWAYS = 8,
@@ -26,8 +19,8 @@ enum {
 };
 
 const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
-    {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(rain_tick_tables)}, /* 0 tick, maps, classes */
-    {UNIFORM, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(rain_view_block)},  /* 1 view */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(tick_ring), sizeof(rain_tick_tables)}, /* 0 tick, maps, classes */
+    {DYNAMIC, VIRGA_ALL_STAGES, VIRGA_SOURCE_RING, AT(view_ring), sizeof(rain_view_block)},  /* 1 view */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(slot_buffer)},                                 /* 2 slots as texels */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(drop_buffer)},                                /* 3 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(impact_buffer)},                              /* 4 */
@@ -38,13 +31,14 @@ const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     [BIND_MAP_DEPTH] = {SAMPLED, VIRGA_ALL_STAGES},                                          /* 9 occlusion maps */
     [BIND_MAP_SURFACE] = {SAMPLED, VIRGA_ALL_STAGES},                                        /* 10 */
     [BIND_WIND] = {SAMPLED, COMPUTE},                                                        /* 11 */
-    [BIND_SCENE_DEPTH] = {SAMPLED, VK_SHADER_STAGE_FRAGMENT_BIT},                            /* 12 */
+    [BIND_SCENE_DEPTH] = {SAMPLED, FRAGMENT},                                                /* 12 */
     [BIND_POINTS] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(point_buffer)},               /* 13 */
-    {UNIFORM, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->travels}, /* 14 */
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->weights}, /* 15 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                    /* 16 */
-    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                    /* 17 */
-    [BIND_HITS] = {DYNAMIC, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer), RAIN_HITS_BYTES},      /* 18 hits of a pane */
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->travels},         /* 14 */
+    {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_RING, AT(tick_ring), sizeof((rain_tick_block *)0)->weights}, /* 15 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(list_buffer)},                                            /* 16 */
+    {TEXELS, VERTEX, VIRGA_SOURCE_TEXELS, AT(streak_buffer)},                                            /* 17 */
+    [BIND_HITS] = {DYNAMIC_STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_buffer),
+                   RAIN_HITS_BYTES},                                                    /* 18 hits of a pane */
     [BIND_HIT_PLACES] = {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(hit_offset_buffer)}, /* 19 offsets of hits */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                            /* 20 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                          /* 21 */

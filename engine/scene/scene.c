@@ -16,12 +16,10 @@
 #include <math.h>
 #include <string.h>
 
-#define SCENE_COOKIE VIRGA_COOKIE(6)
-
 virga_scene_def virga_default_scene_def(void)
 {
     return (virga_scene_def){.size = sizeof(virga_scene_def),
-                             .cookie = SCENE_COOKIE,
+                             .cookie = virga_settings_cookie("scene_def"),
                              .rain = virga_default_rain_def(),
                              .ground = virga_default_ground_def(),
                              .splash = virga_default_splash_def(),
@@ -35,8 +33,7 @@ virga_result scene_merge_results(virga_result a, virga_result b)
 
 static virga_result check_def(const virga_log *log, const virga_scene_def *def)
 {
-    const virga_result result =
-        virga_settings_check(log, "scene_def", def->size, sizeof *def, def->cookie, SCENE_COOKIE);
+    const virga_result result = virga_settings_check(log, "scene_def", def->size, sizeof *def, def->cookie);
     if (result)
         return result;
     if (def->with_splash && !def->with_ground)

@@ -5,19 +5,16 @@
 #include "gpu/device_check.h"
 #include "gpu/errors.h"
 
+#define EFFECT splash
+#include "gpu/effect_rows.h"
+
 #include "shaders/splash_shaders.h"
 
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(9)
-#define SETTINGS_COOKIE VIRGA_COOKIE(10)
-
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(splash_def, virga_splash_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(splash_settings, virga_splash_settings, kind, member, __VA_ARGS__)
 
 /* clang-format off */
 static const virga_setting_row def_rows[] = {
@@ -133,10 +130,6 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_VIEWS] = SPLASH_MAX_VIEWS;
 }
 
-#define AT(member) offsetof(virga_splash, member)
-#define DEVICE     VIRGA_HEAP_DEVICE
-#define FILL       VIRGA_FIRST_FILL
-
 static const virga_effect_buffer buffers[] = {
     {"splash.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_splash_state_gpu), .first = FILL},
     {"splash.splashes", AT(splashes), VIRGA_USE_TEXELS, DEVICE, .entry = sizeof(virga_splash_gpu),
@@ -165,20 +158,13 @@ static const virga_effect_ring rings[] = {
 
 /* Bound where a view has no depth or color. */
 static const virga_effect_image images[] = {
-    {"splash.blank_depth", AT(blank_depth), VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
-     VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
-    {"splash.blank_color", AT(blank_color), VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT,
-     VK_IMAGE_USAGE_SAMPLED_BIT, VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
+    BLANK_DEPTH("splash.blank_depth", blank_depth),
+    BLANK_COLOR("splash.blank_color", blank_color),
 };
 
 static const virga_effect_layout layouts[] = {
     {AT(bindings), splash_bindings, SPLASH_BINDINGS, SPLASH_SETS, sizeof(uint32_t)},
 };
-
-/* clang-format off */
-#define STEP(pass) {"splash." #pass, AT(pass), VIRGA_SPIRV_ROW(splash_step_##pass##_comp)}
-#define DRAW(pass, count) {"splash." #pass, AT(pass), VIRGA_SPIRV_ROW(splash_draw_##pass##_comp), .forms = count}
-/* clang-format on */
 
 static const virga_effect_pass passes[] = {
     STEP(spawn_scan),
@@ -187,19 +173,19 @@ static const virga_effect_pass passes[] = {
     STEP(fall_scan),
     STEP(fall_compact),
     STEP(rebase),
-    DRAW(indices, 1),
-    DRAW(few_mark, SPLASH_STYLES),
-    DRAW(droplet_mark, SPLASH_STYLES),
-    DRAW(splash_mark, SPLASH_STYLES),
-    DRAW(view_scan, 1),
-    DRAW(view_compact, 1),
-    DRAW(sprite_write, VIRGA_SPLASH_FORMS),
+    DRAW(indices),
+    DRAW(few_mark, .forms = SPLASH_STYLES),
+    DRAW(droplet_mark, .forms = SPLASH_STYLES),
+    DRAW(splash_mark, .forms = SPLASH_STYLES),
+    DRAW(view_scan),
+    DRAW(view_compact),
+    DRAW(sprite_write, .forms = VIRGA_SPLASH_FORMS),
 };
 
 /* The sizes that may shrink to fit the memory budget. Buffers that are shared with the ground have a fixed size. */
 static const virga_effect_pool pools[] = {
-    {"max_splashes", offsetof(virga_splash_def, max_splashes), 256, 0},
-    {"max_droplets", offsetof(virga_splash_def, max_droplets), VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK},
+    POOL(max_splashes, 256, 0),
+    POOL(max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK),
 };
 
 static virga_result create(void *object)

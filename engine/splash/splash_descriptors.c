@@ -1,17 +1,10 @@
 /* splash/splash_descriptors.c - the bindings of all passes of splashes. A frame writes the sets that it uses. */
 #include "splash/splash_internal.h"
 
+#define EFFECT splash
+#include "gpu/effect_rows.h"
+
 #include <stddef.h>
-
-#define COMPUTE  VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX   VK_SHADER_STAGE_VERTEX_BIT
-#define FRAGMENT VK_SHADER_STAGE_FRAGMENT_BIT
-#define STORAGE  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define DYNAMIC  VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
-#define SAMPLED  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-#define TEXELS   VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-
-#define AT(member) offsetof(virga_splash, member)
 
 enum { BIND_SPAWNS = 3, BIND_DROPLETS = 6, BIND_KEPT = 12, BIND_DEPTH = 16, BIND_COLOR, BIND_DROPLET_TEXELS };
 

@@ -4,6 +4,9 @@
 #include "core/settings.h"
 #include "gpu/errors.h"
 
+#define EFFECT water
+#include "gpu/effect_rows.h"
+
 #include "shaders/particles_shaders.h"
 #include "shaders/water_shaders.h"
 
@@ -12,13 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(31)
-#define SETTINGS_COOKIE VIRGA_COOKIE(32)
-
 /* ---- defaults */
-
-#define DEF(kind, member, ...)     VIRGA_SETTING_ROW(water_def, virga_water_def, kind, member, __VA_ARGS__)
-#define SETTING(kind, member, ...) VIRGA_SETTING_ROW(water_settings, virga_water_settings, kind, member, __VA_ARGS__)
 
 static const virga_setting_row def_rows[] = {
     DEF(U32, max_particles, 64, 8388608, 65536), DEF(U32, max_cells, 4096, 16777216, 262144),
@@ -138,9 +135,6 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_VIEWS] = WATER_MAX_VIEWS;
 }
 
-#define AT(member) offsetof(virga_water, member)
-#define DEVICE     VIRGA_HEAP_DEVICE
-
 static const virga_effect_buffer buffers[] = {
     PARTICLE_GRID_BUFFERS(virga_water, "water", COUNT_PARTICLES, COUNT_CELLS, COUNT_SCAN_GROUPS),
     {"water.state", AT(state), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_water_state_gpu),
@@ -183,11 +177,6 @@ static const virga_effect_ring rings[] = {
     {"water.steps", AT(step_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(virga_water_step_gpu), VIRGA_COUNT_ONE},
     {"water.views", AT(picture.view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(water_view_block), COUNT_VIEWS},
 };
-
-#define COMPUTE VK_SHADER_STAGE_COMPUTE_BIT
-#define STORAGE VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define TEXELS  VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-#define DYNAMIC VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
 
 static const virga_binding_kind grid_bindings[] = {
     PARTICLE_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
@@ -261,61 +250,48 @@ static const virga_effect_layout layouts[] = {
     [WATER_LAYOUT_DRAW] = {AT(picture.bindings), water_draw_bindings, WATER_DRAW_BINDINGS, WATER_MAX_VIEWS, 0},
 };
 
-#define PASS(pass)                                                                                             \
-    {                                                                                                          \
-        "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), .layout = WATER_LAYOUT_SURFACE \
-    }
-#define SPRAY_PASS(pass, member)                                                            \
-    {                                                                                       \
-        "water.spray_" #pass, AT(spray.member), VIRGA_SPIRV_ROW(water_spray_##pass##_comp), \
-            .layout = WATER_LAYOUT_SPRAY                                                    \
-    }
+#define SURFACE(pass)       PASS_AT(surface, pass, pass, .layout = WATER_LAYOUT_SURFACE)
+#define SPRAY(pass, member) PASS_AT(spray, pass, spray.member, .layout = WATER_LAYOUT_SPRAY)
+#define PICTURE(pass)       PASS_AT(draw, pass, picture.pass, .layout = WATER_LAYOUT_DRAW)
 /* One form for each virga_water_kernel. */
-#define KERNEL_PASS(pass, row)                                                                               \
-    {                                                                                                        \
-        "water." #pass, AT(pass), VIRGA_SPIRV_ROW(water_surface_##pass##_comp), WATER_KERNELS, .layout = row \
-    }
-#define DRAW_PASS(pass)                                                                                          \
-    {                                                                                                            \
-        "water." #pass, AT(picture.pass), VIRGA_SPIRV_ROW(water_draw_##pass##_comp), .layout = WATER_LAYOUT_DRAW \
-    }
+#define KERNEL(pass, row) PASS_AT(surface, pass, pass, .layout = row, .forms = WATER_KERNELS)
 static const virga_effect_pass passes[] = {
     PARTICLE_GRID_PASSES(virga_water, "water", WATER_LAYOUT_GRID),
-    KERNEL_PASS(density, WATER_LAYOUT_KERNELS),
-    KERNEL_PASS(kernel, WATER_LAYOUT_KERNELS),
-    PASS(block_mark),
-    PASS(block_scan),
-    PASS(block_compact),
-    KERNEL_PASS(field, WATER_LAYOUT_SURFACE),
-    PASS(surfel_count),
-    PASS(surfel_scan),
-    PASS(edge_write),
-    KERNEL_PASS(surfel_write, WATER_LAYOUT_SURFACE),
-    SPRAY_PASS(mark, mark),
-    SPRAY_PASS(scan, scan),
-    SPRAY_PASS(compact, compact),
-    SPRAY_PASS(break, break_up),
-    SPRAY_PASS(fly, fly),
-    SPRAY_PASS(starts, starts_scan),
-    SPRAY_PASS(write, write),
-    SPRAY_PASS(write_pieces, write_pieces),
-    SPRAY_PASS(range, range),
-    SPRAY_PASS(surfel, surfel),
-    DRAW_PASS(splat_mark),
-    DRAW_PASS(splat_scan),
-    DRAW_PASS(splat_compact),
-    DRAW_PASS(splat_write),
-    DRAW_PASS(volume),
-    DRAW_PASS(volume_merge),
+    KERNEL(density, WATER_LAYOUT_KERNELS),
+    KERNEL(kernel, WATER_LAYOUT_KERNELS),
+    SURFACE(block_mark),
+    SURFACE(block_scan),
+    SURFACE(block_compact),
+    KERNEL(field, WATER_LAYOUT_SURFACE),
+    SURFACE(surfel_count),
+    SURFACE(surfel_scan),
+    SURFACE(edge_write),
+    KERNEL(surfel_write, WATER_LAYOUT_SURFACE),
+    SPRAY(mark, mark),
+    SPRAY(scan, scan),
+    SPRAY(compact, compact),
+    SPRAY(break, break_up),
+    SPRAY(fly, fly),
+    SPRAY(starts, starts_scan),
+    SPRAY(write, write),
+    SPRAY(write_pieces, write_pieces),
+    SPRAY(range, range),
+    SPRAY(surfel, surfel),
+    PICTURE(splat_mark),
+    PICTURE(splat_scan),
+    PICTURE(splat_compact),
+    PICTURE(splat_write),
+    PICTURE(volume),
+    PICTURE(volume_merge),
 };
 
 static const virga_effect_pool pools[] = {
-    {"max_surfels", offsetof(virga_water_def, max_surfels), 256, 256},
-    {"max_droplets", offsetof(virga_water_def, max_droplets), 256, 256},
-    {"max_spray", offsetof(virga_water_def, max_spray), 64, 64},
-    {"max_blocks", offsetof(virga_water_def, max_blocks), 64, 64},
-    {"max_cells", offsetof(virga_water_def, max_cells), 4096, VIRGA_GRID_SCAN_CELLS},
-    {"max_particles", offsetof(virga_water_def, max_particles), 64, 64},
+    POOL(max_surfels, 256, 256),
+    POOL(max_droplets, 256, 256),
+    POOL(max_spray, 64, 64),
+    POOL(max_blocks, 64, 64),
+    POOL(max_cells, 4096, VIRGA_GRID_SCAN_CELLS),
+    POOL(max_particles, 64, 64),
 };
 
 static virga_result create(void *object)

@@ -8,19 +8,13 @@
 #include "gpu/timers.h"
 #include "gpu/view.h"
 
+#define EFFECT water
+#include "gpu/effect_rows.h"
+
 #include "shaders/water_shaders.h"
 
 #include <math.h>
 #include <string.h>
-
-#define AT(member) offsetof(virga_water, member)
-#define COMPUTE    VK_SHADER_STAGE_COMPUTE_BIT
-#define VERTEX     VK_SHADER_STAGE_VERTEX_BIT
-#define FRAGMENT   VK_SHADER_STAGE_FRAGMENT_BIT
-#define STORAGE    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-#define TEXELS     VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-#define DYNAMIC    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
-#define SAMPLED    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
 
 enum { BIND_SUMS = 14, BIND_MOTION, BIND_THICKNESS, BIND_DEPTH, BIND_COLOR, BIND_PANORAMA };
 
@@ -38,7 +32,7 @@ const virga_binding_kind water_draw_bindings[WATER_DRAW_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.pyramid)},                                    /* 10 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                                        /* 11 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                                         /* 12 */
-    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},          /* 13 */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},                                     /* 13 */
     [BIND_SUMS] = {SAMPLED, FRAGMENT},                                                               /* 14 */
     [BIND_MOTION] = {SAMPLED, FRAGMENT},                                                             /* 15 */
     [BIND_THICKNESS] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.thickness)},               /* 16 */

@@ -27,11 +27,16 @@ static void capture(void *user, virga_log_level level, virga_log_id id, const ch
 static void cookies_differ(void **state)
 {
     (void)state;
-    for (uint32_t a = 0; a < 300; a++) {
-        assert_true(VIRGA_COOKIE(a) != 0 && VIRGA_COOKIE(a) != UINT32_MAX && VIRGA_COOKIE(a) != a);
-        for (uint32_t b = 0; b < a; b++) {
-            assert_true(VIRGA_COOKIE(a) != VIRGA_COOKIE(b));
-        }
+    static const char *const names[] = {
+        "context_def",   "target_def",      "view",          "scene_def",       "rain_def",
+        "ground_def",    "ground_settings", "splash_def",    "splash_settings", "glass_def",
+        "fluid_def",     "glass_settings",  "lens_def",      "glass_shape",     "water_def",
+        "rain_settings", "fluid_settings",  "lens_settings", "water_settings"};
+    for (size_t a = 0; a < sizeof names / sizeof names[0]; a++) {
+        const uint32_t cookie = virga_settings_cookie(names[a]);
+        assert_true(cookie != 0 && cookie != UINT32_MAX); /* as uninitialised memory often is */
+        for (size_t b = 0; b < a; b++)
+            assert_true(cookie != virga_settings_cookie(names[b]));
     }
 }
 
@@ -40,18 +45,18 @@ static void check_accepts_only_its_own(void **state)
     (void)state;
     captured line = {0};
     virga_log log = {capture, &line};
-    uint32_t good = VIRGA_COOKIE(1);
-    assert_int_equal(virga_settings_check(&log, "rain_def", 64, 64, good, good), VIRGA_OK);
+    const uint32_t good = virga_settings_cookie("rain_def"), other = virga_settings_cookie("view");
+    assert_int_equal(virga_settings_check(&log, "rain_def", 64, 64, good), VIRGA_OK);
     assert_int_equal(line.lines, 0);
-    assert_int_equal(virga_settings_check(&log, "rain_def", 64, 64, VIRGA_COOKIE(2), good), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check(&log, "rain_def", 64, 64, other), VIRGA_ERROR_INVALID);
     assert_int_equal(line.lines, 1);
     assert_int_equal(line.id, VIRGA_LOG_COOKIE);
     assert_non_null(strstr(line.text, "virga_default_rain_def"));
-    assert_int_equal(virga_settings_check(&log, "rain_def", 60, 64, good, good), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check(&log, "rain_def", 60, 64, good), VIRGA_ERROR_INVALID);
     assert_int_equal(line.lines, 2);
     assert_int_equal(line.id, VIRGA_LOG_COOKIE);
     assert_non_null(strstr(line.text, "60"));
-    assert_int_equal(virga_settings_check(NULL, "rain_def", 0, 64, 0, good), VIRGA_ERROR_INVALID);
+    assert_int_equal(virga_settings_check(NULL, "rain_def", 0, 64, 0), VIRGA_ERROR_INVALID);
 }
 
 static void clamp_moves_and_says_so(void **state)

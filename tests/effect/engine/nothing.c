@@ -12,9 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DEF_COOKIE      VIRGA_COOKIE(1001)
-#define SETTINGS_COOKIE VIRGA_COOKIE(1002)
-
 typedef struct nothing_def {
     uint32_t size, cookie;
 } nothing_def;
@@ -97,8 +94,8 @@ const virga_effect_type nothing_type = {
     .name = "nothing",
     .log_name = "nothing_settings",
     .size = sizeof(virga_nothing),
-    .def = {"nothing_def", sizeof(nothing_def), DEF_COOKIE, AT(def)},
-    .settings = {"nothing_settings", sizeof(virga_nothing_settings), SETTINGS_COOKIE, AT(settings), setting_rows,
+    .def = {"nothing_def", sizeof(nothing_def), AT(def)},
+    .settings = {"nothing_settings", sizeof(virga_nothing_settings), AT(settings), setting_rows,
                  VIRGA_ROWS(setting_rows)},
     VIRGA_TABLE(buffer),
     VIRGA_TABLE(layout),
