@@ -60,24 +60,12 @@ static void remember_blocks(virga_fluid *fluid)
     memcpy(fluid->sent[slot].blocks, fluid->blocks, sizeof fluid->blocks);
 }
 
-static void wait_for_readers(virga_context *context, VkCommandBuffer cmd)
-{
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-}
-
 static void add(virga_fluid *fluid, VkCommandBuffer cmd, VkDescriptorSet set, const virga_fluid_add_gpu *block)
 {
     virga_context *context = fluid->base.context;
     const uint32_t offset = virga_ring_push(context, &fluid->add_ring, block, sizeof *block);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, fluid->add_bindings->layout, 0, 1, &set, 1,
-                                      &offset);
-    virga_dispatch_and_barrier(context, cmd, fluid->add, (block->count + VIRGA_FLUID_LANES - 1) / VIRGA_FLUID_LANES);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, fluid->add_bindings, set, 1, &offset);
+    virga_dispatch_and_barrier(context, cmd, fluid->add, virga_groups_of(block->count, VIRGA_FLUID_LANES));
 }
 
 static void add_all(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_step_info *info)
@@ -87,11 +75,7 @@ static void add_all(virga_fluid *fluid, VkCommandBuffer cmd, const virga_fluid_s
         return;
     virga_bound bound[VIRGA_MAX_BINDINGS];
     virga_effect_bound(&fluid->base, fluid->add_bindings, bound);
-    bound[FLUID_BIND_ADDED] = info->count
-                                  ? (virga_bound){.buffer = info->particles,
-                                                  .offset = info->offset,
-                                                  .range = (VkDeviceSize)info->count * sizeof(virga_particle_gpu)}
-                                  : (virga_bound){.buffer = fluid->lists->buffer}; /* not read */
+    bound[FLUID_BIND_ADDED] = particles_bound(info->particles, info->offset, info->count, fluid->lists);
     const VkDescriptorSet set = virga_bindings_write(context, fluid->add_bindings, 0, bound);
     remember_blocks(fluid);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "fluid.add");
@@ -120,8 +104,7 @@ typedef struct recording {
 
 static void bind(const recording *r, const virga_bindings *bindings, VkDescriptorSet set)
 {
-    r->context->vk.CmdBindDescriptorSets(r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings->layout, 0, 1, &set, 1,
-                                         &r->offset);
+    virga_bind(r->context, r->cmd, VK_PIPELINE_BIND_POINT_COMPUTE, bindings, set, 1, &r->offset);
 }
 
 /* Dispatches with arguments of the state. */
@@ -138,12 +121,10 @@ static void sort(const recording *r)
 {
     const virga_fluid *fluid = r->fluid;
     const virga_pass_scope scope = virga_pass_begin(r->context, r->cmd, "fluid.sort");
-    virga_barrier(r->context, r->cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_wait(r->context, r->cmd, VIRGA_PASSES, VIRGA_COPIES);
     r->context->vk.CmdFillBuffer(r->cmd, fluid->grid.cell_starts->buffer, 0, VK_WHOLE_SIZE, 0);
     r->context->vk.CmdFillBuffer(r->cmd, fluid->grid.kept->buffer, 0, VK_WHOLE_SIZE, 0);
-    virga_barrier(r->context, r->cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(r->context, r->cmd, VIRGA_COPIES, VIRGA_PASSES);
     bind(r, fluid->bindings, r->set);
     virga_dispatch_and_barrier(r->context, r->cmd, fluid->begin, 1);
     run(r, fluid->count, SLOTS);
@@ -192,20 +173,13 @@ static virga_result check_step(const virga_fluid *fluid, VkCommandBuffer cmd, co
         return VIRGA_ERROR_INVALID;
     const virga_context *context = fluid->base.context;
     const virga_log *log = &context->log;
-    const virga_result result = virga_effect_check_step(&fluid->base, "virga_fluid_step", cmd, info);
+    const virga_result result = virga_effect_check_one_step(&fluid->base, "virga_fluid_step", cmd, info);
     if (result)
         return result;
-    if (fluid->base.step_frame == context->frame_index)
-        return virga_wrong_argument(log, "virga_fluid_step: expected one step a frame");
     if (!(info->dt_s >= 0 && info->dt_s <= 1))
         return virga_wrong_argument(log, "step_info.dt_s: expected 0 to 1, got %g", (double)info->dt_s);
-    if (info->count && !info->particles)
-        return virga_wrong_argument(log, "step_info.particles: expected a buffer with %u particles, got NULL",
-                                    info->count);
-    if (info->offset % context->properties.limits.minStorageBufferOffsetAlignment)
-        return virga_wrong_argument(log, "step_info.offset: expected a multiple of %u, got %llu",
-                                    (uint32_t)context->properties.limits.minStorageBufferOffsetAlignment,
-                                    (unsigned long long)info->offset);
+    if (particles_check(context, info->particles, info->offset, info->count))
+        return VIRGA_ERROR_INVALID;
     if (info->count > fluid->def.max_particles - fluid->particles)
         return virga_wrong_argument(log, "step_info.count: %u particles, and there is room for %u more", info->count,
                                     fluid->def.max_particles - fluid->particles);
@@ -240,8 +214,7 @@ static void begin_state(const virga_fluid *fluid, VkCommandBuffer cmd, float dt_
     virga_context *context = fluid->base.context;
     const virga_fluid_state_gpu begin = {.time_left_s = dt_s};
     context->vk.CmdUpdateBuffer(cmd, fluid->state->buffer, 0, offsetof(virga_fluid_state_gpu, max_speed2), &begin);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
 static void run_substeps(virga_fluid *fluid, VkCommandBuffer cmd, float dt_s)
@@ -267,10 +240,7 @@ virga_result virga_fluid_step(virga_fluid *fluid, VkCommandBuffer cmd, const vir
     if (result)
         return result;
     virga_context *context = fluid->base.context;
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&fluid->base);
-    fluid->base.step_frame = context->frame_index;
-    wait_for_readers(context, cmd);
+    virga_effect_begin_step(&fluid->base, cmd);
     virga_effect_first_contents(&fluid->base, cmd);
     begin_state(fluid, cmd, info->dt_s);
     add_all(fluid, cmd, info);

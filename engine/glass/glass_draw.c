@@ -249,21 +249,16 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
     struct glass_picture *picture = &glass->picture;
-    const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     /* The previous draw, of this or an earlier frame, may still read the map and the copies of the plate. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | transfer,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer, READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS,
+               VIRGA_PASSES | VIRGA_COPIES);
     const VkDeviceSize texels = (VkDeviceSize)picture->columns * picture->rows;
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
     if (!picture->has_written || picture->written_style != glass->settings.style)
         record_unwritten(glass, cmd);
-    virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  READ_WRITE);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
 static void over_work(virga_glass *glass, VkCommandBuffer cmd, const virga_pipeline *pipeline, size_t groups)
@@ -284,8 +279,7 @@ static void record_film(virga_glass *glass, VkCommandBuffer cmd)
     over_work(glass, cmd, picture->mist_passes[mode], offsetof(virga_glass_work_gpu, mist_groups));
     virga_indirect_barrier(context, cmd);
     over_work(glass, cmd, picture->film_tiles, offsetof(virga_glass_work_gpu, block_groups));
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_COPIES);
     const VkBufferImageCopy copy = {.bufferRowLength = mist_pitch(picture),
                                     .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {picture->mist_size.width, picture->mist_size.height, 1}};
@@ -335,8 +329,7 @@ static void record_copies(virga_glass *glass, VkCommandBuffer cmd, const virga_v
 static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
     const struct glass_picture *picture = &glass->picture;
-    glass->base.context->vk.CmdBindDescriptorSets(cmd, point, picture->bindings->layout, 0, 1, &set, 1,
-                                                  &picture->view_offset);
+    virga_bind(glass->base.context, cmd, point, picture->bindings, set, 1, &picture->view_offset);
 }
 
 static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view, VkDescriptorSet set)
@@ -361,13 +354,8 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
     virga_pass_end(context, cmd, scope);
     if (view->color.view)
         record_copies(glass, cmd, view);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
-                      VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                      VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES,
+               VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_PREPARE, picture->work,
                                  offsetof(virga_glass_work_gpu, shaped), offsetof(glass_readback, balls),
                                  2 * sizeof(uint32_t));

@@ -302,8 +302,8 @@ static void push_tick(virga_glass *glass, const virga_glass_step_info *info, con
 
 static void bind(virga_glass *glass, VkCommandBuffer cmd)
 {
-    glass->base.context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->bindings->layout, 0, 1,
-                                                  &glass->step_set, 1, &glass->tick_offset);
+    virga_bind(glass->base.context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, glass->bindings, glass->step_set, 1,
+               &glass->tick_offset);
 }
 
 /* Dispatches over the list of slots in use, or over all seeds. An earlier pass wrote the group count at `groups`. */
@@ -429,13 +429,11 @@ static void record_measure(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.measure");
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_COPIES);
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, drops), 12, 0);
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, measured), 24, 0);
     context->vk.CmdFillBuffer(cmd, glass->state->buffer, offsetof(virga_glass_state_gpu, film_blocks), 8, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
     virga_dispatch_and_barrier(context, cmd, glass->film_compact, groups_of(glass_film_blocks(&glass->def)));
     over(glass, cmd, glass->measure, offsetof(virga_glass_state_gpu, measure_groups));
     virga_pass_end(context, cmd, scope);
@@ -451,9 +449,7 @@ static void upload_shape(virga_glass *glass, VkCommandBuffer cmd)
     const VkBufferCopy cells = {0, 0, glass->surface->size}, nodes = {0, 0, glass->nodes->size};
     context->vk.CmdCopyBuffer(cmd, glass->surface_upload->buffer, glass->surface->buffer, 1, &cells);
     context->vk.CmdCopyBuffer(cmd, glass->nodes_upload->buffer, glass->nodes->buffer, 1, &nodes);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES | VIRGA_VERTICES);
     virga_effect_uploaded(&glass->base, &glass->surface_upload);
     virga_effect_uploaded(&glass->base, &glass->nodes_upload);
 }
@@ -463,11 +459,11 @@ static virga_result check_step(const virga_glass *glass, VkCommandBuffer cmd, co
     if (!glass)
         return VIRGA_ERROR_INVALID;
     const virga_log *log = &glass->base.context->log;
-    const virga_result result = virga_effect_check_step(&glass->base, "virga_glass_step", cmd, info);
+    const virga_result result = virga_effect_check_one_step(&glass->base, "virga_glass_step", cmd, info);
     if (result)
         return result;
     const virga_tick_range ticks = {info->first_tick, info->ticks, glass->def.max_ticks_per_step};
-    if (virga_effect_check_ticks(&glass->base, "virga_glass_step", &ticks, glass->ticks ? &glass->last_tick : NULL) ||
+    if (virga_effect_check_ticks(&glass->base, &ticks, glass->ticks ? &glass->last_tick : NULL) ||
         glass_axes_check(log, "step_info.world_from_pane", info->world_from_pane) ||
         virga_settings_check_finite(log, "step_info.velocity_m_s", info->velocity_m_s, 3) ||
         virga_settings_check_finite(log, "step_info.acceleration_m_s2", info->acceleration_m_s2, 3) ||

@@ -411,14 +411,17 @@ virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lightin
 virga_result virga_effect_check_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
                                      const void *info);
 
+/* The same for effects with one step per frame: checks too that this is the first one in the frame. */
+virga_result virga_effect_check_one_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                         const void *info);
+
 /* The ticks that a host requests for a step: `count` of them, beginning with `first`, at most `max`. */
 typedef struct virga_tick_range {
     uint32_t first, count, max;
 } virga_tick_range;
 
-/* For effects with one step per frame: checks that this is the first step in the frame and that its ticks follow the
- * last one. `last_tick` is NULL before the first step. */
-virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
+/* Checks that the ticks of a step follow the last one. `last_tick` is NULL before the first step. */
+virga_result virga_effect_check_ticks(const virga_effect *effect, const virga_tick_range *range,
                                       const uint32_t *last_tick);
 
 /* Begins the step of a frame: reads the statistics of completed frames, and waits until earlier frames have read what

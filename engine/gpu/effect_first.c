@@ -122,12 +122,8 @@ bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
         wait_for_earlier_frames(context, cmd);
     record_images(effect, cmd);
     record_fills(effect, cmd);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                      VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES,
+               VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_FRAGMENTS);
     context->vk.CmdFillBuffer(cmd, effect->journal.marks->buffer, 0, sizeof(uint32_t), 1); /* the passes are done */
     effect->journal.doing |= VIRGA_DID_CONTENTS | (effect->images == VIRGA_NOT_RECORDED ? VIRGA_DID_IMAGES : 0);
     effect->contents = effect->contents == VIRGA_EXECUTED ? VIRGA_EXECUTED : VIRGA_RECORDED;

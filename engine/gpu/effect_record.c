@@ -22,12 +22,19 @@ virga_result virga_effect_check_step(const virga_effect *effect, const char *cal
     return VIRGA_OK;
 }
 
-virga_result virga_effect_check_ticks(const virga_effect *effect, const char *call, const virga_tick_range *range,
+virga_result virga_effect_check_one_step(const virga_effect *effect, const char *call, VkCommandBuffer cmd,
+                                         const void *info)
+{
+    const virga_result result = virga_effect_check_step(effect, call, cmd, info);
+    if (!result && effect->step_frame == effect->context->frame_index)
+        return virga_wrong_argument(&effect->context->log, "%s: expected one call a frame", call);
+    return result;
+}
+
+virga_result virga_effect_check_ticks(const virga_effect *effect, const virga_tick_range *range,
                                       const uint32_t *last_tick)
 {
     const virga_log *log = &effect->context->log;
-    if (effect->step_frame == effect->context->frame_index)
-        return virga_wrong_argument(log, "%s: expected one step a frame", call);
     if (range->count > range->max)
         return virga_wrong_argument(log, "step_info.ticks: expected up to max_ticks_per_step = %u, got %u", range->max,
                                     range->count);
@@ -40,14 +47,8 @@ void virga_effect_begin_step(virga_effect *effect, VkCommandBuffer cmd)
     virga_timers_reset(context, cmd);
     virga_effect_read_statistics(effect);
     effect->step_frame = context->frame_index;
-    virga_barrier(
-        context, cmd,
-        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-            VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-        VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-        READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS,
+               VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES);
 }
 
 /* ---- rings */
@@ -153,9 +154,7 @@ void virga_effect_copy_statistics(virga_effect *effect, VkCommandBuffer cmd, uin
     virga_context *context = effect->context;
     const VkDeviceSize frame_offset = (VkDeviceSize)context->ring_slot * effect->type->readback_bytes;
     const VkBufferCopy copy = {from_offset, frame_offset + to_offset, size};
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES, VIRGA_COPIES);
     context->vk.CmdCopyBuffer(cmd, from->buffer, effect->readback->buffer, 1, &copy);
     virga_journal_note(context, &effect->journal, cmd, 1u << part);
     end_copies(context, cmd);

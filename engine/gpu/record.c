@@ -14,17 +14,50 @@ void virga_barrier(virga_context *context, VkCommandBuffer cmd, VkPipelineStageF
     context->vk.CmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
+/* In the order of the bits of virga_users. */
+static const struct {
+    VkPipelineStageFlags stages;
+    VkAccessFlags reads, writes;
+} users[] = {
+    {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT, VK_ACCESS_SHADER_WRITE_BIT},
+    {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT, 0},
+    {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_ACCESS_TRANSFER_WRITE_BIT},
+    {VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+     VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT, 0},
+    {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT, 0},
+};
+
+void virga_wait(virga_context *context, VkCommandBuffer cmd, uint32_t before, uint32_t after)
+{
+    VkPipelineStageFlags from = 0, to = 0;
+    VkAccessFlags wrote = 0, use = 0;
+    for (uint32_t i = 0; i < sizeof users / sizeof users[0]; i++) {
+        if (before & 1u << i) {
+            from |= users[i].stages;
+            wrote |= users[i].writes;
+        }
+        if (after & 1u << i) {
+            to |= users[i].stages;
+            use |= users[i].reads | users[i].writes;
+        }
+    }
+    virga_barrier(context, cmd, from, wrote, to, use);
+}
+
 void virga_compute_barrier(virga_context *context, VkCommandBuffer cmd)
 {
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES);
 }
 
 void virga_indirect_barrier(virga_context *context, VkCommandBuffer cmd)
 {
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_ARGUMENTS);
+}
+
+void virga_bind(virga_context *context, VkCommandBuffer cmd, VkPipelineBindPoint point, const virga_bindings *bindings,
+                VkDescriptorSet set, uint32_t offset_count, const uint32_t *offsets)
+{
+    context->vk.CmdBindDescriptorSets(cmd, point, bindings->layout, 0, 1, &set, offset_count, offsets);
 }
 
 void virga_dispatch(virga_context *context, VkCommandBuffer cmd, const virga_pipeline *pipeline, uint32_t groups)

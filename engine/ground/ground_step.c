@@ -145,8 +145,8 @@ static void push_tick(virga_ground *ground, uint32_t tick)
 static void bind_source(virga_ground *ground, VkCommandBuffer cmd, uint32_t source)
 {
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
-    ground->base.context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings->layout, 0, 1,
-                                                   &ground->sets[source], 2, offsets);
+    virga_bind(ground->base.context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, ground->bindings, ground->sets[source], 2,
+               offsets);
 }
 
 static void bind(virga_ground *ground, VkCommandBuffer cmd)
@@ -197,9 +197,7 @@ static void clear_restored(virga_ground *ground, VkCommandBuffer cmd)
 
 static void transfer_barrier(virga_ground *ground, VkCommandBuffer cmd)
 {
-    virga_barrier(ground->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, READ_WRITE | COPY);
+    virga_wait(ground->base.context, cmd, VIRGA_PASSES | VIRGA_COPIES, VIRGA_PASSES | VIRGA_COPIES);
 }
 
 static void move_tiles(virga_ground *ground, VkCommandBuffer cmd)
@@ -413,10 +411,8 @@ static void write_ripples(virga_ground *ground, VkCommandBuffer cmd)
     virga_context *context = ground->base.context;
     const uint32_t offsets[2] = {ground->tick_offset, ground->list_offset};
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "ground.rings");
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings->layout, 0, 1,
-                                      &ground->sets[GROUND_DROPS], 2, offsets);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, ground->bindings, ground->sets[GROUND_DROPS], 2, offsets);
     ground_ripples_draw(context, cmd, &ground->ripples);
     virga_pass_end(context, cmd, scope);
 }
@@ -426,10 +422,8 @@ static void write_maps(virga_ground *ground, VkCommandBuffer cmd)
     const virga_pass_scope scope = virga_pass_begin(ground->base.context, cmd, "ground.map");
     dispatch_cells(ground, cmd, ground->map, ground->def.cells * ground->def.cells / VIRGA_GROUND_GROUP);
     ground_far_draw(ground, cmd);
-    virga_barrier(ground->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(ground->base.context, cmd, VIRGA_PASSES,
+               VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_VERTICES | VIRGA_FRAGMENTS);
     virga_pass_end(ground->base.context, cmd, scope);
 }
 
@@ -482,12 +476,12 @@ static virga_result check_step(const virga_ground *ground, VkCommandBuffer cmd, 
         return VIRGA_ERROR_INVALID;
     const virga_log *log = &ground->base.context->log;
     const bool given = info && info->impacts && (!info->mesh_count || info->meshes);
-    const virga_result result = virga_effect_check_step(&ground->base, "virga_ground_step", cmd, given ? info : NULL);
+    const virga_result result =
+        virga_effect_check_one_step(&ground->base, "virga_ground_step", cmd, given ? info : NULL);
     if (result)
         return result;
     const virga_tick_range ticks = {info->first_tick, info->ticks, ground->def.max_ticks_per_step};
-    if (virga_effect_check_ticks(&ground->base, "virga_ground_step", &ticks,
-                                 ground->ticks ? &ground->last_tick : NULL) ||
+    if (virga_effect_check_ticks(&ground->base, &ticks, ground->ticks ? &ground->last_tick : NULL) ||
         virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_check_positions(log, "step_info.ripple_center_m", info->ripple_center_m, 3) ||
         virga_settings_check_finite(log, "step_info.open_rain_mm_h", &info->open_rain_mm_h, 1) ||

@@ -50,11 +50,9 @@ static virga_result check_prepare(virga_lens *lens, VkCommandBuffer cmd, const v
                                   const virga_lens_layer *layers, uint32_t layer_count, double time_s)
 {
     const virga_log *log = &lens->base.context->log;
-    virga_result result = virga_effect_check_step(&lens->base, "virga_lens_prepare", cmd, view);
+    virga_result result = virga_effect_check_one_step(&lens->base, "virga_lens_prepare", cmd, view);
     if (result)
         return result;
-    if (lens->base.step_frame == lens->base.context->frame_index)
-        return virga_wrong_argument(log, "virga_lens_prepare: expected one prepare a frame");
     if (layer_count > VIRGA_LENS_MAX_LAYERS || (layer_count && !layers))
         return virga_wrong_argument(log, "virga_lens_prepare: expected up to %d layers, got %u%s",
                                     VIRGA_LENS_MAX_LAYERS, layer_count, layers ? "" : " in no array");
@@ -165,18 +163,13 @@ static VkDescriptorSet write_set(virga_lens *lens, const virga_view *view, const
 
 #define GROUP 8 /* side of the workgroups of passes over pixels */
 
-static uint32_t groups(uint32_t size, uint32_t group)
-{
-    return (size + group - 1) / group;
-}
-
 /* A pass over a picture, and a barrier after it. */
 static void over(virga_lens *lens, VkCommandBuffer cmd, const char *name, const virga_pipeline *pipeline,
                  uint32_t width, uint32_t height)
 {
     virga_context *context = lens->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, name);
-    virga_dispatch_2d(context, cmd, pipeline, groups(width, GROUP), groups(height, GROUP));
+    virga_dispatch_2d(context, cmd, pipeline, virga_groups_of(width, GROUP), virga_groups_of(height, GROUP));
     virga_compute_barrier(context, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -189,29 +182,12 @@ static void record_physical(virga_lens *lens, VkCommandBuffer cmd, const virga_l
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "lens.tiles");
     virga_dispatch_2d(context, cmd, lens->tile, view->tile_columns, view->tile_rows);
     virga_compute_barrier(context, cmd);
-    virga_dispatch_and_barrier(context, cmd, lens->reach, groups(view->tile_columns * view->tile_rows, 64));
+    virga_dispatch_and_barrier(context, cmd, lens->reach, virga_groups_of(view->tile_columns * view->tile_rows, 64));
     virga_pass_end(context, cmd, scope);
     over(lens, cmd, "lens.gather", lens->gather, view->columns, view->rows);
     for (uint32_t i = 0; i < view->layers; i++)
         over(lens, cmd, "lens.layers", lens->layer[i], view->columns, view->rows);
     over(lens, cmd, "lens.combine", lens->combine, view->width, view->height);
-}
-
-/* Waits for the readers of the last picture, the host's among them. */
-static void wait_for_readers(virga_context *context, VkCommandBuffer cmd)
-{
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-}
-
-static void show_to_readers(virga_context *context, VkCommandBuffer cmd)
-{
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT);
 }
 
 virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const virga_view *view,
@@ -224,21 +200,17 @@ virga_result virga_lens_prepare(virga_lens *lens, VkCommandBuffer cmd, const vir
     if (result)
         return result;
     virga_lens_gpu filled;
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&lens->base);
-    lens->base.step_frame = context->frame_index;
     push_view(lens, view, layers, layer_count, time_s, &filled);
     const VkDescriptorSet set = write_set(lens, view, layers, layer_count);
-    wait_for_readers(context, cmd);
+    virga_effect_begin_step(&lens->base, cmd);
     virga_effect_first_contents(&lens->base, cmd);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings->layout, 0, 1, &set, 1,
-                                      &lens->view_offset);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, lens->bindings, set, 1, &lens->view_offset);
     virga_dispatch_and_barrier(context, cmd, lens->focus, 1);
     if (lens->settings.style == VIRGA_LENS_STYLE_PAPER)
         over(lens, cmd, "lens.paper", lens->paper, filled.width, filled.height);
     else
         record_physical(lens, cmd, &filled);
-    show_to_readers(context, cmd);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_FRAGMENTS); /* also for the host */
     virga_effect_copy_statistics(&lens->base, cmd, 0, lens->state, 0, 0, sizeof(virga_lens_state_gpu));
     virga_effect_set_view(&lens->base, set, view);
     return virga_check_uploads(context);
@@ -266,8 +238,8 @@ virga_result virga_lens_draw(virga_lens *lens, VkCommandBuffer cmd, const virga_
         return result;
     const virga_pass_scope scope = virga_draw_begin(context, cmd, "lens.draw");
     virga_set_draw_area(context, cmd, lens->base.view.viewport);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings->layout, 0, 1,
-                                      &lens->base.view.set, 1, &lens->view_offset);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, lens->bindings, lens->base.view.set, 1,
+               &lens->view_offset);
     context->vk.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline);
     context->vk.CmdDraw(cmd, 3, 1, 0, 0);
     virga_pass_end(context, cmd, scope);

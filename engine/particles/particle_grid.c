@@ -2,7 +2,28 @@
 #include "particles/particle_grid.h"
 
 #include "gpu/context.h"
+#include "gpu/errors.h"
 #include "gpu/record.h"
+
+#include <virga/shared/particle.h>
+
+virga_result particles_check(const virga_context *context, VkBuffer particles, VkDeviceSize offset, uint32_t count)
+{
+    const VkDeviceSize alignment = context->properties.limits.minStorageBufferOffsetAlignment;
+    if (count && !particles)
+        return virga_wrong_argument(&context->log, "step_info.particles: expected a buffer with %u particles, got NULL",
+                                    count);
+    if (offset % alignment)
+        return virga_wrong_argument(&context->log, "step_info.offset: expected a multiple of %u, got %llu",
+                                    (uint32_t)alignment, (unsigned long long)offset);
+    return VIRGA_OK;
+}
+
+virga_bound particles_bound(VkBuffer particles, VkDeviceSize offset, uint32_t count, const virga_buffer *unread)
+{
+    return count ? (virga_bound){particles, offset, (VkDeviceSize)count * sizeof(virga_particle_gpu)}
+                 : (virga_bound){.buffer = unread->buffer};
+}
 
 /* Clears the counts, and sets the bounds to those of no particles. */
 static void reset(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid)
@@ -12,13 +33,7 @@ static void reset(virga_context *context, VkCommandBuffer cmd, const particle_gr
     context->vk.CmdUpdateBuffer(cmd, grid->state->buffer, 0, sizeof empty, &empty);
     context->vk.CmdFillBuffer(cmd, grid->cell_starts->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, grid->kept->buffer, 0, VK_WHOLE_SIZE, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
-}
-
-static uint32_t groups_of(uint32_t items, uint32_t each)
-{
-    return (items + each - 1) / each;
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
 static void over_cells(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid,
@@ -43,12 +58,11 @@ static void put_in_order(virga_context *context, VkCommandBuffer cmd, const part
 void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkDescriptorSet set,
                           uint32_t offset, uint32_t particles)
 {
-    const uint32_t groups = groups_of(particles, VIRGA_GRID_LANES);
+    const uint32_t groups = virga_groups_of(particles, VIRGA_GRID_LANES);
     const VkBuffer state = grid->state->buffer;
     reset(context, cmd, grid);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, grid->bindings->layout, 0, 1, &set, 1,
-                                      &offset);
-    virga_dispatch_and_barrier(context, cmd, grid->bounds, groups_of(groups, VIRGA_GRID_BOUNDS_EACH));
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, grid->bindings, set, 1, &offset);
+    virga_dispatch_and_barrier(context, cmd, grid->bounds, virga_groups_of(groups, VIRGA_GRID_BOUNDS_EACH));
     virga_dispatch_and_barrier(context, cmd, grid->fit, 1);
     for (int round = 0; round < 2; round++) {
         virga_dispatch_indirect_and_barrier(context, cmd, grid->search, state,

@@ -92,6 +92,12 @@ enum { PARTICLE_GRID_BIND_STEP, PARTICLE_GRID_BIND_PARTICLES = 2, PARTICLE_GRID_
         PARTICLE_GRID_PASS(object, prefix, fill, layout), PARTICLE_GRID_PASS(object, prefix, order, layout),    \
         PARTICLE_GRID_PASS(object, prefix, copy, layout)
 
+/* Checks a buffer of particles that a host gives in its step_info. */
+virga_result particles_check(const virga_context *context, VkBuffer particles, VkDeviceSize offset, uint32_t count);
+
+/* The same buffer for a binding; without particles another one, which is not read. */
+virga_bound particles_bound(VkBuffer particles, VkDeviceSize offset, uint32_t count, const virga_buffer *unread);
+
 /* Sorts `particles` particles into the grid. `set` has the bindings above, with the block of the step at `offset`. Ends
  * with a barrier. */
 void particle_grid_record(virga_context *context, VkCommandBuffer cmd, const particle_grid *grid, VkDescriptorSet set,

@@ -3,6 +3,7 @@
 #include "rain/rain_internal.h"
 
 #include "gpu/device_check.h"
+#include "gpu/record.h"
 
 #define EFFECT rain
 #include "gpu/effect_rows.h"
@@ -85,5 +86,5 @@ void rain_bind(virga_rain *rain, VkCommandBuffer cmd, VkPipelineBindPoint point,
     const uint32_t offsets[5] = {tick + (uint32_t)offsetof(rain_tick_block, tables), rain->view_offset,
                                  tick + (uint32_t)offsetof(rain_tick_block, travels),
                                  tick + (uint32_t)offsetof(rain_tick_block, weights), rain->hits_offset};
-    rain->base.context->vk.CmdBindDescriptorSets(cmd, point, rain->bindings->layout, 0, 1, &set, 5, offsets);
+    virga_bind(rain->base.context, cmd, point, rain->bindings, set, 5, offsets);
 }

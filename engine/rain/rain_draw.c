@@ -135,11 +135,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.prepare");
     /* An earlier draw, of this or an earlier frame, may still read the streaks. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     virga_record_list(context, cmd, rain->streak_mark, rain->streak_scan, rain->compact, rain->groups);
     virga_dispatch_indirect(context, cmd, rain->streak_write, rain->list_buffer->buffer, 0);
@@ -149,11 +145,7 @@ static void record_prepare(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSe
     virga_dispatch(context, cmd, rain->order_scan, VIRGA_RAIN_BUCKETS / VIRGA_RAIN_ORDER_LANES);
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->order_indices, rain->list_buffer->buffer, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
-                      VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES);
     virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_PREPARE, rain->prepared_buffer, 0,
                                  offsetof(rain_readback, prepared), sizeof(virga_prepared_gpu));
     virga_pass_end(context, cmd, scope);

@@ -78,10 +78,7 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     virga_context *context = rain->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.hits");
     /* The impacts use the same lists, and a pane may still read the hits of an earlier step. */
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS, VIRGA_PASSES | VIRGA_ARGUMENTS);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     context->vk.CmdPushConstants(cmd, rain->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof *pane, pane);
     virga_record_list(context, cmd, rain->hit_mark, rain->hit_scan, rain->compact, pane->groups);
@@ -90,9 +87,7 @@ static void record(virga_rain *rain, VkCommandBuffer cmd, const virga_rain_pane_
     virga_dispatch(context, cmd, rain->hit_offsets, 1);
     virga_compute_barrier(context, cmd);
     virga_dispatch_indirect(context, cmd, rain->hit_write, rain->list_buffer->buffer, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  READ_WRITE | VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS, VIRGA_PASSES | VIRGA_COPIES);
     virga_pass_end(context, cmd, scope);
 }
 

@@ -60,8 +60,7 @@ static void upload_slots(virga_rain *rain, VkCommandBuffer cmd)
     virga_context *context = rain->base.context;
     const VkBufferCopy slots = {0, 0, rain->slot_buffer->size};
     context->vk.CmdCopyBuffer(cmd, rain->slot_upload->buffer, rain->slot_buffer->buffer, 1, &slots);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
     virga_effect_uploaded(&rain->base, &rain->slot_upload);
 }
 
@@ -192,8 +191,7 @@ static void record_tick(virga_rain *rain, VkCommandBuffer cmd, VkDescriptorSet s
     virga_dispatch_indirect_and_barrier(context, cmd, rain->impact_mark, list, 0);
     virga_dispatch_and_barrier(context, cmd, rain->impact_scan, 1);
     virga_dispatch_indirect(context, cmd, rain->impact_write, list, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS, VIRGA_PASSES);
     virga_pass_end(context, cmd, scope);
 }
 
@@ -264,11 +262,7 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
 /* Copies the head of the impacts for the host. Later readers of the impacts wait for the passes here. */
 static void record_readback(virga_rain *rain, VkCommandBuffer cmd)
 {
-    virga_barrier(rain->base.context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(rain->base.context, cmd, VIRGA_PASSES | VIRGA_COPIES, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_VERTICES);
     virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_STEP, rain->impact_buffer, 0,
                                  offsetof(rain_readback, impacts), sizeof(virga_impacts_gpu));
 }
@@ -289,10 +283,7 @@ virga_result virga_rain_step(virga_rain *rain, VkCommandBuffer cmd, const virga_
     const VkDescriptorSet set = rain->step_set;
 
     /* Passes and copies of the previous frame may still read what this frame writes. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
     bool dropped = false;
     const uint32_t ticks = whole_ticks(rain, info->dt_s, &dropped);
     for (uint32_t i = 0; i < ticks; i++) {
@@ -326,17 +317,11 @@ virga_result virga_rain_write_points(virga_rain *rain, VkCommandBuffer cmd, virg
         return VIRGA_ERROR_DEVICE_LOST;
     if (!rain->point_buffer || !rain->stepped || rain->step_set_frame != context->frame_index)
         return VIRGA_NOT_READY;
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES | VIRGA_VERTICES, VIRGA_PASSES);
     rain_bind(rain, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, rain->step_set);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "rain.points");
     virga_dispatch(context, cmd, rain->points, rain->groups);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_PASSES | VIRGA_COPIES | VIRGA_VERTICES);
     virga_pass_end(context, cmd, scope);
     *points = (virga_rain_buffer){rain->point_buffer->buffer, 0, rain->point_buffer->size};
     *count = rain->slots;

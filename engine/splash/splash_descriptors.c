@@ -1,6 +1,8 @@
 /* splash/splash_descriptors.c - the bindings of all passes of splashes. A frame writes the sets that it uses. */
 #include "splash/splash_internal.h"
 
+#include "gpu/record.h"
+
 #define EFFECT splash
 #include "gpu/effect_rows.h"
 
@@ -58,5 +60,5 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
     const uint32_t offsets[3] = {splash->tick_offset, splash->view_offset, splash->rules_offset};
-    splash->base.context->vk.CmdBindDescriptorSets(cmd, point, splash->bindings->layout, 0, 1, &set, 3, offsets);
+    virga_bind(splash->base.context, cmd, point, splash->bindings, set, 3, offsets);
 }

@@ -81,19 +81,12 @@ static void record_prepare(virga_splash *splash, VkCommandBuffer cmd, VkDescript
     virga_context *context = splash->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.prepare");
     /* The previous draw, of this or an earlier frame, may still read lists and sprites. */
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES,
+               VIRGA_PASSES | VIRGA_ARGUMENTS);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     record_lists(splash, cmd, form & VIRGA_SPLASH_FORM_FILM);
     virga_dispatch_indirect(context, cmd, splash->sprite_write[form], splash->lists->buffer, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_PREPARE, splash->prepared_buffer, 0,
                                  offsetof(splash_readback, prepared), sizeof(virga_splash_prepared_gpu));
     virga_pass_end(context, cmd, scope);

@@ -156,8 +156,7 @@ static void write_indices(virga_splash *splash, VkCommandBuffer cmd)
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[0]);
     context->vk.CmdPushConstants(cmd, splash->bindings->layout, VIRGA_ALL_STAGES, 0, sizeof sprites, &sprites);
     virga_dispatch(context, cmd, splash->indices, 1024);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_INDEX_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_VERTICES);
 }
 
 static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
@@ -166,12 +165,11 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
         return VIRGA_ERROR_INVALID;
     const virga_log *log = &splash->base.context->log;
     const virga_result result =
-        virga_effect_check_step(&splash->base, "virga_splash_step", cmd, info && info->spawns ? info : NULL);
+        virga_effect_check_one_step(&splash->base, "virga_splash_step", cmd, info && info->spawns ? info : NULL);
     if (result)
         return result;
     const virga_tick_range ticks = {info->first_tick, info->ticks, splash->def.max_ticks_per_step};
-    if (virga_effect_check_ticks(&splash->base, "virga_splash_step", &ticks,
-                                 splash->ticks ? &splash->last_tick : NULL) ||
+    if (virga_effect_check_ticks(&splash->base, &ticks, splash->ticks ? &splash->last_tick : NULL) ||
         virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
         virga_host_list_check(splash->base.context, "step_info.spawns", info->spawns_offset, info->spawns_size,

@@ -111,8 +111,7 @@ static VkDescriptorSet write_set(virga_water *water, uint32_t index, const virga
 
 static void bind(virga_water *water, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set)
 {
-    water->base.context->vk.CmdBindDescriptorSets(cmd, point, water->picture.bindings->layout, 0, 1, &set, 1,
-                                                  &water->picture.view_offset);
+    virga_bind(water->base.context, cmd, point, water->picture.bindings, set, 1, &water->picture.view_offset);
 }
 
 /* Waits for draws of an earlier prepare, and clears what is counted up. */
@@ -120,17 +119,11 @@ static void record_clear(virga_water *water, VkCommandBuffer cmd)
 {
     virga_context *context = water->base.context;
     const water_picture *picture = &water->picture;
-    const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | transfer,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | transfer,
-                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS,
+               VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES);
     context->vk.CmdFillBuffer(cmd, picture->prepared->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, picture->pyramid->buffer, 0, VK_WHOLE_SIZE, 0);
-    virga_barrier(context, cmd, transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                  READ_WRITE);
+    virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
 
 static void over(const virga_water *water, VkCommandBuffer cmd, const virga_pipeline *pipeline,
@@ -158,10 +151,7 @@ static void record_list(virga_water *water, VkCommandBuffer cmd)
     virga_dispatch_and_barrier(context, cmd, picture->splat_scan, 1);
     over(water, cmd, picture->splat_compact, picture->prepared, offsetof(virga_water_prepared_gpu, word_groups));
     over(water, cmd, picture->splat_write, picture->list, 0);
-    virga_barrier(context, cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    virga_wait(context, cmd, VIRGA_PASSES, VIRGA_ARGUMENTS | VIRGA_VERTICES | VIRGA_FRAGMENTS);
     virga_pass_end(context, cmd, scope);
 }
 

@@ -180,8 +180,7 @@ static void run(virga_water *water, VkCommandBuffer cmd, const char *name, const
 {
     virga_context *context = water->base.context;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, name);
-    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, use->layout->layout, 0, 1, &use->set, 1,
-                                      &use->offset);
+    virga_bind(context, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, use->layout, use->set, 1, &use->offset);
     record(water, cmd);
     virga_pass_end(context, cmd, scope);
 }
@@ -191,19 +190,11 @@ static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, co
     if (!water)
         return VIRGA_ERROR_INVALID;
     const virga_context *context = water->base.context;
-    const virga_result result = virga_effect_check_step(&water->base, "virga_water_step", cmd, info);
+    const virga_result result = virga_effect_check_one_step(&water->base, "virga_water_step", cmd, info);
     if (result)
         return result;
-    if (water->base.step_frame == context->frame_index)
-        return virga_wrong_argument(&context->log, "virga_water_step: expected one step a frame");
-    if (info->count && !info->particles)
-        return virga_wrong_argument(&context->log, "step_info.particles: expected a buffer with %u particles, got NULL",
-                                    info->count);
-    if (info->offset % context->properties.limits.minStorageBufferOffsetAlignment)
-        return virga_wrong_argument(&context->log, "step_info.offset: expected a multiple of %u, got %llu",
-                                    (uint32_t)context->properties.limits.minStorageBufferOffsetAlignment,
-                                    (unsigned long long)info->offset);
-    if (virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3) ||
+    if (particles_check(context, info->particles, info->offset, info->count) ||
+        virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3) ||
         virga_settings_check_positions(&context->log, "step_info.time_s", &info->time_s, 1))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&water->base);
@@ -214,24 +205,8 @@ static VkDescriptorSet write_set(virga_water *water, const virga_bindings *layou
 {
     virga_bound bound[VIRGA_MAX_BINDINGS];
     virga_effect_bound(&water->base, layout, bound);
-    bound[WATER_BIND_PARTICLES] = particles
-                                      ? (virga_bound){.buffer = info->particles,
-                                                      .offset = info->offset,
-                                                      .range = (VkDeviceSize)particles * sizeof(virga_particle_gpu)}
-                                      : (virga_bound){.buffer = water->surfels->buffer}; /* not read */
+    bound[WATER_BIND_PARTICLES] = particles_bound(info->particles, info->offset, particles, water->surfels);
     return virga_bindings_write(water->base.context, (virga_bindings *)layout, 0, bound);
-}
-
-/* Waits for the previous frame's reads of what this step writes. */
-static void wait_for_readers(virga_context *context, VkCommandBuffer cmd)
-{
-    virga_barrier(context, cmd,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                      VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-                  READ_WRITE | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
@@ -242,9 +217,6 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     virga_context *context = water->base.context;
     const uint32_t particles = info->count < water->def.max_particles ? info->count : water->def.max_particles;
     virga_water_step_gpu step;
-    virga_timers_reset(context, cmd);
-    virga_effect_read_statistics(&water->base);
-    water->base.step_frame = context->frame_index;
     water->base.view.ready = false;
     memcpy(water->origin_m, info->origin_m, sizeof water->origin_m);
     water->step_particles[context->ring_slot] = particles;
@@ -256,7 +228,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
                               offset};
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
-    wait_for_readers(context, cmd);
+    virga_effect_begin_step(&water->base, cmd);
     if (virga_effect_first_contents(&water->base, cmd))
         water->picture.has_layouts = false; /* the images may have lost their layouts */
     water_spray_clear(water, cmd, step.splash_half);
