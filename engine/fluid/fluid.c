@@ -2,6 +2,7 @@
 #include "fluid/fluid_internal.h"
 
 #include "core/settings.h"
+#include "gpu/checks.h"
 #include "gpu/errors.h"
 
 #define EFFECT fluid
@@ -43,8 +44,7 @@ static virga_result check_def(const virga_log *log, void *given)
 {
     virga_fluid_def *def = given;
     (void)log;
-    /* Whole workgroups of the passes over cells. */
-    def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
+    def->max_cells = particle_grid_cells(def->max_cells);
     return VIRGA_OK;
 }
 
@@ -52,15 +52,9 @@ static virga_result check_def(const virga_log *log, void *given)
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_fluid_def *def = given;
-    const uint32_t bytes = context->properties.limits.maxStorageBufferRange;
-    const uint32_t max = bytes / (16 * VIRGA_FLUID_LIST_TEXELS);
-    if (def->max_particles <= max)
-        return VIRGA_OK;
-    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                    "fluid_def.max_particles: %u, as storage buffers of this device hold no more than %u bytes", max,
-                    bytes);
-    def->max_particles = max;
-    return VIRGA_DEGRADED;
+    return virga_fit_storage(context, "fluid_def.max_particles", 16 * VIRGA_FLUID_LIST_TEXELS, &def->max_particles)
+               ? VIRGA_DEGRADED
+               : VIRGA_OK;
 }
 
 /* ---- resources */

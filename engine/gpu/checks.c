@@ -25,12 +25,13 @@ VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize si
     return !size ? VK_WHOLE_SIZE : size < max_range ? size : max_range;
 }
 
-/* Tick numbers wrap around after years. */
-virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last)
+bool virga_fit_storage(const virga_context *context, const char *name, uint32_t bytes_each, uint32_t *size)
 {
-    if (!ticks || !last || (int32_t)(first - *last) > 0)
-        return VIRGA_OK;
-    virga_log_write(log, VIRGA_LOG_ERROR, VIRGA_LOG_FRAME_ORDER,
-                    "step_info.first_tick: %u after %u, expected one behind it", first, *last);
-    return VIRGA_ERROR_INVALID;
+    const uint32_t bytes = context->properties.limits.maxStorageBufferRange, max = bytes / bytes_each - 1;
+    if (*size <= max)
+        return false;
+    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
+                    "%s: %u, as storage buffers of this device hold no more than %u bytes", name, max, bytes);
+    *size = max;
+    return true;
 }

@@ -15,8 +15,8 @@ virga_result virga_host_list_check(const virga_context *context, const char *nam
  * is given. */
 VkDeviceSize virga_host_list_range(const virga_context *context, VkDeviceSize size, VkDeviceSize max_range);
 
-/* The ticks of a step must follow the last tick. Otherwise VIRGA_ERROR_INVALID, with a line in the log. `last` is NULL
- * before the first step. */
-virga_result virga_ticks_check(const virga_log *log, uint32_t first, uint32_t ticks, const uint32_t *last);
+/* Reduces a size of a definition to what a storage buffer of the device holds, with room for a head. True if that
+ * changed it, with a line in the log. */
+bool virga_fit_storage(const virga_context *context, const char *name, uint32_t bytes_each, uint32_t *size);
 
 #endif

@@ -156,8 +156,9 @@ static virga_result create_images(virga_effect *effect, const effect_counts coun
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
         const VkExtent2D extent = {(uint32_t)counts[row->width], (uint32_t)counts[row->height]};
-        TRY(virga_image_create(effect->context, row->format, extent, row->layers, row->usage, row->aspect, row->name,
-                               virga_effect_member(effect, row->member)));
+        if (extent.width && extent.height)
+            TRY(virga_image_create(effect->context, row->format, extent, row->layers, row->usage, row->aspect,
+                                   row->name, virga_effect_member(effect, row->member)));
     }
 error:
     return result;

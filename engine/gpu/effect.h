@@ -68,7 +68,7 @@ typedef struct virga_effect_ring {
     uint32_t count;
 } virga_effect_ring;
 
-/* An image of counts[width] x counts[height] texels. */
+/* An image of counts[width] x counts[height] texels. It is not created if one of them is 0. */
 typedef struct virga_effect_image {
     const char *name;
     size_t member; /* offset of the virga_image_2d * */

@@ -76,9 +76,9 @@ static void record_fills(virga_effect *effect, VkCommandBuffer cmd)
 
 /* ---- images */
 
-static void record_image(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_image *row)
+static void record_image(virga_effect *effect, VkCommandBuffer cmd, const virga_effect_image *row,
+                         const virga_image_2d *image)
 {
-    const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
     const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
     const VkPipelineStageFlags shaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     const virga_image_state sampled = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaders, VK_ACCESS_SHADER_READ_BIT};
@@ -98,8 +98,9 @@ static void record_images(virga_effect *effect, VkCommandBuffer cmd)
 {
     for (uint32_t i = 0; i < effect->type->image_count; i++) {
         const virga_effect_image *row = &effect->type->images[i];
-        if (row->first != VIRGA_FIRST_ANYTHING && (!row->keeps || effect->images == VIRGA_NOT_RECORDED))
-            record_image(effect, cmd, row);
+        const virga_image_2d *image = *(virga_image_2d **)virga_effect_member(effect, row->member);
+        if (image && row->first != VIRGA_FIRST_ANYTHING && (!row->keeps || effect->images == VIRGA_NOT_RECORDED))
+            record_image(effect, cmd, row, image);
     }
 }
 

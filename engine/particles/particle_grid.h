@@ -92,6 +92,12 @@ enum { PARTICLE_GRID_BIND_STEP, PARTICLE_GRID_BIND_PARTICLES = 2, PARTICLE_GRID_
         PARTICLE_GRID_PASS(object, prefix, fill, layout), PARTICLE_GRID_PASS(object, prefix, order, layout),    \
         PARTICLE_GRID_PASS(object, prefix, copy, layout)
 
+/* A number of cells, rounded up to whole workgroups of the passes over cells. */
+static inline uint32_t particle_grid_cells(uint32_t cells)
+{
+    return (cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
+}
+
 /* Checks a buffer of particles that a host gives in its step_info. */
 virga_result particles_check(const virga_context *context, VkBuffer particles, VkDeviceSize offset, uint32_t count);
 

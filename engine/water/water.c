@@ -2,6 +2,7 @@
 #include "water/water_internal.h"
 
 #include "core/settings.h"
+#include "gpu/checks.h"
 #include "gpu/errors.h"
 
 #define EFFECT water
@@ -57,33 +58,20 @@ static virga_result check_def(const virga_log *log, void *given)
     (void)log;
     if (!def->max_width || !def->max_height)
         def->max_width = def->max_height = 0;
-    /* Whole workgroups of the passes over cells. */
-    def->max_cells = (def->max_cells + VIRGA_GRID_SCAN_CELLS - 1) / VIRGA_GRID_SCAN_CELLS * VIRGA_GRID_SCAN_CELLS;
+    def->max_cells = particle_grid_cells(def->max_cells);
     return VIRGA_OK;
-}
-
-/* Reduces a pool to what a storage buffer of the device holds. */
-static bool fit_pool(const virga_context *context, const char *name, uint32_t bytes_each, uint32_t *pool)
-{
-    const VkDeviceSize max = context->properties.limits.maxStorageBufferRange / bytes_each - 1;
-    if (*pool <= max)
-        return false;
-    virga_log_write(&context->log, VIRGA_LOG_WARNING, VIRGA_LOG_CLAMPED,
-                    "%s: %u, as storage buffers of this device hold no more than %u bytes", name, (uint32_t)max,
-                    context->properties.limits.maxStorageBufferRange);
-    *pool = (uint32_t)max;
-    return true;
 }
 
 static virga_result fit_device(const virga_context *context, void *given)
 {
     virga_water_def *def = given;
-    bool reduced = fit_pool(context, "water_def.max_particles", sizeof(virga_particle_gpu), &def->max_particles);
-    reduced |= fit_pool(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
-    reduced |= fit_pool(context, "water_def.max_spray", 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu),
-                        &def->max_spray);
+    bool reduced =
+        virga_fit_storage(context, "water_def.max_particles", sizeof(virga_particle_gpu), &def->max_particles);
+    reduced |= virga_fit_storage(context, "water_def.max_blocks", VIRGA_WATER_POINTS * sizeof(float), &def->max_blocks);
+    reduced |= virga_fit_storage(context, "water_def.max_spray", 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu),
+                                 &def->max_spray);
     const uint32_t surfel_bytes = def->max_width ? VIRGA_WATER_SPLAT_TEXELS * 16 : sizeof(virga_surfel_gpu);
-    reduced |= fit_pool(context, "water_def.max_surfels", surfel_bytes, &def->max_surfels);
+    reduced |= virga_fit_storage(context, "water_def.max_surfels", surfel_bytes, &def->max_surfels);
     return reduced ? VIRGA_DEGRADED : VIRGA_OK;
 }
 
@@ -106,6 +94,8 @@ enum {
     COUNT_SPLAT_PICK_BYTES,
     COUNT_SPLATS,
     COUNT_PYRAMID,
+    COUNT_PYRAMID_COLUMNS,
+    COUNT_PYRAMID_ROWS,
     COUNT_VIEWS,
 };
 
@@ -132,6 +122,8 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
                                                             VIRGA_WATER_LANES * VIRGA_WATER_LANES)
                                          : 0;
     counts[COUNT_PYRAMID] = water_pyramid_texels(def, NULL);
+    counts[COUNT_PYRAMID_COLUMNS] = water_pyramid_extent(def).width;
+    counts[COUNT_PYRAMID_ROWS] = water_pyramid_extent(def).height;
     counts[COUNT_VIEWS] = WATER_MAX_VIEWS;
 }
 
@@ -178,68 +170,74 @@ static const virga_effect_ring rings[] = {
     {"water.views", AT(picture.view_ring), VIRGA_USE_UNIFORM, VIRGA_RING_BYTES(water_view_block), COUNT_VIEWS},
 };
 
+static const virga_effect_image images[] = {
+    {"water.thickness", AT(picture.thickness), VK_FORMAT_R32_SFLOAT, COLOR,
+     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT, COUNT_PYRAMID_COLUMNS, COUNT_PYRAMID_ROWS, 1,
+     VIRGA_FIRST_STORAGE},
+    BLANK_DEPTH("water.blank_depth", picture.blank_depth),
+    BLANK_COLOR("water.blank_color", picture.blank_color),
+};
+
 static const virga_binding_kind grid_bindings[] = {
     PARTICLE_GRID_BINDING_ROWS(virga_water, step_ring, virga_water_step_gpu),
 };
 
+/* The first bindings of all passes of a step but the grid's. */
+/* clang-format off */
+#define STEP_BINDINGS \
+    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */ \
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */ \
+    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */ \
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */ \
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)}                       /* 4 */
+/* clang-format on */
+
 static const virga_binding_kind kernel_bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
-    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},                            /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shifts)},                                /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                               /* 12 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},                            /* 13 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shifts)},                                 /* 14 */
+    STEP_BINDINGS,                                                    /* 0 to 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},         /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)}, /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},          /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},           /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shifts)},              /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},               /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},              /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},             /* 12 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted)},          /* 13 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shifts)},               /* 14 */
 };
 
 static const virga_binding_kind bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
-    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                               /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                                /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},                            /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                                 /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_insides)},                         /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(blocks)},                                /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_of)},                              /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(fields)},                                /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_starts)},                          /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)},                /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(centers)},                                /* 16 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},                 /* 17 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shapes)},                                 /* 18 */
+    STEP_BINDINGS,                                                       /* 0 to 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(centers)},                /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(shapes)},                 /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(cell_marks)},             /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picks)},                  /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_insides)},          /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(blocks)},                 /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_of)},               /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(fields)},                 /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(block_starts)},           /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_velocities)}, /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(centers)},                 /* 16 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(grid.sorted_velocities)},  /* 17 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(shapes)},                  /* 18 */
 };
 
 static const virga_binding_kind spray_bindings[] = {
-    {DYNAMIC, COMPUTE, VIRGA_SOURCE_RING, AT(step_ring), sizeof(virga_water_step_gpu)}, /* 0 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                 /* 1 */
-    [WATER_BIND_PARTICLES] = {STORAGE, COMPUTE},                                        /* 2 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.state)},                            /* 3 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.cell_starts)},                      /* 4 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},                           /* 5 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)},                   /* 6 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.picks)},                           /* 7 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},                             /* 8 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.list)},                            /* 9 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.splashes)},                        /* 10 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.pieces)},                          /* 11 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.table)},                           /* 12 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.starts)},                          /* 13 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},                        /* 14 */
-    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},                               /* 15 */
-    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(spray.droplets)},                         /* 16 */
+    STEP_BINDINGS,                                                    /* 0 to 4 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted)},         /* 5 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(grid.sorted_indices)}, /* 6 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.picks)},         /* 7 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(densities)},           /* 8 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.list)},          /* 9 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.splashes)},      /* 10 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.pieces)},        /* 11 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.table)},         /* 12 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.starts)},        /* 13 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},      /* 14 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},             /* 15 */
+    {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(spray.droplets)},       /* 16 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -332,6 +330,7 @@ static virga_result water_type_draw(void *object, VkCommandBuffer cmd, const vir
 
 const virga_effect_type water_type = {
     VIRGA_EFFECT_TYPE(water, "water", "water_settings"),
+    VIRGA_TABLE(image),
     .fit_device = fit_device,
     .create = create,
     .destroy = destroy,

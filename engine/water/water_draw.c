@@ -173,43 +173,25 @@ static void record_splats(virga_water *water, VkCommandBuffer cmd, VkDescriptorS
     virga_pass_end(context, cmd, scope);
 }
 
-static virga_result check_prepare(const virga_water *water, VkCommandBuffer cmd, const virga_view *view)
-{
-    const virga_context *context = water->base.context;
-    if (!cmd || !view)
-        return virga_wrong_argument(&context->log, "virga_water_prepare: NULL argument");
-    if (context->lost)
-        return VIRGA_ERROR_DEVICE_LOST;
-    virga_result result = virga_view_check(context, view, 0);
-    if (!result)
-        result = virga_effect_ready(&water->base);
-    if (result)
-        return result;
-    if (!water->def.max_width || !water->base.contents || water->base.step_frame != context->frame_index)
-        return VIRGA_NOT_READY;
-    return VIRGA_OK;
-}
-
 virga_result virga_water_prepare(virga_water *water, VkCommandBuffer cmd, const virga_view *view)
 {
     if (!water)
         return VIRGA_ERROR_INVALID;
     virga_context *context = water->base.context;
     water_picture *picture = &water->picture;
-    water->base.view.ready = false;
-    const virga_result result = check_prepare(water, cmd, view);
+    const bool stepped = water->def.max_width && water->base.contents && water->base.step_frame == context->frame_index;
+    virga_result result = virga_effect_check_prepare(&water->base, "virga_water_prepare", cmd, view, 0, stepped);
     if (result)
         return result;
-    const uint32_t index = virga_ring_used(context, &picture->view_ring);
-    if (index >= WATER_MAX_VIEWS)
-        return virga_wrong_argument(&context->log, "virga_water_prepare: more than %d views in a frame",
-                                    WATER_MAX_VIEWS);
     virga_timers_reset(context, cmd);
     water_view_block block;
+    uint32_t index;
     fill_view(water, view, &block);
-    picture->view_offset = virga_ring_push(context, &picture->view_ring, &block, sizeof block);
+    result = virga_effect_push_view(&water->base, "virga_water_prepare", &picture->view_ring, &block, sizeof block,
+                                    &index, &picture->view_offset);
+    if (result)
+        return result;
     const VkDescriptorSet set = write_set(water, index, view);
-    water_images_first_layouts(water, cmd);
     record_clear(water, cmd);
     bind(water, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
     record_volumes(water, cmd, &block.look);

@@ -1,14 +1,9 @@
-/* water/water_images.c - the images that surfels are drawn into, and the pass that draws them. */
+/* water/water_images.c - the images that surfels are drawn into, and the pipelines that draw them. */
 #include "water/water_internal.h"
 
 #include "gpu/errors.h"
-#include "gpu/record.h"
 
 #include "shaders/water_shaders.h"
-
-#define SAMPLED   VK_IMAGE_USAGE_SAMPLED_BIT
-#define COLOR_BIT VK_IMAGE_ASPECT_COLOR_BIT
-#define DEPTH_BIT VK_IMAGE_ASPECT_DEPTH_BIT
 
 #define SUMS   VK_FORMAT_R32G32B32A32_SFLOAT
 #define MOTION VK_FORMAT_R16G16_SFLOAT
@@ -16,7 +11,7 @@
 
 /* ---- sizes */
 
-static VkExtent2D pyramid_extent(const virga_water_def *def)
+VkExtent2D water_pyramid_extent(const virga_water_def *def)
 {
     const uint32_t px = VIRGA_WATER_VOLUME_PX;
     return (VkExtent2D){(def->max_width + px - 1) / px, (def->max_height + px - 1) / px};
@@ -24,7 +19,7 @@ static VkExtent2D pyramid_extent(const virga_water_def *def)
 
 uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_WATER_VOLUME_LEVELS])
 {
-    const VkExtent2D finest = pyramid_extent(def);
+    const VkExtent2D finest = water_pyramid_extent(def);
     uint32_t sum = 0;
     for (uint32_t level = 0; level < VIRGA_WATER_VOLUME_LEVELS; level++) {
         const uint32_t up = (1u << level) - 1;
@@ -37,36 +32,10 @@ uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_W
 
 VkDeviceSize water_images_bytes(const virga_water_def *def)
 {
-    const VkExtent2D finest = pyramid_extent(def);
-    const VkDeviceSize pixels = (VkDeviceSize)def->max_width * def->max_height;
-    return pixels ? pixels * (16 + 4 + 4) + (VkDeviceSize)finest.width * finest.height * 4 + 8 : 0;
+    return (VkDeviceSize)def->max_width * def->max_height * (16 + 4 + 4);
 }
 
 /* ---- creation */
-
-static virga_result create_images(virga_water *water)
-{
-    virga_context *context = water->base.context;
-    water_picture *picture = &water->picture;
-    const VkExtent2D one = {1, 1};
-    const virga_offscreen_def def = {.name = "water.sums",
-                                     .extent = {water->def.max_width, water->def.max_height},
-                                     .layers = 1,
-                                     .colors = {SUMS, MOTION},
-                                     .depth = DEPTH,
-                                     .reversed_depth = true,
-                                     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                     .readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT};
-    virga_result result = VIRGA_OK;
-    TRY(virga_offscreen_create(context, &def, &picture->sums));
-    TRY(virga_image_create(context, VK_FORMAT_R32_SFLOAT, pyramid_extent(&water->def), 1,
-                           SAMPLED | VK_IMAGE_USAGE_STORAGE_BIT, COLOR_BIT, "water.thickness", &picture->thickness));
-    TRY(virga_image_create(context, DEPTH, one, 1, SAMPLED, DEPTH_BIT, "water.blank_depth", &picture->blank_depth));
-    TRY(virga_image_create(context, VK_FORMAT_R8G8B8A8_UNORM, one, 1, SAMPLED, COLOR_BIT, "water.blank_color",
-                           &picture->blank_color));
-error:
-    return result;
-}
 
 /* Two draws of the same splats: the depth of the nearest water, then the sums of what lies on it. */
 static virga_result create_pipelines(virga_water *water)
@@ -114,13 +83,21 @@ virga_result water_images_create(virga_water *water)
 {
     virga_context *context = water->base.context;
     water_picture *picture = &water->picture;
+    const virga_offscreen_def def = {.name = "water.sums",
+                                     .extent = {water->def.max_width, water->def.max_height},
+                                     .layers = 1,
+                                     .colors = {SUMS, MOTION},
+                                     .depth = DEPTH,
+                                     .reversed_depth = true,
+                                     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     .readers = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT};
     if (!water->def.max_width)
         return VIRGA_OK;
     virga_result result = check_device(context);
     if (result)
         return result;
     water_pyramid_texels(&water->def, picture->volume_first);
-    TRY(create_images(water));
+    TRY(virga_offscreen_create(context, &def, &picture->sums));
     TRY(create_pipelines(water));
 error:
     return result;
@@ -133,25 +110,4 @@ void water_images_retire(virga_water *water)
     VIRGA_RETIRE(context, picture->splat_depth);
     VIRGA_RETIRE(context, picture->splat_sum);
     virga_offscreen_retire(context, &picture->sums);
-    VIRGA_RETIRE(context, picture->thickness);
-    VIRGA_RETIRE(context, picture->blank_depth);
-    VIRGA_RETIRE(context, picture->blank_color);
-}
-
-/* ---- recording */
-
-void water_images_first_layouts(virga_water *water, VkCommandBuffer cmd)
-{
-    virga_context *context = water->base.context;
-    water_picture *picture = &water->picture;
-    const virga_image_state before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-    const virga_image_state general = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, READ_WRITE};
-    const virga_image_state read = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                    VK_ACCESS_SHADER_READ_BIT};
-    if (picture->has_layouts)
-        return;
-    virga_image_barrier(context, cmd, picture->thickness->image, COLOR_BIT, before, general);
-    virga_image_barrier(context, cmd, picture->blank_depth->image, DEPTH_BIT, before, read);
-    virga_image_barrier(context, cmd, picture->blank_color->image, COLOR_BIT, before, read);
-    picture->has_layouts = true;
 }

@@ -47,7 +47,6 @@ typedef struct water_picture {
     virga_offscreen *sums; /* sums of splats, sums of their motion, depth */
     virga_image_2d *thickness;
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
-    bool has_layouts;
     virga_ring view_ring;
     uint32_t view_offset; /* of the newest block */
     virga_bindings *bindings;
@@ -109,11 +108,11 @@ virga_result water_images_create(virga_water *water);
 void water_images_retire(virga_water *water);
 VkDeviceSize water_images_bytes(const virga_water_def *def);
 
+/* Size of the finest level of the pyramid of thickness. */
+VkExtent2D water_pyramid_extent(const virga_water_def *def);
+
 /* Texels of all levels of the pyramid of thickness; `first` (may be NULL) gets the index of each level's first. */
 uint32_t water_pyramid_texels(const virga_water_def *def, uint32_t first[VIRGA_WATER_VOLUME_LEVELS]);
-
-/* The first layouts of images that no pass clears. */
-void water_images_first_layouts(virga_water *water, VkCommandBuffer cmd);
 
 /* ---- water_draw.c */
 extern const virga_effect_draw water_draws[1];

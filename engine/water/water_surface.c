@@ -229,8 +229,7 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
     virga_effect_begin_step(&water->base, cmd);
-    if (virga_effect_first_contents(&water->base, cmd))
-        water->picture.has_layouts = false; /* the images may have lost their layouts */
+    virga_effect_first_contents(&water->base, cmd);
     water_spray_clear(water, cmd, step.splash_half);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
