@@ -69,6 +69,7 @@ typedef struct virga_setting_row {
     double min, max, value;
     /* (floats) Offsets of earlier rows' numbers, which bound this one too; 0: none. */
     size_t max_member, min_member;
+    bool look; /* changes pictures only, not what is simulated */
 } virga_setting_row;
 
 /* The row of a member of `type`, named "prefix.member". The arguments after `member`: minimum, maximum, default (0 if

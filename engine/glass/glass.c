@@ -29,16 +29,16 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, cell_m, 0.0005, 0.01, 0.002),
     DEF(FLOAT, affinity_size_m, 0.0005, 0.1, 0.006),
     DEF(U32, max_drops, 256, 262144, 32768),
-    DEF(U32, max_texels, 64, 4096, 1024),
+    DEF(U32, max_texels, 64, 4096, 1024, .look = true),
     VIRGA_TICK_ROWS,
 };
 /* clang-format on */
 
 /* Those without a default here have that of VIRGA_GLASS_KIND_PAPER. */
 static const virga_setting_row setting_rows[] = {
-    SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO),
-    SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM),
-    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_PHYSICAL, VIRGA_GLASS_STYLE_PHYSICAL),
+    SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO, .look = true),
+    SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM, .look = true),
+    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_PHYSICAL, VIRGA_GLASS_STYLE_PHYSICAL, .look = true),
     SETTING(FLOAT, advancing_deg, 5, 175, 0),
     SETTING(FLOAT, receding_deg, 1, 175, 0, .max_member = offsetof(virga_glass_settings, advancing_deg)),
     SETTING(FLOAT, drag, 0.01, 100, 1),
@@ -52,7 +52,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, tail_max_radius_mm, 0, 2, 0),
     SETTING(FLOAT, tail_lifetime_s, 0.1, 3600, 12),
     SETTING(FLOAT, film_um, 0, 100, 0),
-    SETTING(FLOAT, film_break_s, 0, 60, 0.8),
+    SETTING(FLOAT, film_break_s, 0, 60, 0.8, .look = true),
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.5),
     SETTING(FLOAT, mist_max_mm, 0, 1, 0.6),
     SETTING(FLOAT, air_share, 0, 2, 0.4),
@@ -60,21 +60,21 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, penalty, 0, 1, 0.1),
     SETTING(FLOAT, particle_band, 1, 16, 4),
     SETTING(FLOAT, hold_back_mm, 0, 20, 2.2),
-    SETTING(BOOL, compress, false, true, true),
-    SETTING(FLOAT, compress_from, 0, 2, 0.5),
-    SETTING(FLOAT, compress_step, 0, 1, 0.1),
-    SETTING(FLOAT, compress_k, 0, 1, 0.3),
-    SETTING(FLOAT, threshold, 0.05, 0.95, 0.5),
-    SETTING(FLOAT, impact_s, 0, 2, 0.25),
-    SETTING(FLOAT, paper_shift, 0, 4, 0.35),
-    SETTING(FLOAT, thickness_mm, 0, 50, 5),
-    SETTING(FLOAT, tint[0], 0, 1, 1),
-    SETTING(FLOAT, tint[1], 0, 1, 1),
-    SETTING(FLOAT, tint[2], 0, 1, 1),
-    SETTING(FLOAT, gain, 0, 100, 1),
+    SETTING(BOOL, compress, false, true, true, .look = true),
+    SETTING(FLOAT, compress_from, 0, 2, 0.5, .look = true),
+    SETTING(FLOAT, compress_step, 0, 1, 0.1, .look = true),
+    SETTING(FLOAT, compress_k, 0, 1, 0.3, .look = true),
+    SETTING(FLOAT, threshold, 0.05, 0.95, 0.5, .look = true),
+    SETTING(FLOAT, impact_s, 0, 2, 0.25, .look = true),
+    SETTING(FLOAT, paper_shift, 0, 4, 0.35, .look = true),
+    SETTING(FLOAT, thickness_mm, 0, 50, 5, .look = true),
+    SETTING(FLOAT, tint[0], 0, 1, 1, .look = true),
+    SETTING(FLOAT, tint[1], 0, 1, 1, .look = true),
+    SETTING(FLOAT, tint[2], 0, 1, 1, .look = true),
+    SETTING(FLOAT, gain, 0, 100, 1, .look = true),
     SETTING(U32, hold_back_cells, 0, 8, 3),
-    SETTING(U32, compress_steps, 0, 16, 5),
-    SETTING(U32, wiper_count, 0, VIRGA_GLASS_MAX_WIPERS, 0),
+    SETTING(U32, compress_steps, 0, 16, 5, .look = true),
+    SETTING(U32, wiper_count, 0, VIRGA_GLASS_MAX_WIPERS, 0, .look = true),
 };
 
 static void fill_settings(void *given)
@@ -370,7 +370,20 @@ static virga_result apply_settings(void *object, void *settings)
     return glass_picture_need(object, settings);
 }
 
+/* ---- state */
+
+static const virga_effect_state_row state_rows[] = {
+    STATE(ticks), STATE(last_tick), STATE(host_deg), STATE(host_known), STATE(particles_ever),
+};
+
+/* The height map is of the state before the load. */
+static void state_loaded(void *object)
+{
+    ((virga_glass *)object)->picture.has_written = false;
+}
+
 VIRGA_EFFECT_FUNCTIONS(glass)
+VIRGA_EFFECT_STATE_FUNCTIONS(glass)
 VIRGA_EFFECT_DRAW_FUNCTIONS(glass)
 VIRGA_EFFECT_STATISTICS_FUNCTION(glass)
 
@@ -387,6 +400,8 @@ const virga_effect_type glass_type = {
     .apply_settings = apply_settings,
     .draw_constant = glass_draw_constant,
     .lost = glass_lost,
+    VIRGA_TABLE(state_row),
+    .state_loaded = state_loaded,
 };
 
 VkDescriptorSet glass_write_set(virga_glass *glass)

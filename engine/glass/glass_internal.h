@@ -16,6 +16,7 @@
 #include "glass/glass_picture.h"
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "gpu/state.h"
 
 #include <virga/glass.h>
 #include <virga/shared/glass_gpu.h>

@@ -25,6 +25,11 @@ static const void *def_of(const virga_effect *effect)
     return virga_effect_member(effect, effect->type->def.member);
 }
 
+void virga_effect_counts(const virga_effect *effect, effect_counts counts)
+{
+    fill_counts(effect->type, def_of(effect), counts);
+}
+
 static VkDeviceSize buffer_bytes(const virga_effect_buffer *row, const effect_counts counts)
 {
     return row->head + row->entry * counts[row->count];
@@ -85,8 +90,7 @@ static virga_result check_def(const virga_log *log, const virga_effect_type *typ
 
 /* ---- estimate */
 
-/* Bytes of a texel, for the formats that effects use. */
-static VkDeviceSize texel_bytes(VkFormat format)
+VkDeviceSize virga_texel_bytes(VkFormat format)
 {
     switch (format) {
     case VK_FORMAT_R8_UINT:
@@ -99,7 +103,7 @@ static VkDeviceSize texel_bytes(VkFormat format)
 
 static VkDeviceSize image_bytes(const virga_effect_image *row, const effect_counts counts)
 {
-    return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * texel_bytes(row->format);
+    return counts[row->width] * counts[row->height] * (row->layers ? row->layers : 1) * virga_texel_bytes(row->format);
 }
 
 VkDeviceSize virga_effect_estimate(const virga_effect_type *type, const void *given)

@@ -56,6 +56,8 @@ typedef struct virga_effect_buffer {
     virga_first first;
     uint32_t fill;
     uint32_t word, word_value; /* (FILL) one word that differs: its index and its value; 0: none differs */
+    bool keeps;                /* (ANYTHING) later steps read it before they write it: it is part of the state */
+    bool scratch;              /* (FILL) no later step reads it: it is no part of the state */
 } virga_effect_buffer;
 
 /* Blocks that the host writes while it records, and that passes read at a dynamic offset: counts[count] blocks for each
@@ -78,7 +80,7 @@ typedef struct virga_effect_image {
     uint32_t width, height; /* indices of counts */
     uint32_t layers;        /* 0: a 3D image of depth 1 */
     virga_first first;
-    bool keeps; /* passes do not write it anew in every frame */
+    bool keeps; /* passes do not write it anew in every frame: it is part of the state, and in the layout GENERAL */
 } virga_effect_image;
 
 /* A descriptor set layout and its pipeline layout. Rows with a source are bound by virga_effect_bound; the effect binds
@@ -145,6 +147,16 @@ typedef struct virga_effect_struct {
     uint32_t row_count;
 } virga_effect_struct;
 
+/* A part of the state that the object holds on the host, see gpu/state.h. */
+typedef struct virga_effect_state_row {
+    const char *name; /* for log lines */
+    size_t member;    /* offset in the object */
+    size_t bytes;
+    uint32_t count;  /* index of the counts that multiply `bytes`; 0: none */
+    bool pointed;    /* the member is a pointer to it */
+    bool must_match; /* settings without rows: a state that has others is refused */
+} virga_effect_state_row;
+
 /* A step of an effect that needs only time and position. */
 typedef struct virga_effect_step {
     uint32_t first_tick, ticks; /* as virga_rain_ticks */
@@ -174,6 +186,8 @@ typedef struct virga_effect_type {
     uint32_t draw_layout; /* index of the virga_effect_layout of draws */
     const virga_effect_pool *pools;
     uint32_t pool_count;
+    const virga_effect_state_row *state_rows;
+    uint32_t state_row_count;
     const char *readback_name; /* name of the buffer for statistics readback */
     uint32_t readback_bytes;   /* per frame; 0: no statistics */
 
@@ -200,6 +214,8 @@ typedef struct virga_effect_type {
     /* (optional) The device has not executed calls of a completed frame. `did` tells what they recorded. What later
      * frames need must be recorded again. */
     void (*lost)(void *object, uint64_t frame, uint32_t did);
+    /* (optional) A state was loaded: the parts of it on the host are in the object. */
+    void (*state_loaded)(void *object);
     /* Reads the statistics of a completed frame. `parts` is a bit mask of the parts that were recorded in it. */
     void (*read_statistics)(void *object, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
@@ -364,6 +380,8 @@ typedef struct virga_effect {
     virga_pipeline *fill_pass;
     virga_bound first_head; /* (optional) the head of a list of another effect, which is filled with 0 too */
     virga_effect_upload uploads[VIRGA_EFFECT_MAX_UPLOADS];
+    uint64_t load_frame;         /* the frame in which a state was loaded last */
+    bool own_first;              /* a load has recorded first contents, and the effect not yet those of its own */
     virga_pipeline_group passes; /* all passes that a step and a prepare use */
     virga_effect_target *targets;
     virga_effect_view view;
@@ -404,6 +422,12 @@ virga_result virga_effect_set(virga_effect *effect, const char *call, const void
 
 /* Replaces the lighting in the current settings. */
 virga_result virga_effect_set_lighting(virga_effect *effect, const virga_lighting *lighting);
+
+/* Fills the counts of the object's definition. */
+void virga_effect_counts(const virga_effect *effect, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS]);
+
+/* Bytes of a texel, for the formats that effects use. */
+VkDeviceSize virga_texel_bytes(VkFormat format);
 
 /* ---- recording */
 

@@ -113,7 +113,7 @@ static void wait_for_earlier_frames(virga_context *context, VkCommandBuffer cmd)
                   VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, any);
 }
 
-bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
+static bool record_first_contents(virga_effect *effect, VkCommandBuffer cmd)
 {
     virga_context *context = effect->context;
     if ((effect->contents == VIRGA_EXECUTED && effect->images == VIRGA_EXECUTED) ||
@@ -131,6 +131,13 @@ bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
     effect->images = effect->images == VIRGA_EXECUTED ? VIRGA_EXECUTED : VIRGA_RECORDED;
     effect->contents_frame = context->frame_index;
     return true;
+}
+
+bool virga_effect_first_contents(virga_effect *effect, VkCommandBuffer cmd)
+{
+    const bool recorded = record_first_contents(effect, cmd) || effect->own_first;
+    effect->own_first = false;
+    return recorded;
 }
 
 /* ---- uploads */
@@ -216,7 +223,12 @@ static void settle_frame(virga_effect *effect, const virga_journal_fate *fate, b
         return;
     drop_statistics(effect, fate->frame, fate->lost);
     count_lost(effect, fate->frame, dropped);
-    if (effect->type->lost)
+    if (fate->lost & VIRGA_DID_LOAD)
+        virga_log_write(&effect->context->log, VIRGA_LOG_WARNING, VIRGA_LOG_FRAME_LOST,
+                        "frame %llu, which had to copy a loaded state of %s to the device, is lost: load it again",
+                        (unsigned long long)fate->frame, effect->type->name);
+    /* What was lost before a load is not missed after it. */
+    if (effect->type->lost && fate->frame >= effect->load_frame)
         effect->type->lost(effect, fate->frame, fate->lost);
 }
 

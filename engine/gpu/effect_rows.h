@@ -32,6 +32,11 @@
 #define POOL(member, ...) ROW(ROW_POOL, EFFECT, member, __VA_ARGS__)
 #define ROW_POOL(effect, member, ...) {#member, offsetof(virga_##effect##_def, member), __VA_ARGS__}
 
+/* ---- state: a member of the object that belongs to it */
+
+#define STATE(member) ROW(ROW_STATE, EFFECT, member)
+#define ROW_STATE(effect, member) {#member, offsetof(virga_##effect, member), sizeof(((virga_##effect *)0)->member)}
+
 /* ---- buffers and images */
 
 #define DEVICE VIRGA_HEAP_DEVICE

@@ -16,7 +16,8 @@ enum {
     VIRGA_DID_CONTENTS = 1 << 4, /* first contents of buffers, and of images that every frame writes */
     VIRGA_DID_IMAGES = 1 << 5,   /* first contents of the images that outlive a frame */
     VIRGA_DID_UPLOAD = 1 << 6,
-    VIRGA_DID_OWN = 1 << 8, /* from here on: the effect's own */
+    VIRGA_DID_LOAD = 1 << 7, /* copied a saved state to the device */
+    VIRGA_DID_OWN = 1 << 8,  /* from here on: the effect's own */
 };
 
 typedef struct virga_journal_frame {

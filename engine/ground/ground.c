@@ -24,8 +24,8 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, cell_m, 0.01, 0.1, 0.05),
     DEF(U32, cached_tiles, 0, 60000, 1024),
     DEF(U32, far_cells, 0, 2048, 512),
-    DEF(U32, ripple_texels, 64, 4096, 1024),
-    DEF(FLOAT, ripple_texel_m, 0.002, 0.05, 0.005),
+    DEF(U32, ripple_texels, 64, 4096, 1024, .look = true),
+    DEF(FLOAT, ripple_texel_m, 0.002, 0.05, 0.005, .look = true),
     VIRGA_TICK_ROWS,
     DEF(U32, flow_ticks, 1, 60, 4),
     DEF(U32, max_impacts, 256, 4194240, 65536),
@@ -39,7 +39,7 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, evaporation_mm_h, 0, 100, 0.2),
     SETTING(FLOAT, start_wetness, 0, 1, 0),
     SETTING(FLOAT, start_water_mm, 0, 50, 0),
-    SETTING(BOOL, measure, false, true, true),
+    SETTING(BOOL, measure, false, true, true, .look = true),
 };
 
 static void fill_settings(void *settings)
@@ -75,6 +75,7 @@ enum {
     COUNT_SIDE,
     COUNT_TWO_SIDES,
     COUNT_KEPT,
+    COUNT_KEPT_TILES,
     COUNT_LANDINGS,
     COUNT_SPAWNS,
     COUNT_FAR_CELLS,
@@ -91,6 +92,7 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
     counts[COUNT_SIDE] = def->cells;
     counts[COUNT_TWO_SIDES] = 2 * def->cells;
     counts[COUNT_KEPT] = (VkDeviceSize)def->cached_tiles * VIRGA_GROUND_TILE_CELLS;
+    counts[COUNT_KEPT_TILES] = def->cached_tiles;
     counts[COUNT_LANDINGS] = (VkDeviceSize)def->max_impacts + def->max_returned_droplets;
     counts[COUNT_SPAWNS] = def->max_spawns;
     counts[COUNT_FAR_CELLS] = far_cells ? (VkDeviceSize)far_cells * far_cells : 1;
@@ -101,26 +103,27 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
 
 #define FIRST_NEAR_M 0x40400000u /* 3 m, as a float */
 #define MAP_USE      (VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)
+#define KEPT_USE     (MAP_USE | VK_IMAGE_USAGE_TRANSFER_DST_BIT)
 
 static const virga_effect_buffer buffers[] = {
-    {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS},
+    {"ground.floors", AT(floors), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_floor_gpu), COUNT_CELLS, .keeps = true},
     {"ground.cells", AT(cells), VIRGA_USE_TEXELS, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_CELLS, FILL},
     {"ground.arrivals", AT(arrivals), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_arrivals_gpu), COUNT_CELLS, FILL},
     {"ground.stirs", AT(stirs), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
     {"ground.swings", AT(swings), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_CELLS, FILL},
     {"ground.spots", AT(spots), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_CELLS, FILL},
     {"ground.cached_cells", AT(cached_cells), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_cell_gpu), COUNT_KEPT, FILL},
-    {"ground.cached_spots", AT(cached_spots), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_KEPT},
+    {"ground.cached_spots", AT(cached_spots), VIRGA_USE_STORAGE, DEVICE, 0, 8, COUNT_KEPT, .keeps = true},
     {"ground.counts", AT(counts), VIRGA_USE_STORAGE, DEVICE, sizeof(ground_readback), .first = FILL},
     {"ground.landings", AT(landings), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_landing_gpu), COUNT_LANDINGS, FILL},
     {"ground.spawns", AT(spawns), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_spawns_gpu), sizeof(virga_spawn_gpu),
      COUNT_SPAWNS, FILL, .word = offsetof(virga_spawns_gpu, near_m) / sizeof(uint32_t), .word_value = FIRST_NEAR_M},
     {"ground.no_rules", AT(no_rules), VIRGA_USE_UNIFORM | VK_BUFFER_USAGE_TRANSFER_DST_BIT, DEVICE,
-     sizeof(virga_splash_rules_gpu), .first = FILL},
+     sizeof(virga_splash_rules_gpu), .first = FILL, .scratch = true},
     {"ground.rings", AT(rings), VIRGA_USE_STORAGE, DEVICE,
      sizeof(virga_rings_gpu) + VIRGA_MAX_RINGS * sizeof(virga_ring_gpu), .first = FILL},
-    {"ground.far_floors", AT(far.floors), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, DEVICE, 0, sizeof(virga_far_floor_gpu),
-     COUNT_FAR_CELLS},
+    {"ground.far_floors", AT(far.floors), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(virga_far_floor_gpu), COUNT_FAR_CELLS,
+     .keeps = true},
 };
 
 static const virga_effect_ring rings[] = {
@@ -134,8 +137,8 @@ static const virga_effect_image images[] = {
      VIRGA_FIRST_STORAGE},
     {"ground.spot_map", AT(spot_map), VK_FORMAT_R32_UINT, COLOR, MAP_USE, COUNT_TWO_SIDES, COUNT_SIDE, 1,
      VIRGA_FIRST_STORAGE},
-    {"ground.far_map", AT(far.map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, MAP_USE, COUNT_FAR_WIDTH, COUNT_FAR_HEIGHT, 1,
-     VIRGA_FIRST_STORAGE, .keeps = true},
+    {"ground.far_map", AT(far.map), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR, KEPT_USE, COUNT_FAR_WIDTH, COUNT_FAR_HEIGHT,
+     1, VIRGA_FIRST_STORAGE, .keeps = true},
     {"ground.blank_materials", AT(blank_materials), VK_FORMAT_R8_UINT, COLOR, VK_IMAGE_USAGE_SAMPLED_BIT,
      VIRGA_COUNT_ONE, VIRGA_COUNT_ONE, 1, VIRGA_FIRST_SAMPLED},
 };
@@ -299,7 +302,31 @@ static virga_result apply_settings(void *object, void *given)
     return VIRGA_OK;
 }
 
+/* ---- state */
+
+static const virga_effect_state_row state_rows[] = {
+    {"ground_settings.materials", AT(settings.materials), sizeof((virga_ground *)0)->settings.materials,
+     .must_match = true},
+    STATE(window.low),
+    STATE(window.is_placed),
+    STATE(window.moves),
+    STATE(window.cached_count),
+    {"window.cache", AT(window.cache), sizeof(ground_cached_tile), COUNT_KEPT_TILES, .pointed = true},
+    STATE(base_m),
+    STATE(has_base),
+    STATE(redraw_heights),
+    STATE(ticks),
+    STATE(last_tick),
+    STATE(standing),
+    STATE(ripple_low_m),
+    STATE(far.low),
+    STATE(far.is_placed),
+    STATE(far.drawn),
+    STATE(far.drawn_at),
+};
+
 VIRGA_EFFECT_FUNCTIONS(ground)
+VIRGA_EFFECT_STATE_FUNCTIONS(ground)
 VIRGA_EFFECT_STATISTICS_FUNCTION(ground)
 
 const virga_effect_type ground_type = {
@@ -314,6 +341,8 @@ const virga_effect_type ground_type = {
     .check_settings = check_settings,
     .apply_settings = apply_settings,
     .lost = ground_lost,
+    VIRGA_TABLE(state_row),
+    .state_loaded = ground_state_loaded,
 };
 
 /* ---- descriptors */

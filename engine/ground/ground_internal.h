@@ -15,6 +15,7 @@
 #include "gpu/effect.h"
 #include "gpu/mesh_map.h"
 #include "gpu/offscreen.h"
+#include "gpu/state.h"
 #include "ground/ground.h"
 
 #include <virga/ground.h>
@@ -209,6 +210,7 @@ void ground_write_sets(virga_ground *ground);
 /* ---- ground_step.c */
 
 void ground_lost(void *ground, uint64_t frame, uint32_t did);
+void ground_state_loaded(void *ground);
 void ground_read_statistics(void *ground, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 #endif

@@ -68,6 +68,14 @@ void ground_lost(void *object, uint64_t frame, uint32_t did)
     ground->stats.tiles_cached = ground->window.cached_count;
 }
 
+/* The undo of a move is for the state before the load. */
+void ground_state_loaded(void *object)
+{
+    virga_ground *ground = object;
+    ground->move_frame = 0;
+    ground->stats.tiles_cached = ground->window.cached_count;
+}
+
 /* ---- constants of a tick */
 
 /* Without a material map, the offset is outside of all cells. */

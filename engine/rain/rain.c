@@ -30,7 +30,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_drops, 1024, 4194304, 131072),
     DEF(FLOAT, range_m, 4, 512, 32),
     DEF(U32, max_impacts, 256, 4194240, 65536),
-    DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES, 0),
+    DEF(U32, max_panes, 0, VIRGA_RAIN_MAX_PANES, 0, .look = true),
     VIRGA_TICK_ROWS,
     DEF(U32, occlusion_size, 0, 8192, 1024),
     DEF(U32, occlusion_cascades, 1, 4, 2),
@@ -49,16 +49,16 @@ static const virga_setting_row setting_rows[] = {
     RAIN(FLOAT, wind_m_s[2], -60, 60, 0),
     RAIN(FLOAT, gust_m_s, 0, 30, 0),
     RAIN(FLOAT, gust_time_s, 0.1, 600, 4),
-    RAIN(FLOAT, streak_gain, 0, 100, 1),
-    RAIN(FLOAT, light_gain, 0, 100, 1),
-    RAIN(FLOAT, min_width_px, 0.5, 4, 1),
-    RAIN(FLOAT, soft_m, 0, 1, 0.05),
-    RAIN(FLOAT, near_fade_m, 0, 5, 0.15),
-    RAIN(FLOAT, oscillation, 0, 4, 1),
-    RAIN(FLOAT, haze, 0, 4, 1),
-    RAIN(FLOAT, haze_sky_m, 0, 1e5, 400),
-    RAIN(FLOAT, glow, 0, 100, 1),
-    RAIN(FLOAT, streak_min_mm, 0.2, 2, 0.4),
+    RAIN(FLOAT, streak_gain, 0, 100, 1, .look = true),
+    RAIN(FLOAT, light_gain, 0, 100, 1, .look = true),
+    RAIN(FLOAT, min_width_px, 0.5, 4, 1, .look = true),
+    RAIN(FLOAT, soft_m, 0, 1, 0.05, .look = true),
+    RAIN(FLOAT, near_fade_m, 0, 5, 0.15, .look = true),
+    RAIN(FLOAT, oscillation, 0, 4, 1, .look = true),
+    RAIN(FLOAT, haze, 0, 4, 1, .look = true),
+    RAIN(FLOAT, haze_sky_m, 0, 1e5, 400, .look = true),
+    RAIN(FLOAT, glow, 0, 100, 1, .look = true),
+    RAIN(FLOAT, streak_min_mm, 0.2, 2, 0.4, .look = true),
     RAIN(U32, default_material, 0, 255, 0),
     RAIN(U32, occlusion_interval, 1, 16, 1),
 };
@@ -145,7 +145,9 @@ static const virga_effect_buffer buffers[] = {
     {"rain.picks", AT(pick_buffer), VIRGA_USE_STORAGE, DEVICE, 0, 1, COUNT_PICK_BYTES},
     {"rain.list", AT(list_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_list_gpu), sizeof(uint32_t), COUNT_SLOTS},
     {"rain.streaks", AT(streak_buffer), VIRGA_USE_TEXELS, DEVICE, 0, RAIN_STREAK_BYTES, COUNT_STREAKS},
-    {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL},
+    {"rain.total", AT(total_buffer), VIRGA_USE_STORAGE, DEVICE, sizeof(virga_rain_total_gpu), .first = FILL},
+    {"rain.prepared", AT(prepared_buffer), VIRGA_USE_INDIRECT, DEVICE, sizeof(virga_prepared_gpu), .first = FILL,
+     .scratch = true},
     {"rain.order", AT(order_buffer), VIRGA_USE_INDEX, DEVICE, 0, sizeof(uint32_t), COUNT_ORDER},
     {"rain.hits", AT(hit_buffer), VIRGA_USE_STORAGE, DEVICE, 0, RAIN_HITS_BYTES, COUNT_PANES},
     {"rain.hit_offsets", AT(hit_offset_buffer), VIRGA_USE_STORAGE, DEVICE, 0, sizeof(uint32_t), COUNT_HIT_SLOTS},
@@ -328,8 +330,27 @@ static virga_result apply_settings(void *object, void *given)
     return VIRGA_OK;
 }
 
+/* ---- state: occlusion maps are drawn anew, see rain_occlusion.c */
+
+static const virga_effect_state_row state_rows[] = {
+    {"rain_settings.sizes.kind", AT(settings.sizes.kind), sizeof(virga_sizes_kind), .must_match = true},
+    {"classes", AT(classes), sizeof(rain_classes), .pointed = true},
+    STATE(wind),
+    STATE(wind_now),
+    STATE(ticks),
+    STATE(ticks_of_step),
+    STATE(left_over_s),
+    STATE(origin),
+    STATE(sway_on),
+    STATE(slant_smooth),
+    STATE(maps),
+    STATE(map_count),
+    STATE(next_map),
+};
+
 VIRGA_EFFECT_FUNCTIONS(rain)
 VIRGA_EFFECT_DRAW_FUNCTIONS(rain)
+VIRGA_EFFECT_STATE_FUNCTIONS(rain)
 
 const virga_effect_type rain_type = {
     VIRGA_EFFECT_TYPE(rain, "rain", "rain"),
@@ -342,6 +363,8 @@ const virga_effect_type rain_type = {
     .check_settings = check_settings,
     .apply_settings = apply_settings,
     .lost = rain_lost,
+    VIRGA_TABLE(state_row),
+    .state_loaded = rain_state_loaded,
     .prepare = prepare,
 };
 

@@ -44,6 +44,7 @@ const virga_binding_kind rain_bindings[RAIN_BINDINGS] = {
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(drop_buffer)},                            /* 20 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(order_buffer)},                          /* 21 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(slot_buffer)},                           /* 22 */
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(total_buffer)},                          /* 23 */
 };
 
 static virga_bound bound_image(VkSampler sampler, VkImageView view, VkImageLayout layout)

@@ -14,6 +14,7 @@
 #include "gpu/context.h"
 #include "gpu/effect.h"
 #include "gpu/mesh_map.h"
+#include "gpu/state.h"
 #include "rain/rain.h"
 
 #include <stddef.h>
@@ -104,11 +105,12 @@ enum {
 
 enum { RAIN_STEP_SET = VIRGA_RAIN_MAX_VIEWS, RAIN_SETS = VIRGA_RAIN_MAX_VIEWS + 1 };
 
-enum { RAIN_BINDINGS = 23 };
+enum { RAIN_BINDINGS = 24 };
 
 /* The statistics that are read back for one frame. */
 typedef struct rain_readback {
     virga_impacts_gpu impacts;   /* of its step */
+    virga_rain_total_gpu total;  /* of all steps before it */
     virga_prepared_gpu prepared; /* of its prepare */
 } rain_readback;
 
@@ -142,7 +144,7 @@ struct virga_rain {
     double slant_smooth[VIRGA_RAIN_MAX_SLANTS][2];
 
     virga_buffer *slot_buffer, *slot_upload, *drop_buffer, *impact_buffer, *pick_buffer, *list_buffer, *streak_buffer,
-        *prepared_buffer, *hit_buffer, *hit_offset_buffer, *sway_buffer, *order_buffer, *point_buffer;
+        *prepared_buffer, *hit_buffer, *hit_offset_buffer, *sway_buffer, *order_buffer, *point_buffer, *total_buffer;
     virga_ring tick_ring, view_ring;
     uint32_t tick_offset, view_offset; /* offsets of the newest blocks */
     uint64_t tick_frame;               /* the frame whose part of the ring has the newest tick */
@@ -153,6 +155,7 @@ struct virga_rain {
     rain_map maps[VIRGA_RAIN_MAX_MAPS];
     uint32_t map_count; /* maps that are drawn and in use */
     bool maps_drawn;    /* the rain's own images match `maps` */
+    bool maps_loaded;   /* a state was loaded: the next call draws all maps, most of them where they were */
     uint32_t next_map;  /* counts calls, for settings.occlusion_interval */
     bool host_maps;
     virga_image host_map_image;
@@ -221,6 +224,7 @@ void rain_keep_tick(virga_rain *rain);
 /* Before a call records: fills buffers in the first call, and reads the statistics of completed frames. */
 void rain_begin_frame(virga_rain *rain, VkCommandBuffer cmd);
 void rain_lost(void *rain, uint64_t frame, uint32_t did);
+void rain_state_loaded(void *rain);
 void rain_read_statistics(void *rain, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 /* ---- rain_occlusion.c */

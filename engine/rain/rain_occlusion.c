@@ -109,7 +109,7 @@ static bool is_left(const rain_map *map, const double camera_m[3])
 /* All maps have the same top, so if it changes for one map, all are redrawn. */
 static bool all_are_due(const virga_rain *rain, const double camera_m[3])
 {
-    bool due = rain->settings.occlusion_interval <= 1 || !rain->maps_drawn;
+    bool due = rain->settings.occlusion_interval <= 1 || !(rain->maps_drawn || rain->maps_loaded);
     for (uint32_t i = 0; i < planned_count(rain) && !due; i++)
         due = is_left(&rain->maps[i], camera_m);
     return due;
@@ -201,18 +201,22 @@ virga_result virga_rain_draw_occlusion(virga_rain *rain, VkCommandBuffer cmd, co
     rain_begin_frame(rain, cmd);
     if (!rain->ticks)
         rain_occlusion_tick(rain);
-    const bool all = all_are_due(rain, camera_m);
+    const bool all = all_are_due(rain, camera_m), loaded = rain->maps_loaded;
     const double top_m = all ? top_of(camera_m) : rain->maps[0].top_m;
     rain->map_count = planned_count(rain);
     rain->host_maps = false;
     rain->maps_drawn = true;
+    rain->maps_loaded = false;
     rain->next_map++;
     const virga_pass_scope scope = virga_pass_begin(rain->base.context, cmd, "rain.occlusion");
-    for (uint32_t i = 0; i < rain->map_count; i++)
-        if (all || (i + rain->next_map) % rain->settings.occlusion_interval == 0) {
+    for (uint32_t i = 0; i < rain->map_count; i++) {
+        const bool due = all || (i + rain->next_map) % rain->settings.occlusion_interval == 0;
+        if (due)
             plan_map(rain, i, camera_m, top_m);
+        /* After a load the others are drawn where they were when the state was saved. */
+        if (due || loaded)
             draw_map(rain, cmd, i, camera_m, occluders, count);
-        }
+    }
     virga_pass_end(rain->base.context, cmd, scope);
     virga_effect_note(&rain->base, cmd, RAIN_DID_MAPS);
     return VIRGA_OK;

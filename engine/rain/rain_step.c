@@ -13,15 +13,17 @@
 
 /* ---- the start of a frame */
 
-static void read_step(virga_rain *rain, const rain_frame_stats *frame, const virga_impacts_gpu *impacts)
+static void read_step(virga_rain *rain, const rain_frame_stats *frame, const rain_readback *read)
 {
+    const virga_impacts_gpu *impacts = &read->impacts;
     virga_rain_stats *stats = &rain->stats;
     stats->time_s = frame->time_s;
     stats->ticks = frame->ticks;
     stats->impacts = frame->ticks ? impacts->count : 0;
     stats->impacts_dropped = frame->ticks ? impacts->dropped : 0;
     stats->impact_water_nl = frame->ticks ? (uint64_t)impacts->water_nl_high << 32 | impacts->water_nl_low : 0;
-    stats->total_water_nl += stats->impact_water_nl;
+    stats->total_water_nl = ((uint64_t)read->total.nl_high << 32 | read->total.nl_low) +
+                            ((uint64_t)impacts->water_nl_high << 32 | impacts->water_nl_low);
     memcpy(stats->wind_m_s, frame->wind_m_s, sizeof stats->wind_m_s);
     if (stats->impacts_dropped)
         virga_log_write(&rain->base.context->log, VIRGA_LOG_WARNING, VIRGA_LOG_IMPACTS_DROPPED,
@@ -39,7 +41,7 @@ void rain_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uint
     if (parts & 1u << RAIN_PART_PREPARE)
         rain->stats.streaks = read.prepared.streaks;
     if (parts & 1u << RAIN_PART_STEP)
-        read_step(rain, &rain->frame_stats[ring_slot], &read.impacts);
+        read_step(rain, &rain->frame_stats[ring_slot], &read);
 }
 
 /* Drops are where the time says, whatever was lost. Without maps rain falls everywhere until they are drawn again. */
@@ -53,6 +55,17 @@ void rain_lost(void *object, uint64_t frame, uint32_t did)
         return;
     rain->maps_drawn = false;
     rain->map_count = rain->host_maps ? rain->map_count : 0;
+}
+
+void rain_state_loaded(void *object)
+{
+    virga_rain *rain = object;
+    rain->stepped = false;
+    if (rain->host_maps)
+        return;
+    rain->maps_loaded = rain->map_count > 0;
+    rain->maps_drawn = false;
+    rain->map_count = 0;
 }
 
 static void upload_slots(virga_rain *rain, VkCommandBuffer cmd)
@@ -263,6 +276,8 @@ static virga_result check_step(virga_rain *rain, VkCommandBuffer cmd, const virg
 static void record_readback(virga_rain *rain, VkCommandBuffer cmd)
 {
     virga_wait(rain->base.context, cmd, VIRGA_PASSES | VIRGA_COPIES, VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_VERTICES);
+    virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_STEP, rain->total_buffer, 0,
+                                 offsetof(rain_readback, total), sizeof(virga_rain_total_gpu));
     virga_effect_copy_statistics(&rain->base, cmd, RAIN_PART_STEP, rain->impact_buffer, 0,
                                  offsetof(rain_readback, impacts), sizeof(virga_impacts_gpu));
 }

@@ -28,7 +28,7 @@ static const virga_setting_row def_rows[] = {
 
 static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, mode, 0, VIRGA_SPLASH_MODE_PHYSICAL, VIRGA_SPLASH_MODE_PHYSICAL),
-    SETTING(ENUM, style, 0, VIRGA_SPLASH_STYLE_FILM, VIRGA_SPLASH_STYLE_FILM),
+    SETTING(ENUM, style, 0, VIRGA_SPLASH_STYLE_FILM, VIRGA_SPLASH_STYLE_FILM, .look = true),
     SETTING(FLOAT, pile_max_s, 0.001, 0.2, 0.012),
     SETTING(FLOAT, pile_max_m, 0.001, 0.2, 0.008),
     SETTING(FLOAT, bounce, 0, 1, 0.25),
@@ -36,11 +36,11 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, droplet_range_m, 0, 1000, 2.5),
     SETTING(FLOAT, dot_min_mm, 0.05, 5, 0.5),
     SETTING(FLOAT, air_density, 0.3, 2, 1.204),
-    SETTING(FLOAT, gain, 0, 100, 1),
-    SETTING(FLOAT, light_gain, 0, 100, 1),
-    SETTING(FLOAT, min_width_px, 0.5, 4, 1),
-    SETTING(FLOAT, soft_m, 0, 1, 0.002),
-    SETTING(FLOAT, near_fade_m, 0, 5, 0.05),
+    SETTING(FLOAT, gain, 0, 100, 1, .look = true),
+    SETTING(FLOAT, light_gain, 0, 100, 1, .look = true),
+    SETTING(FLOAT, min_width_px, 0.5, 4, 1, .look = true),
+    SETTING(FLOAT, soft_m, 0, 1, 0.002, .look = true),
+    SETTING(FLOAT, near_fade_m, 0, 5, 0.05, .look = true),
 };
 
 static void fill_settings(void *settings)
@@ -188,13 +188,6 @@ static const virga_effect_pool pools[] = {
     POOL(max_droplets, VIRGA_SPLASH_BLOCK, VIRGA_SPLASH_BLOCK),
 };
 
-static virga_result create(void *object)
-{
-    virga_splash *splash = object;
-    splash->droplets = splash->droplet_buffers[0];
-    return VIRGA_OK;
-}
-
 static void describe(const void *object, char *line, size_t size)
 {
     const virga_splash *splash = object;
@@ -213,7 +206,19 @@ static virga_result check_settings(const void *object, void *settings, bool *cha
     return splash_check_rows(&splash->base.context->log, ((virga_splash_settings *)settings)->rules, changed);
 }
 
+/* ---- state */
+
+static const virga_effect_state_row state_rows[] = {
+    {"splash_settings.rules", AT(settings.rules), sizeof((virga_splash *)0)->settings.rules, .must_match = true},
+    STATE(anchor_m),
+    STATE(anchored),
+    STATE(ticks),
+    STATE(last_tick),
+    STATE(current),
+};
+
 VIRGA_EFFECT_FUNCTIONS(splash)
+VIRGA_EFFECT_STATE_FUNCTIONS(splash)
 VIRGA_EFFECT_DRAW_FUNCTIONS(splash)
 VIRGA_EFFECT_STATISTICS_FUNCTION(splash)
 
@@ -221,10 +226,11 @@ const virga_effect_type splash_type = {
     VIRGA_EFFECT_TYPE(splash, "splash", "splash_settings"),
     VIRGA_EFFECT_DRAWS(splash),
     .fit_device = fit_device,
-    .create = create,
     .fill_settings = fill_settings,
     .check_settings = check_settings,
     .lost = splash_lost,
+    VIRGA_TABLE(state_row),
+    .state_loaded = splash_state_loaded,
     .prepare = prepare,
 };
 
@@ -257,7 +263,7 @@ void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *drop
                            double anchor_m[3])
 {
     if (droplets)
-        *droplets = splash ? (virga_splash_buffer){splash->droplets->buffer, 0, splash->droplets->size}
+        *droplets = splash ? (virga_splash_buffer){splash_droplets(splash)->buffer, 0, splash_droplets(splash)->size}
                            : (virga_splash_buffer){0};
     if (count)
         *count = splash ? splash->def.max_droplets : 0;

@@ -35,11 +35,6 @@ const virga_binding_kind splash_bindings[SPLASH_BINDINGS] = {
     {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(sprites)},  /* 20 */
 };
 
-uint32_t splash_current(const virga_splash *splash)
-{
-    return splash->droplets == splash->droplet_buffers[1];
-}
-
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view)
 {
     virga_context *context = splash->base.context;

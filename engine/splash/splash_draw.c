@@ -110,7 +110,7 @@ virga_result virga_splash_prepare(virga_splash *splash, VkCommandBuffer cmd, con
                                     &index, &splash->view_offset);
     if (result)
         return result;
-    const VkDescriptorSet set = splash_write_set(splash, index, splash_current(splash), view);
+    const VkDescriptorSet set = splash_write_set(splash, index, splash->current, view);
     record_prepare(splash, cmd, set, choose_form(splash));
     virga_effect_set_view(&splash->base, set, view);
     splash->prepared_depth = view->depth.view != VK_NULL_HANDLE;

@@ -11,6 +11,7 @@
 
 #include "gpu/context.h"
 #include "gpu/effect.h"
+#include "gpu/state.h"
 #include "splash/splash.h"
 
 #include <virga/shared/splash_gpu.h>
@@ -73,14 +74,15 @@ struct virga_splash {
     /* As it was before the newest step, for a lost frame. */
     struct {
         uint64_t frame;
-        virga_buffer *droplets;
+        uint32_t current;
         double anchor_m[3];
         bool anchored;
     } before;
     uint64_t ticks; /* since creation */
     uint32_t last_tick;
 
-    virga_buffer *droplet_buffers[2], *droplets; /* `droplets` is the current one of the two */
+    virga_buffer *droplet_buffers[2];
+    uint32_t current; /* index of the one with the newest droplets */
     virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *lists, *sprites,
         *prepared_buffer, *index_buffer;
     virga_ring tick_ring, rules_ring, view_ring;
@@ -101,6 +103,12 @@ struct virga_splash {
     virga_splash_stats stats;
 };
 
+/* The buffer with the newest droplets. */
+static inline virga_buffer *splash_droplets(const virga_splash *splash)
+{
+    return splash->droplet_buffers[splash->current];
+}
+
 /* Max number of sprites in one view. */
 static inline uint32_t splash_max_sprites(const virga_splash_def *def)
 {
@@ -119,11 +127,11 @@ extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS];
 
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
-uint32_t splash_current(const virga_splash *splash);
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
 /* ---- splash_step.c */
 void splash_lost(void *splash, uint64_t frame, uint32_t did);
+void splash_state_loaded(void *splash);
 void splash_read_statistics(void *splash, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);
 
 /* ---- splash_draw.c */

@@ -58,15 +58,20 @@ void splash_lost(void *object, uint64_t frame, uint32_t did)
     virga_splash *splash = object;
     if (!(did & 1u << SPLASH_PART_STEP) || splash->before.frame != frame)
         return;
-    splash->droplets = splash->before.droplets;
+    splash->current = splash->before.current;
     splash->anchored = splash->before.anchored;
     memcpy(splash->anchor_m, splash->before.anchor_m, sizeof splash->anchor_m);
+}
+
+void splash_state_loaded(void *object)
+{
+    ((virga_splash *)object)->before.frame = 0;
 }
 
 static void remember(virga_splash *splash)
 {
     splash->before.frame = splash->base.context->frame_index;
-    splash->before.droplets = splash->droplets;
+    splash->before.current = splash->current;
     splash->before.anchored = splash->anchored;
     memcpy(splash->before.anchor_m, splash->anchor_m, sizeof splash->anchor_m);
 }
@@ -107,7 +112,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     virga_context *context = splash->base.context;
     const double still[3] = {0, 0, 0};
     push_tick(splash, info, i, still);
-    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
     virga_dispatch_and_barrier(splash->base.context, cmd, splash->spawn_scan, 1);
     over(splash, cmd, splash->spawn, offsetof(virga_splash_state_gpu, spawn_groups));
@@ -117,7 +122,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
     virga_dispatch_and_barrier(splash->base.context, cmd, splash->fall_scan, 1);
     over(splash, cmd, splash->fall_compact, offsetof(virga_splash_state_gpu, fall_groups));
     virga_pass_end(context, cmd, scope);
-    splash->droplets = splash->droplet_buffers[splash_current(splash) ^ 1];
+    splash->current ^= 1;
     splash->ticks++;
     splash->last_tick = info->first_tick + i;
 }
@@ -140,7 +145,7 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
         const uint32_t max =
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
         push_tick(splash, info, 0, shift);
-        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash_current(splash)]);
+        splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
         virga_dispatch_and_barrier(splash->base.context, cmd, splash->rebase,
                                    (max + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
     }

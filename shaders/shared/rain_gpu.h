@@ -19,6 +19,7 @@ typedef struct virga_rain_pane_gpu virga_rain_pane_gpu;
 typedef struct virga_sway_gpu virga_sway_gpu;
 typedef struct virga_draw_gpu virga_draw_gpu;
 typedef struct virga_prepared_gpu virga_prepared_gpu;
+typedef struct virga_rain_total_gpu virga_rain_total_gpu;
 #endif
 
 /* A slot: its position in the lattice of its size class, and its rank. Constant. */
@@ -158,6 +159,12 @@ struct virga_draw_gpu {
 
 /* Result of a prepare: draws of wide quads (the drop refracts what is behind it), of lines and of thin quads; then
  * counts, which include streaks with zero coverage. */
+/* Water of all impacts since creation, without those of the newest step. */
+struct virga_rain_total_gpu {
+    uint nl_low; /* 64-bit */
+    uint nl_high;
+};
+
 struct virga_prepared_gpu {
     virga_draw_gpu wide_quads;
     virga_draw_gpu lines;
@@ -180,6 +187,7 @@ VIRGA_ASSERT_SIZE(virga_streak_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_sway_gpu, 40);
 VIRGA_ASSERT_SIZE(virga_draw_gpu, 20);
 VIRGA_ASSERT_SIZE(virga_prepared_gpu, 68);
+VIRGA_ASSERT_SIZE(virga_rain_total_gpu, 8);
 #undef uint
 #endif
 

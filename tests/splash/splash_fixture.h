@@ -44,7 +44,7 @@ static inline virga_splash_def splash_fixture_def(void)
 static inline void splash_fixture_buffers(splash_fixture *f)
 {
     const virga_splash *splash = f->splash;
-    const VkDeviceSize state = splash->state->size, droplets = splash->droplets->size;
+    const VkDeviceSize state = splash->state->size, droplets = splash_droplets(splash)->size;
     char *error = f->gpu.error;
     const size_t size = sizeof f->gpu.error;
     REQUIRE(host_buffer_create(&f->gpu.device,
@@ -115,7 +115,7 @@ static inline void splash_fixture_read(splash_fixture *f, VkCommandBuffer cmd)
     VkDeviceSize offset = 0;
     effect_fixture_transfers(cmd);
     f->state = splash_fixture_copy(f, cmd, f->splash->state, &offset);
-    f->droplets = splash_fixture_copy(f, cmd, f->splash->droplets, &offset);
+    f->droplets = splash_fixture_copy(f, cmd, splash_droplets(f->splash), &offset);
     f->splashes = splash_fixture_copy(f, cmd, f->splash->splashes, &offset);
     f->returns_head = splash_fixture_copy(f, cmd, f->splash->returned_droplets, &offset);
     f->returned_droplets = (const virga_impact_gpu *)(f->returns_head + 1);
@@ -149,7 +149,7 @@ static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu
 {
     if (!f->splash->base.contents)
         splash_fixture_step(f, 0);
-    const VkDeviceSize state_size = f->splash->state->size, size = f->splash->droplets->size;
+    const VkDeviceSize state_size = f->splash->state->size, size = splash_droplets(f->splash)->size;
     virga_splash_state_gpu *state = f->upload.mapped;
     memset(f->upload.mapped, 0, state_size + size);
     state->staying = count;
@@ -159,7 +159,7 @@ static inline void splash_fixture_put(splash_fixture *f, const virga_droplet_gpu
     effect_fixture_transfers(cmd);
     const VkBufferCopy copies[2] = {{0, 0, state_size}, {state_size, 0, size}};
     vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->state->buffer, 1, &copies[0]);
-    vkCmdCopyBuffer(cmd, f->upload.buffer, f->splash->droplets->buffer, 1, &copies[1]);
+    vkCmdCopyBuffer(cmd, f->upload.buffer, splash_droplets(f->splash)->buffer, 1, &copies[1]);
     splash_fixture_submit(f);
 }
 

@@ -12,6 +12,7 @@
 #include <virga/rain.h>
 #include <virga/scene.h>
 #include <virga/splash.h>
+#include <virga/state.h>
 #include <virga/vulkan.h>
 #include <virga/water.h>
 #endif

@@ -1,6 +1,6 @@
 // impact_scan.comp - impacts, second list, scan: prefix sum of the picks, behind the impacts of the step's earlier
 // ticks; and the head.
-// One workgroup. Reads: picks. Writes: picks, the head of the impacts.
+// One workgroup. Reads: picks. Writes: picks, the head of the impacts, the total of earlier steps.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,6 +15,18 @@ layout(scalar, set = 0, binding = 4) buffer Impacts
     virga_impact_gpu impacts[];
 };
 
+layout(scalar, set = 0, binding = 23) buffer Total
+{
+    virga_rain_total_gpu total;
+};
+
+void add_to_total(uint low, uint high)
+{
+    uint carry;
+    total.nl_low = uaddCarry(total.nl_low, low, carry);
+    total.nl_high += high + carry;
+}
+
 void main()
 {
     const bool first_tick = tick.tick_in_step == 0u;
@@ -26,6 +38,7 @@ void main()
     list.first = before;
     const uint count = min(before + found, tick.max_impacts);
     if (first_tick) {
+        add_to_total(head.water_nl_low, head.water_nl_high);
         head.water_nl_low = 0u;
         head.water_nl_high = 0u;
         head.first_tick = tick.tick;
