@@ -27,7 +27,9 @@ typedef struct shot_options {
     bool debug_maps;                      /* effects make maps that only debug views of `virga view` read */
     const char *const *window_extensions; /* (live) instance extensions needed to present */
     uint32_t window_extension_count;
-    uint32_t water_velocity; /* min coverage (percent) at which a pixel gets the water's velocity; 0: the plate's */
+    const char *checkpoints;   /* folder of checkpoints; NULL: none are written */
+    uint32_t checkpoint_every; /* frames; 0: none are written */
+    uint32_t water_velocity;   /* min coverage (percent) at which a pixel gets the water's velocity; 0: the plate's */
 } shot_options;
 
 struct tool_effect;
@@ -69,6 +71,7 @@ typedef struct shot {
 
     struct plate *plate;         /* NULL: none */
     host_buffer plate_buffer;    /* uploads its pixels */
+    host_buffer state;           /* a saved state, see checkpoint.h; created on first use */
     uint32_t frame_index;        /* the simulation's current scene frame; first - 1 before the first step */
     uint32_t preroll;            /* remaining frames of the scene's pre-roll */
     bool began;                  /* the first step was done */

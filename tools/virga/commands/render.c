@@ -7,6 +7,7 @@
 #include "frame/resume.h"
 #include "options.h"
 #include "progress.h"
+#include "shot/checkpoint.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -45,6 +46,11 @@ static const option_row rows[] = {
      "render only the frames that are missing. A folder is refused where its frames have another scene, seed, "
      "size, samples, layers, velocities or plate",
      false},
+    {"--checkpoint-every", 0, "N",
+     "also save the simulation after every N frames, and after the pre-roll: DIR/checkpoint.%04d.virga. A later "
+     "render of the same scene into the folder starts from the nearest one, and gives the same bytes",
+     false},
+    {"--simulate", 0, NULL, "only simulate, and write checkpoints (with --checkpoint-every); nothing is drawn", false},
     {"--seed", 0, "N", "seed of all that is random. Default: the scene's", false},
     {"--device", 0, "N|cpu|gpu|NAME", "the Vulkan device, see virga info. Default: the best", false},
     {"--set", 0, "KEY=VALUE", "override a key of the scene, e.g. rain.rate_mm_h=50. May be repeated", true},
@@ -84,7 +90,7 @@ typedef struct render_job {
     shot_options how;
     const char *directory;
     uint32_t frames[2], layers;
-    bool points, meshes, stats, preview, resume;
+    bool points, meshes, stats, preview, resume, simulate;
     jsonl stats_file;
     bool stats_open;
     bool *there; /* (resume) of each frame from frames[0] on: it need not be rendered */
@@ -107,6 +113,12 @@ static bool read_options(render_job *job, int argc, char **argv)
     job->stats = options_value(&job->parsed, "--stats");
     job->preview = options_value(&job->parsed, "--preview");
     job->resume = options_value(&job->parsed, "--resume");
+    job->simulate = options_value(&job->parsed, "--simulate");
+    if (job->simulate && !options_value(&job->parsed, "--checkpoint-every"))
+        return options_complain("render",
+                                "--simulate: expected --checkpoint-every with it, as nothing else is written");
+    if (job->simulate && (job->points || job->meshes || job->stats || job->preview))
+        return options_complain("render", "--simulate: expected no --points, --meshes, --stats or --preview with it");
     return frame_layers_parse(options_value(&job->parsed, "--layers"), &job->layers);
 }
 
@@ -142,14 +154,16 @@ static bool read_ranges(render_job *job)
     if (!options_pair(&job->parsed, "--frames", '-', true, frames->first, 999999, job->frames) ||
         !options_pair(&job->parsed, "--size", 'x', false, 1, 16384, size) ||
         !options_uint(&job->parsed, "--samples", 1, 4096, &job->how.samples) ||
-        !options_uint(&job->parsed, "--water-velocity", 1, 100, &job->how.water_velocity))
+        !options_uint(&job->parsed, "--water-velocity", 1, 100, &job->how.water_velocity) ||
+        !options_uint(&job->parsed, "--checkpoint-every", 1, 999999, &job->how.checkpoint_every))
         return false;
     if (job->frames[1] < job->frames[0])
         return options_complain("render", "--frames: expected A-B with A before B, got %u-%u", job->frames[0],
                                 job->frames[1]);
     job->how.width = size[0];
     job->how.height = size[1];
-    job->how.draw = true;
+    job->how.draw = !job->simulate;
+    job->how.checkpoints = job->directory;
     job->how.points = job->points;
     job->how.stats = job->stats;
     job->how.plate = options_value(&job->parsed, "--plate");
@@ -233,6 +247,24 @@ static bool open_stats(render_job *job)
 
 /* ---- frames */
 
+/* Goes on from the nearest checkpoint, if one is nearer than the current frame. One that can not be loaded is only
+ * slower. */
+static void start_from_checkpoint(render_job *job, uint32_t frame)
+{
+    char reason[1024];
+    uint32_t found;
+    shot *s = &job->shot;
+    if (!checkpoint_find(s, job->directory, frame, &found))
+        return;
+    const bool preroll = found + 1 == job->scene->frames.first;
+    if (!checkpoint_load(s, job->directory, found, reason, sizeof reason))
+        fprintf(stderr, "virga render: a checkpoint is not used: %s\n", reason);
+    else if (preroll)
+        fprintf(stderr, "starts from the checkpoint after the pre-roll\n");
+    else
+        fprintf(stderr, "starts from the checkpoint of frame %u\n", found);
+}
+
 /* Steps to the frame before, frame by frame, as the way may be long and Ctrl-C is to be heard on it. */
 static bool step_before(render_job *job, uint32_t frame)
 {
@@ -250,6 +282,8 @@ static bool write_frame(render_job *job, uint32_t frame)
     shot *s = &job->shot;
     char *error = job->error;
     const size_t size = sizeof job->error;
+    if (job->simulate)
+        return shot_step(s, frame, error, size);
     if (!shot_draw(s, frame, &camera, error, size))
         return false;
     virga_frame_completed(s->context, s->device.completed);
@@ -285,6 +319,14 @@ static bool all_there(const render_job *job)
     return true;
 }
 
+static uint32_t first_missing(const render_job *job)
+{
+    uint32_t frame = job->frames[0];
+    while (job->there && job->there[frame - job->frames[0]])
+        frame++;
+    return frame;
+}
+
 /* Through the pre-roll, with a bar of its own, as it may be long and Ctrl-C is to be heard on it. */
 static bool step_preroll(render_job *job)
 {
@@ -303,6 +345,8 @@ static bool step_preroll(render_job *job)
 static int render_frames(render_job *job)
 {
     progress bar;
+    if (!all_there(job))
+        start_from_checkpoint(job, first_missing(job));
     if (!all_there(job) && !step_preroll(job))
         return interrupt_requested() ? stop_interrupted(job, job->frames[0]) : stop_failed(job);
     progress_begin(&bar, "frame", job->frames[1] - job->frames[0] + 1);
@@ -311,6 +355,8 @@ static int render_frames(render_job *job)
             progress_step(&bar, "(there already)");
             continue;
         }
+        if (frame > job->frames[0] && job->there && job->there[frame - 1 - job->frames[0]])
+            start_from_checkpoint(job, frame); /* after a gap of frames that are there */
         const bool stepped = step_before(job, frame);
         const bool stop = stepped && interrupt_requested();
         if (stop || !stepped || !write_frame(job, frame)) {

@@ -2,6 +2,7 @@
 #include "shot/internal.h"
 
 #include "effect.h"
+#include "shot/checkpoint.h"
 #include "shot/plate.h"
 
 #include <math.h>
@@ -64,6 +65,7 @@ void shot_close_scene(shot *s)
     for (uint32_t i = 0; i < s->meshes_loaded; i++)
         host_mesh_destroy(&s->device, &s->meshes[i]);
     host_environment_destroy(&s->device, &s->environment);
+    host_buffer_destroy(&s->device, &s->state);
     if (s->target.width)
         host_target_destroy(&s->device, &s->target);
     free(s->meshes);
@@ -144,6 +146,13 @@ static bool step_to(shot *s, double time_s, char *error, size_t error_size)
            host_submit(&s->device, error, error_size);
 }
 
+/* After the step of every frame whose number, counted from the first, is a multiple; and after the pre-roll. */
+static bool save_if_due(shot *s, char *error, size_t error_size)
+{
+    const uint32_t every = s->options.checkpoint_every, number = s->frame_index + 1 - s->scene->frames.first;
+    return !every || s->preroll || number % every || checkpoint_save(s, s->options.checkpoints, error, error_size);
+}
+
 /* Steps frame by frame, as for drawn frames. So a shot with a longer pre-roll gives the same result as a shot that
  * draws these frames. */
 bool shot_step_preroll(shot *s, char *error, size_t error_size)
@@ -151,7 +160,7 @@ bool shot_step_preroll(shot *s, char *error, size_t error_size)
     if (!step_to(s, -(double)s->preroll / s->scene->frames.fps, error, error_size))
         return false;
     s->preroll--;
-    return true;
+    return save_if_due(s, error, error_size);
 }
 
 bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
@@ -163,6 +172,8 @@ bool shot_step(shot *s, uint32_t frame, char *error, size_t error_size)
         if (!step_to(s, shot_time(s, s->frame_index + 1), error, error_size))
             return false;
         s->frame_index++;
+        if (!save_if_due(s, error, error_size))
+            return false;
         if (s->frame_index >= frame)
             break;
     }

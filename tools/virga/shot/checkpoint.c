@@ -1,0 +1,167 @@
+/* checkpoint.c - see checkpoint.h. */
+#include "shot/checkpoint.h"
+
+#include "packed_file.h"
+#include "shot/internal.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The head of a file. The same bytes need the same scene, on the same device and driver. */
+typedef struct checkpoint_head {
+    uint64_t scene_hash;
+    uint32_t frame, driver_version;
+    char device[256]; /* its name; that of software Vulkan has the vector width in it */
+} checkpoint_head;
+
+static void fill_head(const shot *s, uint32_t frame, checkpoint_head *head)
+{
+    VkPhysicalDeviceProperties properties;
+    memset(head, 0, sizeof *head);
+    vkGetPhysicalDeviceProperties(s->device.physical, &properties);
+    head->scene_hash = scene_file_hash(s->scene);
+    head->frame = frame;
+    head->driver_version = properties.driverVersion;
+    snprintf(head->device, sizeof head->device, "%s", properties.deviceName);
+}
+
+static bool is_preroll(const shot *s, uint32_t frame)
+{
+    return frame + 1 == s->scene->frames.first;
+}
+
+static void print_path(const shot *s, const char *directory, uint32_t frame, char *path, size_t size)
+{
+    if (is_preroll(s, frame))
+        snprintf(path, size, "%s/checkpoint.preroll.virga", directory);
+    else
+        snprintf(path, size, "%s/checkpoint.%04u.virga", directory, frame);
+}
+
+/* Opens the buffer that states are copied to and from. It stays for the life of the shot. */
+static bool open_buffer(shot *s, char *error, size_t error_size)
+{
+    return s->state.buffer || host_buffer_create(&s->device, virga_scene_state_bytes(s->simulation),
+                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                 HOST_BUFFER_READBACK, "saved state", &s->state, error, error_size);
+}
+
+/* ---- save */
+
+static bool read_state(shot *s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    const virga_state_range range = {s->state.buffer, 0, s->state.size};
+    if (!shot_begin(s, &cmd, error, error_size) ||
+        !shot_ok(s, virga_scene_save(s->simulation, cmd, &range), "saving a checkpoint", error, error_size) ||
+        !host_submit(&s->device, error, error_size) || !host_wait(&s->device, error, error_size))
+        return false;
+    host_buffer_invalidate(&s->device, &s->state);
+    return shot_ok(s, virga_state_seal(s->state.mapped, s->state.size, s->device.frame, NULL), "sealing a checkpoint",
+                   error, error_size);
+}
+
+bool checkpoint_save(shot *s, const char *directory, char *error, size_t error_size)
+{
+    char path[4096];
+    checkpoint_head head, there;
+    if (virga_scene_water(s->simulation))
+        return host_fail(error, error_size, "checkpoints: a scene with water has none, as its particles are not saved");
+    fill_head(s, s->frame_index, &head);
+    print_path(s, directory, s->frame_index, path, sizeof path);
+    if (packed_read_head(path, &there, sizeof there, NULL, NULL, 0) && !memcmp(&head, &there, sizeof head))
+        return true;
+    return open_buffer(s, error, error_size) && read_state(s, error, error_size) &&
+           packed_write(path, &head, sizeof head, s->state.mapped, s->state.size, error, error_size);
+}
+
+/* ---- find */
+
+/* Why a file can not be used; NULL: it can. */
+static const char *reason_against(const shot *s, const char *path, uint32_t frame, char *text, size_t size)
+{
+    checkpoint_head expected, head;
+    fill_head(s, frame, &expected);
+    if (!packed_read_head(path, &head, sizeof head, NULL, text, size))
+        return text;
+    if (head.scene_hash != expected.scene_hash || head.frame != frame)
+        return "it is of another scene";
+    if (memcmp(head.device, expected.device, sizeof head.device) || head.driver_version != expected.driver_version)
+        return "it was saved on another device";
+    return NULL;
+}
+
+/* The frame of a file's name. */
+static bool frame_of(const shot *s, const char *name, uint32_t *frame)
+{
+    int end = 0;
+    *frame = s->scene->frames.first - 1;
+    if (!strcmp(name, "checkpoint.preroll.virga"))
+        return true;
+    return sscanf(name, "checkpoint.%u.virga%n", frame, &end) == 1 && end && !name[end];
+}
+
+static bool is_better(const shot *s, uint32_t frame, uint32_t before, bool has, uint32_t found)
+{
+    /* Frames are counted from the one before the first, which may be UINT32_MAX. */
+    const uint32_t first = s->scene->frames.first - 1, now = s->frame_index - first;
+    const bool later = s->began && !s->preroll ? frame - first > now : true;
+    return frame - first < before - first && later && (!has || frame - first > found - first);
+}
+
+bool checkpoint_find(const shot *s, const char *directory, uint32_t before, uint32_t *found)
+{
+    DIR *folder = opendir(directory);
+    bool has = false;
+    char path[4096], text[512];
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        uint32_t frame;
+        if (!frame_of(s, entry->d_name, &frame) || !is_better(s, frame, before, has, *found))
+            continue;
+        snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
+        const char *reason = reason_against(s, path, frame, text, sizeof text);
+        if (reason)
+            fprintf(stderr, "virga: %s is not used: %s\n", path, reason);
+        else {
+            has = true;
+            *found = frame;
+        }
+    }
+    if (folder)
+        closedir(folder);
+    return has;
+}
+
+/* ---- load */
+
+static bool write_state(shot *s, char *error, size_t error_size)
+{
+    VkCommandBuffer cmd;
+    const virga_state_source source = {s->state.mapped, s->state.size, s->state.buffer, 0};
+    if (!shot_begin(s, &cmd, error, error_size))
+        return false;
+    const bool loaded =
+        shot_ok(s, virga_scene_load(s->simulation, cmd, &source), "loading a checkpoint", error, error_size);
+    return host_submit(&s->device, error, error_size) && host_wait(&s->device, error, error_size) && loaded;
+}
+
+bool checkpoint_load(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size)
+{
+    char path[4096];
+    const double time_s =
+        is_preroll(s, frame) ? shot_time(s, frame + 1) - 1 / s->scene->frames.fps : shot_time(s, frame);
+    print_path(s, directory, frame, path, sizeof path);
+    /* A state belongs to the settings of its time. */
+    if (!open_buffer(s, error, error_size) ||
+        !packed_read(path, sizeof(checkpoint_head), s->state.mapped, s->state.size, error, error_size) ||
+        !shot_apply_settings(s, time_s, error, error_size) || !write_state(s, error, error_size))
+        return false;
+    s->frame_index = frame;
+    s->preroll = 0;
+    s->began = true;
+    s->camera_time_s = time_s;
+    return true;
+}

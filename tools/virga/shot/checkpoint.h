@@ -1,0 +1,20 @@
+/* checkpoint.h - saved states of a shot, one file each: DIR/checkpoint.%04u.virga is the state after the step of that
+ * frame, DIR/checkpoint.preroll.virga that after the pre-roll. A render that goes on from one gives the same bytes as
+ * a render from the beginning. */
+#ifndef VIRGA_TOOL_CHECKPOINT_H
+#define VIRGA_TOOL_CHECKPOINT_H
+
+#include "shot_state.h"
+
+/* Saves the state that the shot is in. Waits for the device. Does nothing if the file is there already. */
+bool checkpoint_save(shot *s, const char *directory, char *error, size_t error_size);
+
+/* Finds the checkpoint of the scene that is nearest before `frame`, and later than the state that the shot is in.
+ * Returns whether there is one; *found is its frame, first - 1 for the end of the pre-roll. Files of other scenes and
+ * devices are skipped, as are damaged ones; each reason is printed once. */
+bool checkpoint_find(const shot *s, const char *directory, uint32_t frame, uint32_t *found);
+
+/* Goes on from a checkpoint. Waits for the device. False: the shot is as it was, and `error` says why. */
+bool checkpoint_load(shot *s, const char *directory, uint32_t frame, char *error, size_t error_size);
+
+#endif
