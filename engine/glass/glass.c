@@ -30,6 +30,9 @@ static const virga_setting_row def_rows[] = {
     DEF(FLOAT, affinity_size_m, 0.0005, 0.1, 0.006),
     DEF(U32, max_drops, 256, 262144, 32768),
     DEF(U32, max_texels, 64, 4096, 1024, .look = true),
+    DEF(U32, texture_columns, 2, 32, 11, .look = true),
+    DEF(U32, texture_rows, 2, 32, 11, .look = true),
+    DEF(U32, texture_texels, 8, 64, 16, .look = true),
     VIRGA_TICK_ROWS,
 };
 /* clang-format on */
@@ -38,7 +41,8 @@ static const virga_setting_row def_rows[] = {
 static const virga_setting_row setting_rows[] = {
     SETTING(ENUM, density, 0, VIRGA_GLASS_DENSITY_NISHIMURA, VIRGA_GLASS_DENSITY_GOTO, .look = true),
     SETTING(ENUM, blend, 0, VIRGA_GLASS_BLEND_WEIGHTED, VIRGA_GLASS_BLEND_SUM, .look = true),
-    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_PHYSICAL, VIRGA_GLASS_STYLE_PHYSICAL, .look = true),
+    SETTING(ENUM, style, 0, VIRGA_GLASS_STYLE_TEXTURES, VIRGA_GLASS_STYLE_PHYSICAL, .look = true),
+    SETTING(ENUM, texture_shape, 0, VIRGA_GLASS_TEXTURE_HEMISPHERE, VIRGA_GLASS_TEXTURE_CAP, .look = true),
     SETTING(FLOAT, advancing_deg, 5, 175, 0),
     SETTING(FLOAT, receding_deg, 1, 175, 0, .max_member = offsetof(virga_glass_settings, advancing_deg)),
     SETTING(FLOAT, drag, 0.01, 100, 1),
@@ -67,6 +71,8 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, threshold, 0.05, 0.95, 0.5, .look = true),
     SETTING(FLOAT, impact_s, 0, 2, 0.25, .look = true),
     SETTING(FLOAT, paper_shift, 0, 4, 0.35, .look = true),
+    SETTING(FLOAT, textured_px, 0, 64, 0, .look = true),
+    SETTING(U32, textures_per_frame, 0, 1024, 0, .look = true),
     SETTING(FLOAT, thickness_mm, 0, 50, 5, .look = true),
     SETTING(FLOAT, tint[0], 0, 1, 1, .look = true),
     SETTING(FLOAT, tint[1], 0, 1, 1, .look = true),
@@ -91,6 +97,7 @@ static virga_result check_def(const virga_log *log, void *given)
     const float min_m = (float)sqrt((double)def->width_m * (double)def->height_m / MAX_CELLS) * 1.01f;
     def->cell_m = virga_clamp_setting_float(log, "glass_def.cell_m", def->cell_m, min_m, 0.01f, NULL);
     def->max_drops = (def->max_drops + VIRGA_GLASS_GROUP - 1) / VIRGA_GLASS_GROUP * VIRGA_GLASS_GROUP;
+    def->texture_texels = glass_texture_texels(def->texture_texels);
     return VIRGA_OK;
 }
 
@@ -138,6 +145,8 @@ enum {
     COUNT_COPY_ROWS,
     COUNT_MIST_COLUMNS,
     COUNT_MIST_ROWS,
+    COUNT_TEXTURE_COLUMNS,
+    COUNT_TEXTURE_ROWS,
 };
 
 static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -152,7 +161,7 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_ENTRIES] = sizes.max_entries;
     counts[COUNT_MIST] = mist;
     counts[COUNT_WORK] = 3 * tiles + 2 * blocks;
-    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6;
+    counts[COUNT_CORNERS] = tiles * 8 + blocks * 6 + (6 + VIRGA_GLASS_QUAD_WORDS) * (VkDeviceSize)def->max_drops;
     counts[COUNT_VIEWS] = VIRGA_GLASS_MAX_VIEWS;
     counts[COUNT_MAP_COLUMNS] = sizes.max_columns;
     counts[COUNT_MAP_ROWS] = sizes.max_rows;
@@ -160,6 +169,8 @@ static void count_picture(const virga_glass_def *def, VkDeviceSize counts[VIRGA_
     counts[COUNT_COPY_ROWS] = VIRGA_GLASS_COPY;
     counts[COUNT_MIST_COLUMNS] = sizes.max_mist.width;
     counts[COUNT_MIST_ROWS] = sizes.max_mist.height;
+    counts[COUNT_TEXTURE_COLUMNS] = 2ull * def->texture_columns * glass_texture_texels(def->texture_texels);
+    counts[COUNT_TEXTURE_ROWS] = (VkDeviceSize)def->texture_rows * glass_texture_texels(def->texture_texels);
 }
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -238,6 +249,8 @@ static const virga_effect_image images[] = {
      COUNT_COPY_COLUMNS, COUNT_COPY_ROWS, 1, FILL},
     {"glass.mist_map", AT(picture.mist_map), VK_FORMAT_R8_UNORM, COLOR, CLEARED_USE, COUNT_MIST_COLUMNS,
      COUNT_MIST_ROWS, 1, VIRGA_FIRST_STORAGE},
+    {"glass.textures", AT(picture.textures), VK_FORMAT_R16G16B16A16_SFLOAT, COLOR,
+     CLEARED_USE | WRITTEN_USE | READ_BACK, COUNT_TEXTURE_COLUMNS, COUNT_TEXTURE_ROWS, 1, FILL, true},
     BLANK_DEPTH("glass.blank_depth", picture.blank_depth),
     BLANK_COLOR("glass.blank_color", picture.blank_color),
 };
@@ -300,7 +313,7 @@ static const virga_effect_pass passes[] = {
     STEP(dry_film),
     STEP(film_compact),
     STEP(measure),
-    PICTURE(balls, ball_pass),
+    PICTURE(balls, ball_passes, .forms = 2),
     PICTURE(mist_blocks, mist_blocks),
     PICTURE(film_tiles, film_tiles),
     PICTURE(tile_list, tile_list),
@@ -309,6 +322,8 @@ static const virga_effect_pass passes[] = {
     PICTURE(plate_copy, plate_copy),
     PICTURE(plate_shrink, plate_shrink),
     PICTURE(mist, mist_passes, .forms = GLASS_MIST_FORMS),
+    PICTURE(texture, texture_passes, .forms = 2),
+    PICTURE(drop_quads, drop_quads),
 };
 
 /* The sizes that may shrink to fit the memory budget: the number of drops and the resolution of the height map. The

@@ -198,7 +198,7 @@ static void fill_look(const virga_glass *glass, virga_glass_picture_gpu *look)
     look->bounds_offset = 6 * (look->max_tiles + look->max_blocks);
     look->masked = glass->masked;
     look->whole_map = glass->picture.whole_map;
-    look->sheets = s->style != VIRGA_GLASS_STYLE_PAPER || look->whole_map;
+    look->sheets = s->style == VIRGA_GLASS_STYLE_PHYSICAL || look->whole_map;
 }
 
 static void fill_view(virga_glass *glass, const virga_view *view, const virga_glass_pose *pose, double time_s,
@@ -214,6 +214,7 @@ static void fill_view(virga_glass *glass, const virga_view *view, const virga_gl
     fit_map(glass, &filled);
     fit_bounds(glass, &filled);
     fit_mist(glass, &filled.look);
+    glass_fill_textures(glass, &filled);
     glass->picture.columns = filled.look.map_columns;
     glass->picture.rows = filled.look.map_rows;
     *block = filled;
@@ -256,7 +257,8 @@ static void record_clear(virga_glass *glass, VkCommandBuffer cmd)
     context->vk.CmdFillBuffer(cmd, picture->tiles->buffer, 0, texels / (TILE * TILE) * sizeof(virga_glass_tile_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->work->buffer, 0, sizeof(virga_glass_work_gpu), 0);
     context->vk.CmdFillBuffer(cmd, picture->mist->buffer, 0, (VkDeviceSize)mist_pitch(picture) * mist_rows(picture), 0);
-    if (!picture->has_written || picture->written_style != glass->settings.style)
+    if (!glass_is_all_textured(&glass->settings) &&
+        (!picture->has_written || picture->written_style != glass->settings.style))
         record_unwritten(glass, cmd);
     virga_wait(context, cmd, VIRGA_COPIES, VIRGA_PASSES);
 }
@@ -300,8 +302,8 @@ static void record_balls(virga_glass *glass, VkCommandBuffer cmd)
     virga_context *context = glass->base.context;
     const struct glass_picture *picture = &glass->picture;
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.balls");
-    virga_dispatch_indirect(context, cmd, picture->ball_pass, glass->state->buffer,
-                            offsetof(virga_glass_state_gpu, shown_groups));
+    const virga_pipeline *pass = picture->ball_passes[glass_is_textured(&glass->settings)];
+    virga_dispatch_indirect(context, cmd, pass, glass->state->buffer, offsetof(virga_glass_state_gpu, shown_groups));
     virga_compute_barrier(context, cmd);
     virga_dispatch(context, cmd, picture->tile_list, tile_groups(picture));
     virga_indirect_barrier(context, cmd);
@@ -332,15 +334,12 @@ static void bind(virga_glass *glass, VkCommandBuffer cmd, VkPipelineBindPoint po
     virga_bind(glass->base.context, cmd, point, picture->bindings, set, 1, &picture->view_offset);
 }
 
-static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view, VkDescriptorSet set)
+/* Makes the height map, with the slopes that the draws read, and lists the tiles to draw. */
+static void record_height_map(virga_glass *glass, VkCommandBuffer cmd)
 {
     virga_context *context = glass->base.context;
     const struct glass_picture *picture = &glass->picture;
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
-    record_clear(glass, cmd);
-    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
-    record_film(glass, cmd);
-    record_balls(glass, cmd);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "glass.height_map");
     over_work(glass, cmd, picture->gather_passes[mode], offsetof(virga_glass_work_gpu, tile_groups));
     virga_indirect_barrier(context, cmd); /* both gather passes write group counts of later passes */
@@ -352,8 +351,24 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
         over_work(glass, cmd, picture->relief_passes[glass->masked ? 1 : 0],
                   offsetof(virga_glass_work_gpu, relief_groups));
     virga_pass_end(context, cmd, scope);
+}
+
+static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_view *view,
+                           const glass_view_block *block, VkDescriptorSet set)
+{
+    virga_context *context = glass->base.context;
+    const struct glass_picture *picture = &glass->picture;
+    record_clear(glass, cmd);
+    bind(glass, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, set);
+    record_film(glass, cmd);
+    if (!glass_is_all_textured(&glass->settings)) {
+        record_balls(glass, cmd);
+        record_height_map(glass, cmd);
+    }
     if (view->color.view)
         record_copies(glass, cmd, view);
+    if (glass_is_textured(&glass->settings))
+        glass_record_textures(glass, cmd, block);
     virga_wait(context, cmd, VIRGA_PASSES | VIRGA_COPIES,
                VIRGA_PASSES | VIRGA_ARGUMENTS | VIRGA_COPIES | VIRGA_VERTICES | VIRGA_FRAGMENTS);
     virga_effect_copy_statistics(&glass->base, cmd, GLASS_PART_PREPARE, picture->work,
@@ -364,6 +379,8 @@ static void record_prepare(virga_glass *glass, VkCommandBuffer cmd, const virga_
 /* Checks that the gather passes of this pane's density and blend are built. */
 static virga_result gathers_ready(const virga_glass *glass)
 {
+    if (glass_is_all_textured(&glass->settings))
+        return VIRGA_OK;
     const uint32_t mode = glass_picture_gather(glass, &glass->settings);
     const virga_pipeline *gathers[] = {glass->picture.gather_passes[mode],
                                        glass->picture.gather_passes[mode | GLASS_GATHER_FILM],
@@ -439,11 +456,13 @@ virga_result virga_glass_prepare(virga_glass *glass, VkCommandBuffer cmd, const 
     if (result)
         return result;
     const VkDescriptorSet set = glass_picture_write_set(glass, index, view);
-    record_prepare(glass, cmd, view, set);
+    record_prepare(glass, cmd, view, &block, set);
     virga_effect_set_view(&glass->base, set, view);
     picture->prepared_draw = draw_of(glass, view, pose);
     picture->prepared_plate = view->color.view != VK_NULL_HANDLE;
     picture->prepared_style = glass->settings.style;
+    picture->prepared_shapes = !glass_is_all_textured(&glass->settings);
+    picture->prepared_textures = glass_is_textured(&glass->settings);
     return virga_check_uploads(context);
 }
 
@@ -468,6 +487,7 @@ void virga_glass_map_get(const virga_glass *glass, virga_glass_map *map)
 static const uint32_t physical[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 static const uint32_t paper_draws[4] = {ALONE, ALONE | DEPTH, PLATE, PLATE | DEPTH};
 static const uint32_t refraction_draws[4] = {0, DEPTH, PAPER, PAPER | DEPTH};
+static const uint32_t textured_draws[2] = {0, DEPTH};
 static const uint32_t mist_draws[8] = {ALONE,          ALONE | DEPTH,          PLATE,          PLATE | DEPTH,
                                        ALONE | OPAQUE, ALONE | DEPTH | OPAQUE, PLATE | OPAQUE, PLATE | DEPTH | OPAQUE};
 
@@ -478,6 +498,9 @@ const virga_effect_draw glass_draws[GLASS_DRAW_ROWS] = {
     {"glass.refraction", VIRGA_FORM(glass_draw_pane_vert), VIRGA_FORM(glass_draw_refraction_frag), refraction_draws, 4,
      .replace = true},
     {"glass.mist", VIRGA_FORM(glass_draw_mist_vert), VIRGA_FORM(glass_draw_mist_frag), mist_draws, 8},
+    {"glass.textured", VIRGA_FORM(glass_draw_drop_vert), VIRGA_FRAGMENT_FORMS(glass_draw_drop_frag), textured_draws, 2},
+    {"glass.textured_refraction", VIRGA_FORM(glass_draw_drop_vert), VIRGA_FORM(glass_draw_drop_refraction_frag),
+     textured_draws, 2, .replace = true},
 };
 
 uint32_t glass_draw_constant(const void *glass)
@@ -497,6 +520,35 @@ static void begin_draw(virga_glass *glass, VkCommandBuffer cmd)
     glass->base.context->vk.CmdBindIndexBuffer(cmd, glass->picture.corners->buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
+/* The draws of a pane, in this order. */
+enum { DRAW_MIST, DRAW_SHAPES, DRAW_TEXTURED, DRAWS };
+
+/* The pipelines for the newest prepare; NULL: nothing to draw. */
+static void choose_draws(const struct glass_picture *picture, const virga_effect_target *found, bool refraction,
+                         const virga_pipeline *used[DRAWS])
+{
+    const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
+    const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
+    const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
+    const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
+    const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
+    const uint32_t shapes = refraction ? GLASS_DRAW_REFRACTION + depth + (paper ? GLASS_DRAW_OF_PAPER : 0)
+                            : paper    ? GLASS_DRAW_PAPER + depth + plate
+                                       : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
+    const uint32_t textured = (refraction ? GLASS_DRAW_TEXTURED_REFRACTION : GLASS_DRAW_TEXTURED) + depth;
+    used[DRAW_MIST] = refraction ? NULL : found->draws[GLASS_DRAW_MIST + solid + plate + depth];
+    used[DRAW_SHAPES] = picture->prepared_shapes ? found->draws[shapes] : NULL;
+    used[DRAW_TEXTURED] = picture->prepared_textures ? found->draws[textured] : NULL;
+}
+
+static virga_result draws_ready(const virga_pipeline *const used[DRAWS])
+{
+    virga_result result = VIRGA_OK;
+    for (int i = 0; i < DRAWS && !result; i++)
+        result = used[i] ? virga_pipelines_ready(&used[i], 1) : VIRGA_OK;
+    return result;
+}
+
 static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_target *target, bool refraction,
                          const char *call)
 {
@@ -509,23 +561,18 @@ static virga_result draw(virga_glass *glass, VkCommandBuffer cmd, const virga_ta
         &glass->base, call, cmd, target, glass->ticks ? virga_effect_ready(&glass->base) : VIRGA_NOT_READY, &found);
     if (result)
         return result;
-    const uint32_t depth = picture->prepared_draw & VIRGA_GLASS_DRAW_DEPTH;
-    const uint32_t plate = picture->prepared_plate ? GLASS_DRAW_OF_PLATE : 0;
-    const bool paper = picture->prepared_style == VIRGA_GLASS_STYLE_PAPER;
-    const uint32_t which = refraction ? GLASS_DRAW_REFRACTION + depth + (paper ? GLASS_DRAW_OF_PAPER : 0)
-                           : paper    ? GLASS_DRAW_PAPER + depth + plate
-                                      : GLASS_DRAW_PHYSICAL + picture->prepared_draw;
-    const bool opaque = (picture->prepared_draw & VIRGA_GLASS_DRAW_SIDE) == VIRGA_GLASS_DRAW_OPAQUE;
-    const uint32_t solid = opaque ? GLASS_DRAW_OF_SOLID : 0;
-    const virga_pipeline *used[] = {found->draws[which], found->draws[GLASS_DRAW_MIST + solid + plate + depth]};
-    result = virga_pipelines_ready(used, refraction ? 1 : 2);
+    const virga_pipeline *used[DRAWS];
+    choose_draws(picture, found, refraction, used);
+    result = draws_ready(used);
     if (result)
         return result;
+    static const size_t arguments[DRAWS] = {offsetof(virga_glass_work_gpu, mist), offsetof(virga_glass_work_gpu, drops),
+                                            offsetof(virga_glass_work_gpu, quads)};
     const virga_pass_scope scope = virga_draw_begin(context, cmd, refraction ? "glass.refraction" : "glass.draw");
     begin_draw(glass, cmd);
-    if (!refraction)
-        record_draw(glass, cmd, used[1], offsetof(virga_glass_work_gpu, mist));
-    record_draw(glass, cmd, used[0], offsetof(virga_glass_work_gpu, drops));
+    for (int i = 0; i < DRAWS; i++)
+        if (used[i])
+            record_draw(glass, cmd, used[i], arguments[i]);
     virga_pass_end(context, cmd, scope);
     return VIRGA_OK;
 }

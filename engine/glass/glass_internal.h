@@ -7,6 +7,7 @@
  *   glass_step.c     ticks
  *   glass_picture.c  resources and descriptor sets of the height map and the draws
  *   glass_draw.c     prepare, attach, draw
+ *   glass_textures.c drops as textures, in the way of Sato et al.
  *   glass_temporal.c motion of a pane since the previous frame
  */
 #ifndef VIRGA_GLASS_INTERNAL_H
@@ -38,7 +39,8 @@ typedef struct glass_readback {
 
 enum { GLASS_PART_STEP, GLASS_PART_PREPARE }; /* parts of the statistics */
 
-enum { GLASS_DID_UNWRITTEN = VIRGA_DID_OWN }; /* in the journal: all tiles were marked as not written */
+/* In the journal: all tiles were marked as not written; textures were made. */
+enum { GLASS_DID_UNWRITTEN = VIRGA_DID_OWN, GLASS_DID_TEXTURES = 2 * VIRGA_DID_OWN };
 
 struct virga_glass {
     virga_effect base; /* first */

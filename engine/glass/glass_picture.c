@@ -56,7 +56,7 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film)},                                               /* 2 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(passed)},                                             /* 3 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surface)},                                            /* 4 */
-    {TEXELS, COMPUTE | VERTEX, VIRGA_SOURCE_TEXELS, AT(nodes)},                                      /* 5 */
+    {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(nodes)},                                      /* 5 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.balls)},                                      /* 6 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.tiles)},                                      /* 7 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.entries)},                                    /* 8 */
@@ -65,12 +65,12 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.map)},                                           /* 11 */
     [BIND_RELIEF] = {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.relief)},                     /* 12 */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.copies)}, /* 13 copies of the plate, written */
-    {SAMPLED, FRAGMENT | VERTEX, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
-    [BIND_DEPTH] = {SAMPLED, FRAGMENT},                                                                    /* 15 */
-    [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                          /* 16 */
+    {SAMPLED, VIRGA_ALL_STAGES, VIRGA_SOURCE_IMAGE, AT(picture.copies), .sampler = VIRGA_SAMPLER_LINEAR}, /* 14 */
+    [BIND_DEPTH] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 15 */
+    [BIND_COLOR] = {SAMPLED, COMPUTE | FRAGMENT},                                                         /* 16 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.written)},          /* 17 contents of tiles */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(picture.work)},             /* 18 */
-    {STORAGE, COMPUTE | VERTEX, VIRGA_SOURCE_BUFFER, AT(picture.corners)}, /* 19 indices of the draws */
+    {STORAGE, VIRGA_ALL_STAGES, VIRGA_SOURCE_BUFFER, AT(picture.corners)}, /* 19 indices of the draws */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.relief)},              /* 20 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.mist_map), .sampler = VIRGA_SAMPLER_LINEAR}, /* 21 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)},                                             /* 22 */
@@ -79,7 +79,9 @@ const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(film_blocks)},                                       /* 25 */
     {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                    /* 26 */
     {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.paper_map)},                                 /* 27 */
-    [BIND_VIEWS] = {TEXELS, FRAGMENT}, /* 28 the ring's buffer, as texels */
+    [BIND_VIEWS] = {TEXELS, FRAGMENT},                          /* 28 the ring's buffer, as texels */
+    {IMAGE, COMPUTE, VIRGA_SOURCE_IMAGE, AT(picture.textures)}, /* 29 */
+    {SAMPLED, FRAGMENT, VIRGA_SOURCE_IMAGE, AT(picture.textures), .sampler = VIRGA_SAMPLER_LINEAR}, /* 30 */
 };
 
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view)
@@ -143,7 +145,7 @@ virga_result glass_picture_need(virga_glass *glass, const virga_glass_settings *
                                : picture->lanes <= 8 ? VIRGA_SPIRV(glass_draw_height_narrow_comp)
                                                      : VIRGA_SPIRV(glass_draw_height_shuffle_comp);
     virga_result result = VIRGA_OK;
-    for (uint32_t i = 0; i < 3; i++) {
+    for (uint32_t i = 0; i < 3 && !glass_is_all_textured(settings); i++) {
         const uint32_t mode = glass_picture_gather(glass, settings) | films[i];
         const virga_compute_def def = {.shader = shader,
                                        .layout = picture->bindings->layout,

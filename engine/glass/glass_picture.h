@@ -2,6 +2,7 @@
  *
  *   glass_picture.c  create, destroy, descriptor sets
  *   glass_draw.c     prepare, attach, draw
+ *   glass_textures.c drops as textures
  *   glass_temporal.c motion of a pane since the previous frame
  */
 #ifndef VIRGA_GLASS_PICTURE_H
@@ -18,16 +19,19 @@
  * Physical style: one for each combination of VIRGA_GLASS_DRAW_... bits.
  * Paper style and mist: without and with the scene's depth, without and with the host's color image.
  * Refraction vectors: in either style, without and with the scene's depth.
- * Mist also has pipelines for opaque surfaces. */
+ * Mist also has pipelines for opaque surfaces.
+ * Drops as textures, and their refraction vectors: without and with the scene's depth. */
 enum {
     GLASS_DRAW_PHYSICAL = 0,
     GLASS_DRAW_PAPER = 16,
     GLASS_DRAW_REFRACTION = 20,
     GLASS_DRAW_MIST = 24,
+    GLASS_DRAW_TEXTURED = 32,
+    GLASS_DRAW_TEXTURED_REFRACTION = 34,
     GLASS_DRAW_OF_PAPER = 2, /* (refraction) offset of the paper style */
     GLASS_DRAW_OF_PLATE = 2, /* (paper, mist) offset of those with the host's color image */
     GLASS_DRAW_OF_SOLID = 4, /* (mist) offset of those for opaque surfaces */
-    GLASS_DRAW_ROWS = 4
+    GLASS_DRAW_ROWS = 6
 };
 
 #define GLASS_GATHER_FILM        16u  /* tiles with film */
@@ -41,6 +45,8 @@ enum {
 #define GLASS_MIST_FORMS         4    /* passes, by these bits */
 /* Combinations of GLASS_GATHER_... bits. Three are created per density, blend, style and compression in use. */
 #define GLASS_GATHERS 1024
+
+#define GLASS_ALL_TEXTURED 1e30f /* virga_glass_picture_gpu.textured_px: all drops are drawn as textures */
 
 /* The uniform block of a view. */
 typedef struct glass_view_block {
@@ -60,11 +66,13 @@ struct glass_picture {
     bool whole_map;            /* the host reads the map: it is also written where there is only mist */
     virga_image_2d *paper_map; /* input of the draws in the paper style, see shaders/glass/draw/paper_texel.glsl */
     virga_image_2d *relief;    /* input of the draws in other styles */
-    virga_image_2d *copies, *mist_map;
+    virga_image_2d *copies, *mist_map, *textures;
     bool filtered;                             /* the device can filter the relief */
     virga_image_2d *blank_depth, *blank_color; /* bound where a view has none */
     virga_bindings *bindings;
-    virga_pipeline *ball_pass, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy,
+    virga_pipeline *ball_passes[2];    /* without and with drops as textures */
+    virga_pipeline *texture_passes[2]; /* without and with the scene's depth */
+    virga_pipeline *drop_quads, *mist_blocks, *film_tiles, *tile_list, *tile_fill, *tile_quads, *plate_copy,
         *plate_shrink;
     virga_pipeline *mist_passes[GLASS_MIST_FORMS]; /* by GLASS_MIST_... */
     virga_pipeline *relief_passes[2];              /* without and with a mask */
@@ -73,18 +81,25 @@ struct glass_picture {
     bool has_written;                /* `written` is valid for every tile */
     virga_glass_style written_style; /* the style for which `written` is valid */
 
+    bool has_textures;              /* all textures were made for some view */
+    glass_view_block textures_view; /* of the newest prepare: what textures depend on */
+    uint32_t next_texture;          /* the one whose turn it is */
+    uint32_t late_textures;         /* those that do not show that view yet */
+    uint32_t view_index;            /* of the newest prepare in its frame */
+
     bool prepared_plate;
     uint32_t prepared_draw; /* VIRGA_GLASS_DRAW_... */
     virga_glass_style prepared_style;
-    uint32_t columns, rows; /* texels of the height map that the newest prepare uses */
-    VkExtent2D mist_size;   /* the same of the mist map */
+    bool prepared_shapes, prepared_textures; /* drops are drawn from the height map; as textures */
+    uint32_t columns, rows;                  /* texels of the height map that the newest prepare uses */
+    VkExtent2D mist_size;                    /* the same of the mist map */
     uint32_t mist_cells;
     bool beads; /* beads of film may be drawn as drops in this view */
 };
 
 /* ---- glass_picture.c */
 
-enum { GLASS_PICTURE_BINDINGS = 29 };
+enum { GLASS_PICTURE_BINDINGS = 31 };
 extern const virga_binding_kind glass_picture_bindings[GLASS_PICTURE_BINDINGS];
 
 /* Fills the max_... members of `sizes` from a definition. Creates nothing. */
@@ -102,6 +117,18 @@ uint32_t glass_picture_gather(const virga_glass *glass, const virga_glass_settin
 
 /* Writes the descriptor set of a view of this frame. */
 VkDescriptorSet glass_picture_write_set(virga_glass *glass, uint32_t index, const virga_view *view);
+
+/* ---- glass_textures.c */
+
+/* A side of a texture: the next power of two. */
+uint32_t glass_texture_texels(uint32_t asked);
+/* Whether all drops are drawn as textures, and whether any are. */
+bool glass_is_all_textured(const virga_glass_settings *settings);
+bool glass_is_textured(const virga_glass_settings *settings);
+/* Fills what the passes need to know of textures, and chooses those that this prepare makes. */
+void glass_fill_textures(virga_glass *glass, glass_view_block *block);
+/* Records the passes that make textures and quads. The descriptor set is bound. */
+void glass_record_textures(virga_glass *glass, VkCommandBuffer cmd, const glass_view_block *block);
 
 /* ---- glass_draw.c */
 extern const virga_effect_draw glass_draws[GLASS_DRAW_ROWS];

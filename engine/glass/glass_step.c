@@ -69,6 +69,8 @@ void glass_lost(void *object, uint64_t frame, uint32_t did)
     (void)frame;
     if (did & GLASS_DID_UNWRITTEN)
         glass->picture.has_written = false;
+    if (did & GLASS_DID_TEXTURES)
+        glass->picture.has_textures = false;
 }
 
 /* ---- from the world to the pane's frame */

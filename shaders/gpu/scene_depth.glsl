@@ -1,5 +1,8 @@
 // scene_depth.glsl - the host's depth buffer at a pixel. The includer has a block with a member `virga_view_gpu view`
-// and defines SCENE_DEPTH_BINDING.
+// and defines SCENE_DEPTH_BINDING. A compute pass also defines PIXEL_HERE, the pixel that it works for.
+#ifndef PIXEL_HERE
+#define PIXEL_HERE gl_FragCoord.xy
+#endif
 layout(set = 0, binding = SCENE_DEPTH_BINDING) uniform sampler2D scene_depth;
 
 float buffer_depth(vec2 pixel) { return texelFetch(scene_depth, ivec2(pixel), 0).r; }
@@ -12,7 +15,7 @@ float view_depth(float stored) { return view.depth_b / (view.depth_a + stored); 
 // shader software Vulkan reads a uniform buffer lane by lane.
 float soft_edge(float distance, vec4 terms)
 {
-    const float stored = buffer_depth(gl_FragCoord.xy);
+    const float stored = buffer_depth(PIXEL_HERE);
     const float in_front = stored == terms.z ? 1e9 : terms.y / (terms.x + stored) - distance;
     return terms.w > 0.0 ? clamp(in_front / terms.w, 0.0, 1.0) : float(in_front >= 0.0);
 }

@@ -11,6 +11,7 @@ typedef struct virga_glass_picture_gpu virga_glass_picture_gpu;
 typedef struct virga_glass_tile_gpu virga_glass_tile_gpu;
 typedef struct virga_glass_work_gpu virga_glass_work_gpu;
 typedef struct virga_glass_corners_gpu virga_glass_corners_gpu;
+typedef struct virga_glass_quad_gpu virga_glass_quad_gpu;
 #endif
 
 #define VIRGA_GLASS_TILE       8     /* texels a side; one workgroup of the gathering pass per tile */
@@ -81,7 +82,35 @@ struct virga_glass_picture_gpu {
     uint view_texel;       /* first texel of the view in the buffer of all views */
     float beside;          /* reach in texels: water is visible up to this distance from its texel */
     uint bounds_offset;    /* (even) start of the tiles' bounds, two words each, after all vertex indices */
+    /* Drops as textures. Smaller ones than this are drawn so: diameter in pixels; 0: none */
+    float textured_px;
+    uint texture_columns; /* points of the mesh that have a texture, along u */
+    uint texture_rows;    /* and along v */
+    uint texture_texels;  /* a side of a texture's first level */
+    uint hemispheres;     /* 1: drops are hemispheres (Sato et al.); 0: caps, as the height map has them */
+    uint first_texture;   /* made anew for this view: the first of them */
+    uint textures;        /* and their number, in turn */
+    uint quads_offset;    /* start of the quads' vertex indices; the quads follow */
 };
+
+/* A drop drawn as one quad. Vectors are in clip space: at (x, y) from its middle the quad is at clip + x along_u + y
+ * along_v. */
+struct virga_glass_quad_gpu {
+    float clip[4];
+    float along_u[4]; /* of a step of 1 in x: a radius of the base; (point) a pixel */
+    float along_v[4]; /* the same in y */
+    float middle[2];  /* m, on the pane */
+    float radius_m;   /* m, of the base */
+    float size;       /* x and y end at -size and size */
+    float alpha;      /* [0; 1] */
+    float level;      /* of the textures; between two whole numbers both are mixed */
+    uint point;       /* 1: no larger than a pixel, and spread over two by two */
+    uint pad;
+};
+
+#define VIRGA_GLASS_TEXTURE_GROUP  64 /* texels per workgroup of the pass that makes textures */
+#define VIRGA_GLASS_TEXTURE_LEVELS 4  /* of a texture: each half as wide as the one before */
+#define VIRGA_GLASS_QUAD_WORDS     20 /* size of a quad */
 
 /* Flags of a draw pipeline. The pane's side: BEHIND or BEFORE if all of it is seen from that side, OPAQUE if it is not
  * glass; without a flag the side may vary. */
@@ -134,10 +163,11 @@ struct virga_glass_work_gpu {
     uint shaped; /* number of balls with a shape, for the statistics */
     uint cut;    /* list entries of tiles that were dropped because the buffer was full */
     uint balls;
-    uint entries;        /* list entries that all tiles need, without a limit */
-    uint used;           /* list entries that they got */
-    uint highest;        /* max radius of a ball (m), the bits of a float */
-    uint mist_groups[3]; /* of the pass over blocks of the mist map that may have any film */
+    uint entries;                  /* list entries that all tiles need, without a limit */
+    uint used;                     /* list entries that they got */
+    uint highest;                  /* max radius of a ball (m), the bits of a float */
+    uint mist_groups[3];           /* of the pass over blocks of the mist map that may have any film */
+    virga_glass_corners_gpu quads; /* draw of drops as textures */
 };
 
 /* The water on a tile of the map. */
@@ -151,7 +181,8 @@ struct virga_glass_tile_gpu {
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_glass_tile_gpu, 16);
 VIRGA_ASSERT_SIZE(virga_glass_corners_gpu, 20);
-VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 148);
+VIRGA_ASSERT_SIZE(virga_glass_quad_gpu, 4 * VIRGA_GLASS_QUAD_WORDS);
+VIRGA_ASSERT_SIZE(virga_glass_work_gpu, 168);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, drops, 60);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, mist, 80);
 VIRGA_ASSERT_OFFSET(virga_glass_work_gpu, shaped, 112);

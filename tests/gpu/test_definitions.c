@@ -120,6 +120,9 @@ static void glass_def_fields(void **state)
         F(max_drops, CLAMPED, 256, 262144),
         F(affinity_size_m, CLAMPED, 0.0005, 0.1),
         F(max_texels, CLAMPED, 64, 4096),
+        F(texture_columns, CLAMPED, 2, 32),
+        F(texture_rows, CLAMPED, 2, 32),
+        F(texture_texels, CLAMPED, 8, 64),
         F(max_ticks_per_step, CLAMPED, 1, 64),
         F(tick_s, CLAMPED, 1e-3, 0.05),
     };

@@ -148,6 +148,9 @@ static void panes(void **state)
         SAME(max_drops);
         SAME(affinity_size_m);
         SAME(max_texels);
+        SAME(texture_columns);
+        SAME(texture_rows);
+        SAME(texture_texels);
     }
     const virga_glass_settings def = virga_default_glass_settings();
     SAME(drag);
@@ -176,6 +179,9 @@ static void panes(void **state)
     SAME(threshold);
     SAME(impact_s);
     SAME(style);
+    SAME(textured_px);
+    SAME(texture_shape);
+    SAME(textures_per_frame);
     SAME(paper_shift);
     SAME(thickness_mm);
     SAME(tint[0]);

@@ -65,7 +65,8 @@ static const scene_keyword pane_kinds[] = {{"paper", 0}, {"clean", 1}, {"dirty",
 static const scene_keyword pane_densities[] = {{"goto", 0},   {"blinn", 1},     {"murakami", 2},
                                                {"wyvill", 3}, {"nishimura", 4}, {NULL, 0}};
 static const scene_keyword pane_blends[] = {{"sum", 0}, {"weighted", 1}, {NULL, 0}};
-static const scene_keyword pane_styles[] = {{"paper", 0}, {"physical", 1}, {NULL, 0}};
+static const scene_keyword pane_styles[] = {{"paper", 0}, {"physical", 1}, {"textures", 2}, {NULL, 0}};
+static const scene_keyword pane_texture_shapes[] = {{"cap", 0}, {"hemisphere", 1}, {NULL, 0}};
 static const scene_row pane_rows[] = {
     TEXT(scene_pane, name, 40, "pane", RESTARTS, "of the pane, in statistics"),
     CHOICE(scene_pane, shape, pane_shapes, "flat", RESTARTS,
@@ -132,8 +133,14 @@ static const scene_row pane_rows[] = {
     WHOLE(scene_pane, compress_steps, 0, 16, "5", LIVE, "how many steps"),
     NUMBER(scene_pane, threshold, 0.05, 0.95, "0.5", LIVE, "density where a drop ends"),
     NUMBER(scene_pane, impact_s, 0, 2, "0.25", LIVE, "time in which a drop that landed draws its parts in"),
-    CHOICE(scene_pane, style, pane_styles, "physical", LIVE, "physical: Snell and Fresnel; paper: the plate displaced"),
+    CHOICE(scene_pane, style, pane_styles, "physical", LIVE,
+           "physical: Snell and Fresnel; paper: the plate displaced; textures: each drop one quad"),
     NUMBER(scene_pane, paper_shift, 0, 4, "0.35", LIVE, "how far the plate is displaced (paper)"),
+    NUMBER(scene_pane, textured_px, 0, 64, "0", LIVE,
+           "drops of a smaller diameter on the picture are drawn as textures (physical); 0: none"),
+    CHOICE(scene_pane, texture_shape, pane_texture_shapes, "cap", LIVE,
+           "drops in textures: caps as in the physical style, or the paper's hemispheres"),
+    WHOLE(scene_pane, textures_per_frame, 0, 1024, "0", LIVE, "textures made anew in a frame, in turn; 0: all"),
     NUMBER(scene_pane, thickness_mm, 0, 50, "5", LIVE, "of the glass (physical)"),
     NUMBER(scene_pane, tint, 0, 1, "[1, 1, 1]", LIVE, "what the glass lets through"),
     NUMBER(scene_pane, gain, 0, 100, "1", LIVE, "multiplies what drops reflect"),
@@ -141,8 +148,11 @@ static const scene_row pane_rows[] = {
            "side of a cell, of which one drop has one; 16 bytes each"),
     NUMBER(scene_pane, affinity_size_m, 0.0005, 0.1, "0.006", RESTARTS,
            "width of the spots that the glass is uneven in"),
-    WHOLE(scene_pane, max_drops, 256, 262144, "32768", RESTARTS, "drops and particles together; 372 bytes each"),
+    WHOLE(scene_pane, max_drops, 256, 262144, "32768", RESTARTS, "drops and particles together; 500 bytes each"),
     WHOLE(scene_pane, max_texels, 64, 4096, "1024", RESTARTS, "of the height map along the longer side"),
+    WHOLE(scene_pane, texture_columns, 2, 32, "11", RESTARTS, "points along the width that have a texture of a drop"),
+    WHOLE(scene_pane, texture_rows, 2, 32, "11", RESTARTS, "the same along the height"),
+    WHOLE(scene_pane, texture_texels, 8, 64, "16", RESTARTS, "a side of such a texture, made a power of two"),
     OPTIONAL_GROUP(scene_pane, bumps, &bumps_group, RESTARTS, "a height map of the surface, which steers drops"),
 };
 static const scene_group pane_group = SCENE_GROUP(scene_pane, pane_rows);
@@ -288,6 +298,9 @@ static bool define(shot *s, void *state, virga_scene_def *def, char *error, size
         to->max_drops = pane->max_drops;
         to->affinity_size_m = (float)pane->affinity_size_m;
         to->max_texels = pane->max_texels;
+        to->texture_columns = pane->texture_columns;
+        to->texture_rows = pane->texture_rows;
+        to->texture_texels = pane->texture_texels;
         to->height_map = s->options.debug_maps;
     }
     def->panes = g->defs;

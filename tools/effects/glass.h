@@ -81,8 +81,12 @@ typedef struct scene_pane {
     double threshold, impact_s;
     uint32_t style; /* virga_glass_style */
     double paper_shift, thickness_mm, tint[3], gain;
+    double textured_px;
+    uint32_t texture_shape; /* virga_glass_texture_shape */
+    uint32_t textures_per_frame;
     double cell_m, affinity_size_m;
     uint32_t max_drops, max_texels;
+    uint32_t texture_columns, texture_rows, texture_texels;
     scene_bumps bumps;
 } scene_pane;
 

@@ -4,7 +4,9 @@
  * drops on it. There may be several at once. The methods are those of
  *  - Goto, Tanaka and Sagawa 2009, "Real-time rendering of flow of water drops on a windshield": drops that run from
  *    cell to cell, particles beside the blades, metaballs summed in a height map and compressed;
- *  - Chen and Zhang, "The merging of water droplets based on metaball": density functions, weighted blend, bump maps.
+ *  - Chen and Zhang, "The merging of water droplets based on metaball": density functions, weighted blend, bump maps;
+ *  - Sato, Dobashi and Yamamoto 2002, "A method for real-time rendering of water droplets taking into account
+ *    interactive depth of field effects": drops as textures.
  * Curved panes, air flow and acceleration, which these papers leave to the future, are here too.
  *
  * Positions on a pane are (u, v) in metres: u to the right and v up, seen from outside, with (0, 0) at the lower left
@@ -52,7 +54,7 @@ typedef struct virga_glass_def {
      * Raised where there would be more than 4,194,304 cells. Default 0.002, the paper's. */
     float cell_m;
 
-    /* [256; 262144] drops and particles together, raised to whole workgroups of 256. 188 bytes each, and 208 for the
+    /* [256; 262144] drops and particles together, raised to whole workgroups of 256. 188 bytes each, and 312 for the
      * picture of each. Where no slot is free, water joins the film. Default 32768. */
     uint32_t max_drops;
 
@@ -62,6 +64,15 @@ typedef struct virga_glass_def {
     /* [64; 4096] texels of the height map along the longer side of the pane. The map is made as large as the pane
      * appears on the picture, in tiles of 8, up to this. 34 bytes per texel. Default 1024. */
     uint32_t max_texels;
+
+    /* [2; 32] points of the mesh over the pane, along u and v, at which a drop's texture is made, for drops that are
+     * drawn as textures. A drop blends the four textures around it; a large or near pane needs more of them. Default 11
+     * and 11, the paper's. */
+    uint32_t texture_columns, texture_rows;
+
+    /* [8; 64] a side of a texture, made a power of two. 16 bytes per texel of all textures: 484 KiB by default, with
+     * some 100 bytes for each of max_drops. Default 16. */
+    uint32_t texture_texels;
 
     /* Fills the whole height map for virga_glass_map_get, also where there is only fine film. Costs time for every
      * texel instead of only those with drops. Default false. */
@@ -236,7 +247,22 @@ typedef enum virga_glass_style {
      * blends in; from one and a half on, it is all there is. Where the picture shows something in the pane or on the
      * eye's side of it, such as a frame or pillars (view.depth tells), the ray shows what is beside that. */
     VIRGA_GLASS_STYLE_PHYSICAL = 1,
+
+    /* Every drop is one quad with a texture, as in Sato et al. There is no height map: drops do not flow into each
+     * other on the picture, all film is mist, and virga_glass_map_get is not filled. The cheapest by far, for panes
+     * that are far away; create such a pane with a small max_texels. A surface that is not glass (opaque) is drawn in
+     * the physical style instead. */
+    VIRGA_GLASS_STYLE_TEXTURES = 2,
 } virga_glass_style;
+
+/* The shape of drops in textures. */
+typedef enum virga_glass_texture_shape {
+    /* The same as in the physical style: as high as the contact angles say, with reflections and lamps. */
+    VIRGA_GLASS_TEXTURE_CAP = 0,
+
+    /* Hemispheres that show the plate alone, as in Sato et al. */
+    VIRGA_GLASS_TEXTURE_HEMISPHERE = 1,
+} virga_glass_texture_shape;
 
 /* What drops sit on. The angles are the advancing and the receding contact angle in degrees. */
 typedef enum virga_glass_kind {
@@ -371,6 +397,25 @@ typedef struct virga_glass_settings {
     /* [0; 4] (paper) the plate is displaced by the normal's x and y, times this share of the picture's height. Default
      * 0.35. */
     float paper_shift;
+
+    /* [0; 64] (physical) drops with a smaller diameter on the picture (px) are drawn as textures, each as one quad.
+     * From that size down a drop's texture fades in, and from 0.85 of it on its shape in the height map fades out. 0:
+     * none. Not on a surface that is not glass. 6 to 12 is where the two look the same; it saves time where a view has
+     * thousands of small drops. Default 0. */
+    float textured_px;
+
+    /* Default cap. */
+    virga_glass_texture_shape texture_shape;
+
+    /* [0; 1024] textures that a prepare makes anew, in turn, if there is one prepare in a frame. 0: all of them, so
+     * that they show what is behind the pane now. Fewer cost less and lag behind by (columns x rows / number) frames.
+     * Frames then depend on the ones before. All are made at once in the first prepare, after a change of the contact
+     * angles, the glass or the shape, and in frames with several prepares. Default 0. */
+    uint32_t textures_per_frame;
+
+    /* What is behind the pane does not change while the camera, the pane and the settings stay as they are, as with a
+     * photo. Textures are then kept. Default false. */
+    bool still_behind;
 
     /* [0; 50] thickness of the glass (physical). Default 5. */
     float thickness_mm;

@@ -10,9 +10,9 @@
 #include "view.glsl"
 #include "density.glsl"
 #include "tiles.glsl"
-#define NODES_BINDING 5
-#include "glass/nodes.glsl"
+#include "drop_size.glsl"
 
+layout(constant_id = 0) const uint MODE = 0u; // 1: small drops are drawn as textures
 layout(local_size_x = VIRGA_GLASS_GROUP) in;
 layout(scalar, set = 0, binding = 1) readonly buffer Drops { virga_glass_drop_gpu drops[]; };
 layout(scalar, set = 0, binding = 10) readonly buffer List
@@ -101,14 +101,16 @@ float mist_of(uint i)
     return misty ? (1.0 - shape_share(radius)) * min(3.14159265 * radius * radius / texel_m2, 4.0) : 0.0;
 }
 
-void emit_balls(vec2 sag, float whole)
+// `left`: part of the drop's shape that is drawn; a texture shows the rest.
+void emit_balls(vec2 sag, float whole, float left)
 {
     // A drop without any shape gives all its mist to one ball; it is spread over a texel anyway.
     const bool as_one = shape_share(whole) == 0.0;
     const float all = mist_of(0u) + mist_of(1u) + mist_of(2u) + mist_of(3u);
     for (uint i = 0u; i < VIRGA_GLASS_DROP_BALLS; i++) {
-        const float radius = radii[i], shape = shape_share(radius), peak = (i == 0u ? 1.0 : sub_peak) * shape;
-        const float mist = as_one ? (i == 0u ? all : 0.0) : mist_of(i);
+        const float radius = radii[i], shape = shape_share(radius);
+        const float peak = (i == 0u ? 1.0 : sub_peak) * shape * left;
+        const float mist = left * (as_one ? (i == 0u ? all : 0.0) : mist_of(i));
         if (radius > 0.0 && peak + mist > 0.0) {
             const uvec2 reached = tiles_reached(middles[i], ball_reach(peak > 0.0 ? radius : 0.0, density_reach()));
             balls[atomicAdd(work.balls, 1u)] =
@@ -128,8 +130,9 @@ void emit_drop(uint slot)
     const float radius = particle ? look.particle_m : cap_radius(float(at.water_nl));
     for (int i = 0; i < VIRGA_GLASS_DROP_BALLS; i++)
         radii[i] = 0.0;
-    middles[0] =
+    const vec2 middle =
         mix(vec2(at.previous_position[0], at.previous_position[1]), vec2(at.position[0], at.position[1]), look.share);
+    middles[0] = middle;
     radii[0] = radius;
     sub_peak = 1.0;
     const vec2 sag = particle ? vec2(0.0) : sag_at(middles[0], radius);
@@ -141,7 +144,12 @@ void emit_drop(uint slot)
         shape_landing(age / look.impact_s, at.random);
     if (runs)
         shape_tear(velocity);
-    emit_balls(sag, radius);
+    float left = 1.0;
+    if (MODE != 0u) {
+        const vec4 clip = clip_of_pane(frame_on(middle).position, 1.0);
+        left = clip.w > 0.0 ? shape_left(relative_size(radius, clip.w)) : 1.0;
+    }
+    emit_balls(sag, radius, left);
 }
 
 void main()

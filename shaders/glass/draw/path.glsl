@@ -30,7 +30,7 @@ float fresnel(float cos1, float cos2, float n1, float n2)
 // Distance of the scene along the pixel's own ray; 0: far away.
 float scene_distance(vec3 d)
 {
-    const float stored = HAS_DEPTH ? buffer_depth(gl_FragCoord.xy) : view.far_depth;
+    const float stored = HAS_DEPTH ? buffer_depth(PIXEL_HERE) : view.far_depth;
     if (stored == view.far_depth)
         return 0.0;
     const vec3 ahead = to_vec(view.ahead);
@@ -112,7 +112,7 @@ bool hides_exit(Inside inside, vec2 pixel, float exit_rate)
 // hides it.
 void mirror_at_edge(inout Path path, Inside inside)
 {
-    const vec2 here = gl_FragCoord.xy, exit_pixel = nearest_in(path.pixel), path_px = exit_pixel - here;
+    const vec2 here = PIXEL_HERE, exit_pixel = nearest_in(path.pixel), path_px = exit_pixel - here;
     const float out_here = exit_rate(inside, here), out_there = exit_rate(inside, exit_pixel);
     float open = 0.0, closed = 1.0;
     for (int i = 0; i < EDGE_STEPS; i++) {
@@ -169,21 +169,15 @@ void pass_through(inout Path path, vec3 d, vec3 flat_normal)
         pass_inward(path, d, flat_normal);
 }
 
-// `opaque`: the surface is not glass, by the pipeline or the settings.
-Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
+// Through water whose surface has this normal. `pixels`: see Path.
+Path path_by_normal(vec3 d, vec3 normal, float pixels)
 {
     const vec3 flat_normal = cross(along_u, along_v);
     Path path;
-    path.normal = normalize(flat_normal - water.slope.x * along_u - water.slope.y * along_v);
+    path.normal = normal;
     path.from = position;
     path.hidden = false;
-    path.pixels = 1.0;
-    if (opaque) {
-        look_under(path, d, flat_normal, water.height);
-        return path;
-    }
-    // Rays of neighbouring pixels diverge by (n - 1) times the change of slope from one pixel to the next.
-    path.pixels += (WATER - 1.0) * water.bend * pixel_m / gain_angle.y;
+    path.pixels = pixels;
     if (HAS_DEPTH)
         path.from += glass_shift(d, flat_normal);
     pass_through(path, d, flat_normal);
@@ -192,4 +186,22 @@ Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
     else
         path.ahead = on_picture(vec4(path.out_of, 0.0), path.pixel);
     return path;
+}
+
+// `opaque`: the surface is not glass, by the pipeline or the settings.
+Path path_through(vec3 d, Water water, float pixel_m, bool opaque)
+{
+    const vec3 flat_normal = cross(along_u, along_v);
+    const vec3 normal = normalize(flat_normal - water.slope.x * along_u - water.slope.y * along_v);
+    if (opaque) {
+        Path path;
+        path.normal = normal;
+        path.from = position;
+        path.hidden = false;
+        path.pixels = 1.0;
+        look_under(path, d, flat_normal, water.height);
+        return path;
+    }
+    // Rays of neighbouring pixels diverge by (n - 1) times the change of slope from one pixel to the next.
+    return path_by_normal(d, normal, 1.0 + (WATER - 1.0) * water.bend * pixel_m / gain_angle.y);
 }

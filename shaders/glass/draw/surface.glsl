@@ -1,13 +1,6 @@
 // surface.glsl - the water at a pixel of the pane: coverage, slopes and curvature.
-#define SCENE_DEPTH_BINDING 15
-#include "gpu/scene_depth.glsl"
-#include "gpu/view.glsl"
-
-#include "mode.glsl"
-#define HAS_DEPTH ((DRAW_MODE & VIRGA_GLASS_DRAW_DEPTH) != 0u)
-#define HAS_LAMPS ((DRAW_MODE & VIRGA_GLASS_DRAW_LAMPS) != 0u)
+#include "water.glsl"
 #define FILTER_IN_SHADER ((DRAW_MODE & VIRGA_GLASS_DRAW_BY_HAND) != 0u)
-#define SIDE (DRAW_MODE & VIRGA_GLASS_DRAW_SIDE)
 
 // Red: density, or more where a sheet of film covers. Green, blue: slopes of the height, per metre. Alpha: if positive,
 // the mist (the part covered by water that is too small for a shape); if negative, in drops, minus the largest change
@@ -30,15 +23,6 @@ layout(location = 9) flat in vec4 clip_xy[2];
 layout(location = 11) flat in vec4 clip_w;
 layout(location = 13) flat in vec2 gain_angle;
 #endif
-
-struct Water {
-    float cover;  // of the pixel by drops and film that have a shape
-    float mist;   // by water too small for a shape
-    float height; // m
-    float density;
-    vec2 slope; // of the height; (paper) of the density; per metre
-    float bend; // largest change of the slope, 1/m
-};
 
 vec2 last_texel() { return map_grid.zw; }
 

@@ -86,6 +86,9 @@ static void fill_look(const scene_pane *from, virga_glass_settings *to)
     to->impact_s = (float)from->impact_s;
     to->style = (virga_glass_style)from->style;
     to->paper_shift = (float)from->paper_shift;
+    to->textured_px = (float)from->textured_px;
+    to->texture_shape = (virga_glass_texture_shape)from->texture_shape;
+    to->textures_per_frame = from->textures_per_frame;
     to->thickness_mm = (float)from->thickness_mm;
     for (int c = 0; c < 3; c++)
         to->tint[c] = (float)from->tint[c];

@@ -1,0 +1,371 @@
+/* test_glass_textures.c - drops as textures (Sato et al. 2002): each texel against a ray traced in doubles, the blend
+ * of four, when textures are made anew, and the same bits every time. */
+#include "glass_texture_fixture.h"
+
+/* ---- texels against traced rays */
+
+enum { POINTS = 4, TEXELS = 16 };
+
+static void normalise(double v[3])
+{
+    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Snell's law; n faces the ray. False: thrown back. */
+static bool bend(const double d[3], const double n[3], double ratio, double out[3])
+{
+    const double c = -dot(d, n), k = 1 - ratio * ratio * (1 - c * c);
+    for (int i = 0; i < 3; i++)
+        out[i] = ratio * d[i] + (ratio * c - sqrt(fmax(k, 0))) * n[i];
+    return k >= 0;
+}
+
+/* The normal where the eye's ray meets the surface, by the equations in shaders/glass/draw/drop_path.glsl. */
+static void surface_normal(const double at[2], const double d[3], double cap, double n[3])
+{
+    const double base[3] = {at[0], at[1], 0}, flat[3] = {0, 0, -1};
+    double way[3] = {-d[0], -d[1], -d[2]};
+    n[0] = 2 * cap * at[0];
+    n[1] = 2 * cap * at[1];
+    n[2] = 1;
+    if (cap <= 0) { /* a hemisphere */
+        if (d[2] > 0)
+            bend(d, flat, 1 / WATER, way);
+        const double along = dot(base, way), step = -along + sqrt(along * along + 1 - dot(base, base));
+        for (int i = 0; i < 3; i++)
+            n[i] = base[i] + step * way[i];
+    }
+    normalise(n);
+}
+
+/* The direction out of a pane that faces +z. */
+static bool trace(const double at[2], const double d[3], double cap, double out[3])
+{
+    double n[3], back[3], water[3], flat[3] = {0, 0, d[2] > 0 ? -1 : 1};
+    surface_normal(at, d, cap, n);
+    for (int i = 0; i < 3; i++)
+        back[i] = -n[i];
+    if (d[2] > 0) {
+        bend(d, flat, 1 / WATER, water);
+        return bend(water, back, WATER, out);
+    }
+    const double facing = dot(n, d);
+    if (facing > -0.02) /* the far side of a steep drop is not seen */
+        for (int i = 0; i < 3; i++)
+            n[i] -= d[i] * (facing + 0.02);
+    normalise(n);
+    bend(d, n, 1 / WATER, water);
+    return bend(water, flat, WATER, out);
+}
+
+/* Where the ray through a lattice point and a texel ends on the picture, as shares of it. */
+static bool expected_at(const shot *s, const double point[2], const double at[2], double cap, double shares[2])
+{
+    const host_camera *c = &s->camera;
+    double d[3] = {point[0] - c->position_m[0], point[1] - c->position_m[1], -c->position_m[2]}, out[3], far[3];
+    normalise(d);
+    if (!trace(at, d, cap, out))
+        return false;
+    for (int i = 0; i < 3; i++)
+        far[i] = c->position_m[i] + 1e7 * out[i];
+    const double ahead = camera_pixel(c, far, shares);
+    shares[0] /= WIDTH;
+    shares[1] /= HEIGHT;
+    return ahead > 0 && shares[0] > 0.06 && shares[0] < 0.94 && shares[1] > 0.06 && shares[1] < 0.94;
+}
+
+/* Compares the texels of one point's texture; returns how many could be. */
+static int compare_texture(const shot *s, const float *texels, uint32_t column, uint32_t row, double cap)
+{
+    const double point[2] = {0.096 * column / (POINTS - 1), 0.064 * row / (POINTS - 1)};
+    int compared = 0;
+    for (int y = 0; y < TEXELS; y++)
+        for (int x = 0; x < TEXELS; x++) {
+            double at[2] = {(x + 0.5) * 2 / TEXELS - 1, (y + 0.5) * 2 / TEXELS - 1}, shares[2];
+            const double radius = hypot(at[0], at[1]);
+            for (int i = 0; i < 2; i++)
+                at[i] *= fmin(1, 0.97 / radius);
+            if (!expected_at(s, point, at, cap, shares))
+                continue;
+            /* blue is 1 in the plate, and in the texture the share of light that goes through */
+            const float *found = texture_texel(texels, POINTS, TEXELS, column, row, 0, x, y);
+            for (int i = 0; i < 2; i++)
+                if (!(fabs((double)found[i] / (double)found[2] - shares[i]) < 2e-3))
+                    fail_msg("point %u, %u, texel %d, %d: %g of the picture, expected %g", column, row, x, y,
+                             (double)found[i] / (double)found[2], shares[i]);
+            compared++;
+        }
+    return compared;
+}
+
+/* To 0.002 of the picture: half floats have steps of 0.0005, and the plate's copies are filtered. Both shapes, from
+ * both sides, askew. */
+static void each_texel_is_where_a_traced_ray_ends(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    open_textures(&t, POINTS, TEXELS);
+    put_even_balls(s);
+    memset(&s->settings.lighting.environment_sh, 0, sizeof s->settings.lighting.environment_sh);
+    for (int kind = 0; kind < 4; kind++) {
+        const double side = kind & 1 ? 1 : -1;
+        int compared = 0;
+        s->settings.texture_shape = kind & 2 ? VIRGA_GLASS_TEXTURE_HEMISPHERE : VIRGA_GLASS_TEXTURE_CAP;
+        shot_aim(s, (const double[3]){0.02, 0.05, side * 0.12}, (const double[3]){0.06, 0.02, 0}, 70);
+        const float *texels = draw_and_read_textures(&t);
+        const double cap = kind & 2 ? 0 : tan(glass_rest_deg(&s->settings) * M_PI / 360);
+        for (uint32_t i = 0; i < POINTS * POINTS; i++)
+            compared += compare_texture(s, texels, i % POINTS, i / POINTS, cap);
+        REQUIRE(compared > 700);
+    }
+    close_textures(&t);
+}
+
+/* ---- the blend */
+
+static double mixed(double a, double b, double t)
+{
+    return a + (b - a) * t;
+}
+
+/* A texture at (x, y) radii from the drop's middle, filtered, red or green. */
+static double filtered(const float *texels, uint32_t column, uint32_t row, uint32_t level, const double at[2], int c)
+{
+    const int side = TEXELS >> level;
+    double t[2];
+    int low[2];
+    for (int i = 0; i < 2; i++) {
+        const double texel = fmin(fmax((0.5 * at[i] + 0.5) * side - 0.5, 0), side - 1);
+        low[i] = (int)fmin(texel, side - 2);
+        t[i] = texel - low[i];
+    }
+    double rows[2];
+    for (int y = 0; y < 2; y++)
+        rows[y] =
+            mixed((double)texture_texel(texels, POINTS, TEXELS, column, row, level, low[0], low[1] + y)[c],
+                  (double)texture_texel(texels, POINTS, TEXELS, column, row, level, low[0] + 1, low[1] + y)[c], t[0]);
+    return mixed(rows[0], rows[1], t[1]);
+}
+
+/* What a drop at (u, v) shows: bilinear between the four textures around it. */
+static double blended(const float *texels, const double middle[2], uint32_t level, const double at[2], int c)
+{
+    const double grid[2] = {middle[0] / 0.096 * (POINTS - 1), middle[1] / 0.064 * (POINTS - 1)};
+    const uint32_t column = (uint32_t)grid[0], row = (uint32_t)grid[1];
+    return mixed(mixed(filtered(texels, column, row, level, at, c), filtered(texels, column + 1, row, level, at, c),
+                       grid[0] - column),
+                 mixed(filtered(texels, column, row + 1, level, at, c),
+                       filtered(texels, column + 1, row + 1, level, at, c), grid[0] - column),
+                 grid[1] - row);
+}
+
+/* Drops as wide as the first and the second level have texels, anywhere on the pane: each pixel to 0.003. */
+static void a_drop_blends_the_four_textures_around_it(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    open_textures(&t, POINTS, TEXELS);
+    put_even_balls(s);
+    shot_face(s, -1, 30);
+    const double px_m = 0.096 / WIDTH, alpha = 64 / (64 + 1.0 / 12);
+    for (uint32_t level = 0; level < 2; level++)
+        for (uint32_t k = 0; k < 12; k++) {
+            const double middle[2] = {0.01 + 0.075 * (double)virga_unit(virga_hash2(k, 1)),
+                                      0.01 + 0.043 * (double)virga_unit(virga_hash2(k, 2))};
+            const double radius = px_m * (8 >> level) * 0.999;
+            shot_forget(s);
+            shot_drop(s, middle[0], middle[1], shot_water(s, radius));
+            const float *texels = draw_and_read_textures(&t);
+            uint32_t used = 0;
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                /* seen from behind: u goes to the left */
+                const double at[2] = {(0.096 - (i % WIDTH + 0.5) * px_m - middle[0]) / radius,
+                                      (0.064 - (i / WIDTH + 0.5) * px_m - middle[1]) / radius};
+                if (hypot(at[0], at[1]) > 0.75)
+                    continue;
+                for (int c = 0; c < 2; c++)
+                    assert_float_equal((double)t.pixels[4 * i + c] / alpha, blended(texels, middle, level, at, c),
+                                       level ? 5e-3 : 3e-3);
+                used++;
+            }
+            REQUIRE(used > (level ? 20u : 90u));
+        }
+    close_textures(&t);
+}
+
+/* A thousand drops of at most about half a pixel cover as much of the picture as they have area, to 2.5 %: those that
+ * just have a rim are sampled by few pixels. */
+static void drops_smaller_than_a_pixel_keep_their_area(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    double area = 0;
+    open_textures(&t, POINTS, TEXELS);
+    shot_face(s, -1, 30);
+    const double px_m = 0.096 / WIDTH;
+    for (uint32_t k = 0; k < 1000; k++) {
+        const double radius = px_m * (0.05 + 0.5 * (double)virga_unit(virga_hash2(k, 5)));
+        const double u = 0.002 + 0.092 * (k % 40 + 0.9 * (double)virga_unit(virga_hash2(k, 6))) / 40;
+        const virga_glass_drop_gpu *drop =
+            shot_drop(s, u, 0.002 + 0.06 * (k / 40 + 0.9 * (double)virga_unit(virga_hash2(k, 7))) / 25,
+                      shot_water(s, radius) + 1);
+        area += M_PI * pow(ball_of(s, drop).radius / px_m, 2);
+    }
+    draw_and_read_textures(&t);
+    assert_float_equal(sum_of_alpha(t.pixels, 0, WIDTH) / area, 1, 0.025);
+    close_textures(&t);
+}
+
+/* ---- when textures are made anew */
+
+static void put_plate(shot *s, float red)
+{
+    float *pixels = malloc(16ull * WIDTH * HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        pixels[4 * i] = red * (float)(i % WIDTH) / WIDTH;
+        pixels[4 * i + 1] = (float)(i / WIDTH) / HEIGHT;
+        pixels[4 * i + 2] = pixels[4 * i + 3] = 1;
+    }
+    shot_plate(s, pixels);
+    free(pixels);
+}
+
+static bool same_textures(const textured *t, const float *a, const float *b)
+{
+    return !memcmp(a, b, texture_bytes(t));
+}
+
+/* Five of the sixteen a frame: after four frames they are those that are made all at once, and not before. */
+static void in_turn_they_end_up_the_same_as_at_once(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    open_textures(&t, POINTS, TEXELS);
+    shot_face(s, -1, 30);
+    put_plate(s, 0.5f);
+    float *whole = keep_textures(&t, draw_and_read_textures(&t));
+    put_plate(s, 1);
+    s->settings.textures_per_frame = 5;
+    for (int frame = 1; frame <= 4; frame++) {
+        put_plate(s, frame == 4 ? 0.5f : 1);
+        const float *texels = draw_and_read_textures(&t);
+        assert_false(same_textures(&t, texels, whole));
+    }
+    for (int frame = 1; frame <= 3; frame++)
+        assert_int_equal(same_textures(&t, draw_and_read_textures(&t), whole), frame == 3);
+    free(whole);
+    close_textures(&t);
+}
+
+/* With still_behind they stay, although the plate changed, until the camera moves. */
+static void before_a_photo_they_are_kept_until_the_camera_moves(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    open_textures(&t, POINTS, TEXELS);
+    s->settings.still_behind = true;
+    shot_face(s, -1, 30);
+    put_plate(s, 0.5f);
+    float *first = keep_textures(&t, draw_and_read_textures(&t));
+    put_plate(s, 1);
+    assert_true(same_textures(&t, draw_and_read_textures(&t), first));
+    s->camera.position_m[0] += 0.01;
+    assert_false(same_textures(&t, draw_and_read_textures(&t), first));
+    free(first);
+    close_textures(&t);
+}
+
+/* The host throws away the frame that made them: the next makes all. */
+static void textures_of_a_lost_frame_are_made_again(void **state)
+{
+    (void)state;
+    textured t;
+    shot *const s = &t.shot;
+    open_textures(&t, POINTS, TEXELS);
+    shot_face(s, -1, 30);
+    s->settings.still_behind = true;
+    put_plate(s, 0.5f);
+    float *before = keep_textures(&t, draw_and_read_textures(&t));
+    s->camera.position_m[0] += 0.01;
+    lose_frame(&t);
+    float *after = keep_textures(&t, draw_and_read_textures(&t));
+    assert_false(same_textures(&t, after, before));
+    s->settings.still_behind = false;
+    assert_true(same_textures(&t, draw_and_read_textures(&t), after));
+    free(before);
+    free(after);
+    close_textures(&t);
+}
+
+/* ---- the same bits */
+
+/* A frame's pixels, drops on top of each other too; to be freed. */
+static float *whole_frame(const char *threads, bool reversed)
+{
+    textured t;
+    shot *const s = &t.shot;
+    ball balls[BALLS];
+    effect_device_set_threads(threads);
+    open_textures(&t, POINTS, TEXELS);
+    put_even_balls(s);
+    shot_face(s, 1, 30);
+    put_balls(s, balls, BALLS);
+    s->settings.style = VIRGA_GLASS_STYLE_PHYSICAL;
+    s->settings.textured_px = 14;
+    t.reversed = reversed;
+    draw_and_read_textures(&t);
+    float *pixels = malloc(16ull * WIDTH * HEIGHT);
+    memcpy(pixels, t.pixels, 16ull * WIDTH * HEIGHT);
+    close_textures(&t);
+    return pixels;
+}
+
+static void any_number_of_threads_draws_the_same(void **state)
+{
+    (void)state;
+    float *one = whole_frame("1", false), *four = whole_frame("4", false);
+    assert_true(sum_of_alpha(one, 0, WIDTH) > 1000);
+    assert_memory_equal(one, four, 16ull * WIDTH * HEIGHT);
+    free(one);
+    free(four);
+}
+
+/* Depth is only compared, so a reversed one shows the same. The matrices round differently. */
+static void a_reversed_depth_draws_the_same(void **state)
+{
+    (void)state;
+    float *one = whole_frame("4", false), *other = whole_frame("4", true);
+    double sum = 0;
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++)
+        sum += fabs((double)one[i] - (double)other[i]);
+    assert_true(sum / sum_of_alpha(one, 0, WIDTH) < 1e-3);
+    free(one);
+    free(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_texel_is_where_a_traced_ray_ends),
+        cmocka_unit_test(a_drop_blends_the_four_textures_around_it),
+        cmocka_unit_test(drops_smaller_than_a_pixel_keep_their_area),
+        cmocka_unit_test(in_turn_they_end_up_the_same_as_at_once),
+        cmocka_unit_test(before_a_photo_they_are_kept_until_the_camera_moves),
+        cmocka_unit_test(textures_of_a_lost_frame_are_made_again),
+        cmocka_unit_test(any_number_of_threads_draws_the_same),
+        cmocka_unit_test(a_reversed_depth_draws_the_same),
+    };
+    return effect_fixture_close(cmocka_run_group_tests(tests, NULL, NULL));
+}
