@@ -35,6 +35,8 @@ void ground_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, ui
     stats->frame_index = frame;
     stats->flown_nl = count_of(&read, VIRGA_GROUND_FLOWN);
     stats->returned_nl = count_of(&read, VIRGA_GROUND_RETURNED);
+    stats->spray_nl = count_of(&read, VIRGA_GROUND_SPRAY);
+    stats->spray_off_ground_nl = count_of(&read, VIRGA_GROUND_SPRAY_OFF);
     stats->start_nl = count_of(&read, VIRGA_GROUND_STARTED);
     stats->landed_nl = count_of(&read, VIRGA_GROUND_LANDED);
     stats->off_ground_nl = count_of(&read, VIRGA_GROUND_OFF_GROUND);

@@ -8,4 +8,7 @@
 
 extern const virga_effect_type rain_type;
 
+/* Time since the end of the newest tick (s): the part of a tick that has not run yet. */
+double rain_since_tick_s(const virga_rain *rain);
+
 #endif

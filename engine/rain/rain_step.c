@@ -349,6 +349,11 @@ double virga_rain_time(const virga_rain *rain)
     return rain ? (double)rain->ticks * rain->def.tick_s + rain->left_over_s : 0;
 }
 
+double rain_since_tick_s(const virga_rain *rain)
+{
+    return rain->left_over_s;
+}
+
 void virga_rain_ticks(const virga_rain *rain, uint32_t *first, uint32_t *count)
 {
     const uint32_t run = rain ? rain->ticks_of_step : 0;

@@ -3,7 +3,7 @@
  *   rain -> impacts -> ground -> spawns -> splash -> returns -> ground, in the next step
  *       \-> hits -> panes
  *
- *   the host's particles -> water */
+ *   the host's particles -> water -> droplets that leave it -> splash, which tells water what it took back */
 #include "scene/scene_internal.h"
 
 #include "core/settings.h"
@@ -42,6 +42,8 @@ static uint32_t count_splash(const virga_scene_def *def)
     return def->with_splash;
 }
 
+#define MAX_HANDED 65536 /* droplets that water hands over in a step; more wait for the next one */
+
 static void share_splash(const virga_scene_def *def, uint32_t index, void *effect_def)
 {
     virga_splash_def *splash = effect_def;
@@ -51,6 +53,9 @@ static void share_splash(const virga_scene_def *def, uint32_t index, void *effec
     splash->max_ticks_per_step = def->rain.max_ticks_per_step;
     splash->max_spawns = spawns;
     splash->max_returned_droplets = returned > spawns ? returned : spawns;
+    splash->max_handed = 0;
+    if (def->with_water)
+        splash->max_handed = def->water.max_droplets < MAX_HANDED ? def->water.max_droplets : MAX_HANDED;
 }
 
 static uint32_t count_panes(const virga_scene_def *def)
@@ -128,7 +133,28 @@ static virga_result step_ground(virga_scene *scene, uint32_t index, VkCommandBuf
     return virga_ground_step(scene_find(scene, &ground_type, index), cmd, &info);
 }
 
-/* ---- splashes: the ground emits them */
+/* ---- splashes: the ground emits them, and water hands droplets over */
+
+static void fill_floors(const virga_ground *ground, virga_splash_floors *floors)
+{
+    virga_ground_cells cells;
+    virga_ground_maps maps;
+    virga_ground_cells_get(ground, &cells);
+    virga_ground_maps_get(ground, &maps);
+    *floors = (virga_splash_floors){
+        cells.floors, cells.tiles, {cells.low_tile[0], cells.low_tile[1]}, maps.cell_m, cells.base_m};
+}
+
+/* Droplets are where the water's particles are: at the time of the frame, a part of a tick after the newest one. */
+static void fill_spray(const virga_scene *scene, const virga_scene_frame *frame, virga_splash_step_info *info)
+{
+    virga_water_leavers leavers;
+    virga_water_leavers_get(scene_find(scene, &water_type, 0), &leavers);
+    info->leavers = leavers.leavers;
+    info->leaver_table = leavers.table;
+    info->handed_late_s = (float)rain_since_tick_s(rain_of(scene));
+    memcpy(info->handed_origin_m, frame->water.origin_m, sizeof info->handed_origin_m);
+}
 
 static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
@@ -137,6 +163,9 @@ static virga_result step_splash(virga_scene *scene, uint32_t index, VkCommandBuf
     virga_ground_spawns(scene_find(scene, &ground_type, 0), &info.spawns, &info.spawns_size);
     virga_rain_ticks(rain_of(scene), &info.first_tick, &info.ticks);
     virga_rain_wind(rain_of(scene), info.wind_m_s);
+    fill_floors(scene_find(scene, &ground_type, 0), &info.floors);
+    if (scene_find(scene, &water_type, 0))
+        fill_spray(scene, frame, &info);
     return virga_splash_step(scene_find(scene, &splash_type, index), cmd, &info);
 }
 
@@ -260,7 +289,15 @@ static uint32_t count_water(const virga_scene_def *def)
 
 static virga_result step_water(virga_scene *scene, uint32_t index, VkCommandBuffer cmd, const virga_scene_frame *frame)
 {
-    return virga_water_step(scene_find(scene, &water_type, index), cmd, &frame->water);
+    virga_water_step_info info = frame->water;
+    virga_splash_buffer handed;
+    virga_splash_handed(scene_find(scene, &splash_type, 0), &handed);
+    if (!info.handed) {
+        info.handed = handed.buffer;
+        info.handed_offset = handed.offset;
+        info.handed_size = handed.size;
+    }
+    return virga_water_step(scene_find(scene, &water_type, index), cmd, &info);
 }
 
 /* ---- the table */

@@ -22,6 +22,7 @@ static const virga_setting_row def_rows[] = {
     DEF(U32, max_droplets, 256, 4194304, 131072),
     DEF(U32, max_spawns, 256, 1048576, 65536),
     DEF(U32, max_returned_droplets, 0, 4194240, 131072),
+    DEF(U32, max_handed, 0, 1048576),
     VIRGA_TICK_ROWS,
 };
 /* clang-format on */
@@ -111,6 +112,7 @@ enum {
     COUNT_INDICES,
     COUNT_TICKS,
     COUNT_VIEWS,
+    COUNT_HANDED_BYTES,
 };
 
 static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS])
@@ -126,7 +128,10 @@ static void count(const void *given, VkDeviceSize counts[VIRGA_EFFECT_MAX_COUNTS
         VIRGA_PICK_BYTES(3 * (VkDeviceSize)def->max_droplets + 2 * (VkDeviceSize)def->max_splashes);
     counts[COUNT_LISTED] = (VkDeviceSize)splash_max_sprites(def) + splash_max_crowns(def);
     counts[COUNT_INDICES] = index_count(def);
-    counts[COUNT_TICKS] = def->max_ticks_per_step + 1; /* one more for a move of the anchor */
+    counts[COUNT_TICKS] = def->max_ticks_per_step + 2; /* one more for a move of the anchor, and one for spray */
+    counts[COUNT_HANDED_BYTES] = def->max_handed ? sizeof(virga_handed_droplets_gpu) +
+                                                       (VkDeviceSize)def->max_handed * sizeof(virga_handed_droplet_gpu)
+                                                 : 0;
     counts[COUNT_VIEWS] = SPLASH_MAX_VIEWS;
 }
 
@@ -142,6 +147,7 @@ static const virga_effect_buffer buffers[] = {
     {"splash.spawn_offsets", AT(spawn_offsets), VIRGA_USE_STORAGE, DEVICE, .entry = 8, .count = COUNT_SPAWNS},
     {"splash.returns", AT(returned_droplets), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_impacts_gpu),
      .entry = sizeof(virga_impact_gpu), .count = COUNT_RETURNS, .first = FILL},
+    {"splash.handed", AT(handed), VIRGA_USE_INDIRECT, DEVICE, .entry = 1, .count = COUNT_HANDED_BYTES, .first = FILL},
     {"splash.picks", AT(picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_PICK_BYTES},
     {"splash.lists", AT(lists), VIRGA_USE_INDIRECT, DEVICE, .head = 2 * sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_LISTED},
@@ -163,7 +169,8 @@ static const virga_effect_image images[] = {
 };
 
 static const virga_effect_layout layouts[] = {
-    {AT(bindings), splash_bindings, SPLASH_BINDINGS, SPLASH_SETS, sizeof(uint32_t)},
+    [SPLASH_LAYOUT] = {AT(bindings), splash_bindings, SPLASH_BINDINGS, SPLASH_SETS, sizeof(uint32_t)},
+    [SPLASH_LAYOUT_RECALL] = {AT(recall_bindings), splash_recall_bindings, SPLASH_RECALL_BINDINGS, 1, 0},
 };
 
 static const virga_effect_pass passes[] = {
@@ -172,6 +179,9 @@ static const virga_effect_pass passes[] = {
     STEP(fly),
     STEP(fall_scan),
     STEP(fall_compact),
+    {"splash.recall", AT(recall), VIRGA_SPIRV_ROW(splash_step_recall_comp), .layout = SPLASH_LAYOUT_RECALL},
+    STEP(adopt),
+    STEP(adopt_end),
     STEP(rebase),
     DRAW(indices),
     DRAW(few_mark, .forms = SPLASH_STYLES),
@@ -257,6 +267,13 @@ void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buf
             splash && splash->ticks && splash->base.contents
                 ? (virga_splash_buffer){splash->returned_droplets->buffer, 0, splash->returned_droplets->size}
                 : (virga_splash_buffer){0};
+}
+
+void virga_splash_handed(const virga_splash *splash, virga_splash_buffer *handed)
+{
+    if (handed)
+        *handed = splash && splash->handed ? (virga_splash_buffer){splash->handed->buffer, 0, splash->handed->size}
+                                           : (virga_splash_buffer){0};
 }
 
 void virga_splash_droplets(const virga_splash *splash, virga_splash_buffer *droplets, uint32_t *count,

@@ -8,7 +8,16 @@
 
 #include <stddef.h>
 
-enum { BIND_SPAWNS = 3, BIND_DROPLETS = 6, BIND_KEPT = 12, BIND_DEPTH = 16, BIND_COLOR, BIND_DROPLET_TEXELS };
+enum {
+    BIND_SPAWNS = 3,
+    BIND_DROPLETS = 6,
+    BIND_KEPT = 12,
+    BIND_DEPTH = 16,
+    BIND_COLOR,
+    BIND_DROPLET_TEXELS,
+    BIND_HANDED = 21,
+    BIND_FLOORS,
+};
 
 /* The same bindings as in shaders/splash, where each file declares those it uses. */
 const virga_binding_kind splash_bindings[SPLASH_BINDINGS] = {
@@ -33,7 +42,43 @@ const virga_binding_kind splash_bindings[SPLASH_BINDINGS] = {
     [BIND_DROPLET_TEXELS] = {TEXELS, VIRGA_ALL_STAGES},            /* 18 */
     {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(splashes)}, /* 19 */
     {TEXELS, VIRGA_ALL_STAGES, VIRGA_SOURCE_TEXELS, AT(sprites)},  /* 20 */
+    [BIND_HANDED] = {STORAGE, COMPUTE},                            /* 21 */
+    [BIND_FLOORS] = {STORAGE, COMPUTE},                            /* 22 */
 };
+
+/* Of the pass that ends spray, see shaders/splash/step/recall.comp. */
+enum { RECALL_DROPLETS = 1, RECALL_LEAVERS, RECALL_TABLE };
+
+const virga_binding_kind splash_recall_bindings[SPLASH_RECALL_BINDINGS] = {
+    {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(state)}, /* 0 */
+    [RECALL_DROPLETS] = {STORAGE, COMPUTE},             /* 1 */
+    [RECALL_LEAVERS] = {STORAGE, COMPUTE},              /* 2 */
+    [RECALL_TABLE] = {STORAGE, COMPUTE},                /* 3 */
+};
+
+VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info)
+{
+    virga_bound bound[VIRGA_MAX_BINDINGS];
+    virga_effect_bound(&splash->base, splash->recall_bindings, bound);
+    bound[RECALL_DROPLETS] = (virga_bound){.buffer = splash->droplet_buffers[splash->current]->buffer};
+    bound[RECALL_LEAVERS] = (virga_bound){.buffer = info->leavers};
+    bound[RECALL_TABLE] = (virga_bound){.buffer = info->leaver_table};
+    return virga_bindings_write(splash->base.context, splash->recall_bindings, 0, bound);
+}
+
+/* A host's buffer, or one that is bound in its place and not accessed. */
+static virga_bound bound_or_marks(const virga_splash *splash, VkBuffer buffer)
+{
+    return (virga_bound){.buffer = buffer ? buffer : splash->marks->buffer};
+}
+
+/* What water and ground give to a step. */
+static void bind_sources(const virga_splash *splash, virga_bound bound[VIRGA_MAX_BINDINGS])
+{
+    const virga_splash_step_info none = {.spawns_offset = 0}, *info = splash->info ? splash->info : &none;
+    bound[BIND_HANDED] = bound_or_marks(splash, splash->handed ? splash->handed->buffer : VK_NULL_HANDLE);
+    bound[BIND_FLOORS] = bound_or_marks(splash, info->floors.floors);
+}
 
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view)
 {
@@ -49,6 +94,7 @@ VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t 
     bound[BIND_KEPT] = (virga_bound){.buffer = splash->droplet_buffers[current ^ 1]->buffer};
     bound[BIND_DEPTH] = virga_bound_or_blank(depth, splash->blank_depth, context->nearest);
     bound[BIND_COLOR] = virga_bound_or_blank(color, splash->blank_color, virga_color_sampler(context, color));
+    bind_sources(splash, bound);
     return virga_bindings_write(context, splash->bindings, index, bound);
 }
 

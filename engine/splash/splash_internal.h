@@ -4,6 +4,7 @@
  *   splash_table.c        the splash rule of each material and state
  *   splash_descriptors.c  the bindings of all passes
  *   splash_step.c         ticks
+ *   splash_spray.c        droplets that water hands over
  *   splash_draw.c         prepare, attach, draw
  */
 #ifndef VIRGA_SPLASH_INTERNAL_H
@@ -32,7 +33,9 @@ void splash_push_rules(virga_splash *splash);
 
 enum { SPLASH_STEP_SET = SPLASH_MAX_VIEWS, SPLASH_SETS = SPLASH_STEP_SET + 2 };
 
-enum { SPLASH_BINDINGS = 21 };
+enum { SPLASH_BINDINGS = 23, SPLASH_RECALL_BINDINGS = 4 };
+
+enum { SPLASH_LAYOUT, SPLASH_LAYOUT_RECALL };
 
 #define SPLASH_STYLES (VIRGA_SPLASH_FORM_FILM + 1) /* forms of the passes that depend only on the style */
 
@@ -85,11 +88,12 @@ struct virga_splash {
     uint32_t current; /* index of the one with the newest droplets */
     virga_buffer *state, *splashes, *marks, *spawn_offsets, *returned_droplets, *picks, *lists, *sprites,
         *prepared_buffer, *index_buffer;
+    virga_buffer *handed; /* NULL without def.max_handed */
     virga_ring tick_ring, rules_ring, view_ring;
     uint32_t tick_offset, rules_offset, view_offset; /* of the newest blocks */
     virga_image_2d *blank_depth, *blank_color;       /* bound where a view has none */
-    virga_bindings *bindings;
-    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices;
+    virga_bindings *bindings, *recall_bindings;
+    virga_pipeline *spawn_scan, *spawn, *fly, *fall_scan, *fall_compact, *rebase, *indices, *recall, *adopt, *adopt_end;
     virga_pipeline *view_scan, *view_compact;
     virga_pipeline *few_mark[SPLASH_STYLES], *droplet_mark[SPLASH_STYLES], *splash_mark[SPLASH_STYLES];
     virga_pipeline *sprite_write[VIRGA_SPLASH_FORMS];
@@ -97,6 +101,7 @@ struct virga_splash {
     VkDescriptorSet step_sets[2]; /* by index of the current droplet buffer */
     VkBuffer spawns;
     VkDeviceSize spawns_offset, spawns_range;
+    const virga_splash_step_info *info; /* of the step that is being recorded; NULL at other times */
     bool prepared_depth;
     virga_splash_style prepared_style;
     float prepared_line_px; /* line width */
@@ -123,13 +128,24 @@ static inline uint32_t splash_max_crowns(const virga_splash_def *def)
 }
 
 /* ---- splash_descriptors.c */
-extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS];
+extern const virga_binding_kind splash_bindings[SPLASH_BINDINGS], splash_recall_bindings[SPLASH_RECALL_BINDINGS];
 
 /* `current`: index of the current droplet buffer. `view`: NULL if the set is not used for drawing. */
 VkDescriptorSet splash_write_set(virga_splash *splash, uint32_t index, uint32_t current, const virga_view *view);
+VkDescriptorSet splash_write_recall_set(virga_splash *splash, const virga_splash_step_info *info);
 void splash_bind(virga_splash *splash, VkCommandBuffer cmd, VkPipelineBindPoint point, VkDescriptorSet set);
 
+/* ---- splash_spray.c */
+virga_result splash_spray_check(const virga_splash *splash, const virga_splash_step_info *info);
+void splash_spray_fill(const virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+                       virga_splash_tick_gpu *out);
+
+/* After the ticks: spray whose particle fell back ends, and new spray is taken. */
+void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info);
+
 /* ---- splash_step.c */
+void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+                      const double shift[3]);
 void splash_lost(void *splash, uint64_t frame, uint32_t did);
 void splash_state_loaded(void *splash);
 void splash_read_statistics(void *splash, uint64_t frame, uint32_t ring_slot, uint32_t parts, const void *data);

@@ -30,6 +30,10 @@ static void read_state(virga_splash_stats *stats, uint64_t frame, const virga_sp
     stats->fallen = count_of(state, VIRGA_SPLASH_FALLEN);
     stats->flown_nl = count_of(state, VIRGA_SPLASH_FLOWN);
     stats->returned_nl = count_of(state, VIRGA_SPLASH_RETURNED);
+    stats->spray_nl = count_of(state, VIRGA_SPLASH_SPRAY_IN);
+    stats->spray_back_nl = count_of(state, VIRGA_SPLASH_SPRAY_BACK);
+    stats->spray_returned_nl = count_of(state, VIRGA_SPLASH_SPRAY_RETURNED);
+    stats->spray_panes_nl = count_of(state, VIRGA_SPLASH_SPRAY_PANES);
     stats->splashes_without_droplets = count_of(state, VIRGA_SPLASH_WITHOUT_DROPLETS);
     stats->splashes_alive = state->end_splash - state->first_splash;
     stats->droplets_alive = state->staying;
@@ -78,7 +82,7 @@ static void remember(virga_splash *splash)
 
 /* ---- ticks */
 
-static void push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+void splash_push_tick(virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
                       const double shift[3])
 {
     const virga_splash_settings *settings = &splash->settings;
@@ -98,6 +102,7 @@ static void push_tick(virga_splash *splash, const virga_splash_step_info *info, 
         out.shift[axis] = (float)shift[axis];
         out.wind[axis] = settings->wind_share * info->wind_m_s[axis];
     }
+    splash_spray_fill(splash, info, tick_in_step, &out);
     splash->tick_offset = virga_ring_push(splash->base.context, &splash->tick_ring, &out, sizeof out);
 }
 
@@ -111,7 +116,7 @@ static void run_tick(virga_splash *splash, VkCommandBuffer cmd, const virga_spla
 {
     virga_context *context = splash->base.context;
     const double still[3] = {0, 0, 0};
-    push_tick(splash, info, i, still);
+    splash_push_tick(splash, info, i, still);
     splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
     virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spawn");
     virga_dispatch_and_barrier(splash->base.context, cmd, splash->spawn_scan, 1);
@@ -144,7 +149,7 @@ static void follow(virga_splash *splash, VkCommandBuffer cmd, const virga_splash
     if (splash->anchored) {
         const uint32_t max =
             splash->def.max_droplets > splash->def.max_splashes ? splash->def.max_droplets : splash->def.max_splashes;
-        push_tick(splash, info, 0, shift);
+        splash_push_tick(splash, info, 0, shift);
         splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
         virga_dispatch_and_barrier(splash->base.context, cmd, splash->rebase,
                                    (max + VIRGA_SPLASH_GROUP - 1) / VIRGA_SPLASH_GROUP);
@@ -178,7 +183,8 @@ static virga_result check_step(const virga_splash *splash, VkCommandBuffer cmd, 
         virga_settings_check_positions(log, "step_info.camera_m", info->camera_m, 3) ||
         virga_settings_check_finite(log, "step_info.wind_m_s", info->wind_m_s, 3) ||
         virga_host_list_check(splash->base.context, "step_info.spawns", info->spawns_offset, info->spawns_size,
-                              sizeof(virga_spawns_gpu)))
+                              sizeof(virga_spawns_gpu)) ||
+        splash_spray_check(splash, info))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&splash->base);
 }
@@ -200,8 +206,10 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     splash->spawns_offset = info->spawns_offset;
     splash->spawns_range = virga_host_list_range(
         context, info->spawns_size, sizeof(virga_spawns_gpu) + splash->def.max_spawns * sizeof(virga_spawn_gpu));
+    splash->info = info;
     for (uint32_t i = 0; i < 2; i++)
         splash->step_sets[i] = splash_write_set(splash, SPLASH_STEP_SET + i, i, NULL);
+    splash->info = NULL;
     splash->spawns = VK_NULL_HANDLE; /* the host owns it and may destroy it */
     if (virga_effect_first_contents(&splash->base, cmd))
         write_indices(splash, cmd);
@@ -209,6 +217,7 @@ virga_result virga_splash_step(virga_splash *splash, VkCommandBuffer cmd, const 
     follow(splash, cmd, info);
     for (uint32_t i = 0; i < info->ticks; i++)
         run_tick(splash, cmd, info, i);
+    splash_spray_record(splash, cmd, info);
     virga_effect_copy_statistics(&splash->base, cmd, SPLASH_PART_STEP, splash->state, 0,
                                  offsetof(splash_readback, state), sizeof(virga_splash_state_gpu));
     const virga_result uploaded = virga_check_uploads(context);

@@ -39,6 +39,8 @@ static const virga_setting_row setting_rows[] = {
     SETTING(FLOAT, spray_speed_m_s, 0.01, 1000, 4),
     SETTING(FLOAT, spray_pattern, 0, 4, 1.25),
     SETTING(FLOAT, spray_turbulence, 0, 1, 0.1),
+    SETTING(BOOL, hand_over, false, true, true),
+    SETTING(FLOAT, hand_over_s, 0, 10, 0.1),
     SETTING(FLOAT, absorption_1_m[0], 0, 1000, 0.29),
     SETTING(FLOAT, absorption_1_m[1], 0, 1000, 0.056),
     SETTING(FLOAT, absorption_1_m[2], 0, 1000, 0.0103),
@@ -146,8 +148,8 @@ static const virga_effect_buffer buffers[] = {
     {"water.spray_picks", AT(spray.picks), VIRGA_USE_STORAGE, DEVICE, .entry = 1, .count = COUNT_SPRAY_PICK_BYTES},
     {"water.spray_list", AT(spray.list), VIRGA_USE_INDIRECT, DEVICE, .head = sizeof(virga_list_gpu), .entry = 4,
      .count = COUNT_SPRAY},
-    {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * sizeof(virga_water_splash_gpu),
-     .count = COUNT_SPRAY},
+    {"water.splashes", AT(spray.splashes), VIRGA_USE_STORAGE, DEVICE, .head = sizeof(virga_leavers_gpu),
+     .entry = 2 * sizeof(virga_leaver_gpu), .count = COUNT_SPRAY},
     {"water.spray_pieces", AT(spray.pieces), VIRGA_USE_STORAGE, DEVICE,
      .entry = 2 * VIRGA_WATER_PIECES * sizeof(virga_water_piece_gpu), .count = COUNT_SPRAY},
     {"water.spray_table", AT(spray.table), VIRGA_USE_STORAGE, DEVICE, .entry = 2 * 4, .count = COUNT_TABLE},
@@ -238,6 +240,7 @@ static const virga_binding_kind spray_bindings[] = {
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(spray.droplets)},      /* 14 */
     {STORAGE, COMPUTE, VIRGA_SOURCE_BUFFER, AT(surfels)},             /* 15 */
     {TEXELS, COMPUTE, VIRGA_SOURCE_TEXELS, AT(spray.droplets)},       /* 16 */
+    [WATER_BIND_HANDED] = {STORAGE, COMPUTE},                         /* 17 */
 };
 
 static const virga_effect_layout layouts[] = {
@@ -265,6 +268,7 @@ static const virga_effect_pass passes[] = {
     SURFACE(surfel_scan),
     SURFACE(edge_write),
     KERNEL(surfel_write, WATER_LAYOUT_SURFACE),
+    SPRAY(begin, begin),
     SPRAY(mark, mark),
     SPRAY(scan, scan),
     SPRAY(compact, compact),
@@ -370,4 +374,14 @@ void virga_water_densities(const virga_water *water, virga_water_buffer *densiti
 {
     if (densities)
         *densities = water ? whole_buffer(water, water->densities) : (virga_water_buffer){0};
+}
+
+void virga_water_leavers_get(const virga_water *water, virga_water_leavers *leavers)
+{
+    if (!leavers)
+        return;
+    *leavers = (virga_water_leavers){0};
+    if (water && water->base.contents)
+        *leavers = (virga_water_leavers){water->spray.splashes->buffer, water->spray.table->buffer,
+                                         water->spray.splashes->size, water->spray.table->size};
 }

@@ -29,7 +29,7 @@ typedef struct water_readback {
 enum { WATER_LAYOUT_GRID, WATER_LAYOUT_KERNELS, WATER_LAYOUT_SURFACE, WATER_LAYOUT_SPRAY, WATER_LAYOUT_DRAW };
 
 /* Bindings of the kernels' and the surface's passes that the effect binds itself. */
-enum { WATER_BIND_PARTICLES = 2 };
+enum { WATER_BIND_PARTICLES = 2, WATER_BIND_HANDED = 17 };
 
 #define WATER_KERNELS       2 /* virga_water_kernel */
 #define WATER_MAX_VIEWS     8 /* prepares in a frame */
@@ -61,7 +61,8 @@ typedef struct water_picture {
 typedef struct water_spray {
     virga_buffer *picks, *list, *splashes, *pieces, *table, *starts, *droplets;
     virga_bindings *bindings;
-    virga_pipeline *mark, *scan, *compact, *break_up, *fly, *starts_scan, *write, *write_pieces, *range, *surfel;
+    virga_pipeline *begin, *mark, *scan, *compact, *break_up, *fly, *starts_scan;
+    virga_pipeline *write, *write_pieces, *range, *surfel;
 } water_spray;
 
 struct virga_water {
@@ -75,10 +76,13 @@ struct virga_water {
     virga_buffer *state, *cell_marks, *picks, *block_insides, *blocks, *block_of, *fields, *block_starts, *densities,
         *shifts, *shapes, *centers, *surfels;
     water_spray spray;
-    uint32_t splash_half;  /* of the newest step that was no sub-frame */
-    bool spray_goes_on;    /* the newest step had spray */
-    uint32_t spray_serial; /* of that step */
-    double spray_time_s;   /* of that step */
+    /* Of the newest step that was no sub-frame. */
+    bool spray_goes_on;        /* it had spray */
+    uint32_t spray_serial;     /* number of the step */
+    double spray_time_s;       /* its time */
+    bool spray_hands_over;     /* states that go on may be of particles whose droplets were handed over */
+    uint32_t spray_first;      /* the first step whose states go on */
+    double spray_first_time_s; /* its time */
     virga_water_style spray_style;
     virga_ring step_ring;
     uint32_t step_particles[VIRGA_MAX_FRAMES_IN_FLIGHT]; /* of the steps in flight, for statistics */
@@ -96,7 +100,7 @@ void water_read_statistics(void *water, uint64_t frame, uint32_t ring_slot, uint
 uint32_t water_table_entries(const virga_water_def *def); /* of one half */
 bool water_has_spray(const virga_water *water);
 void water_spray_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out);
-void water_spray_clear(const virga_water *water, VkCommandBuffer cmd, uint32_t half);
+void water_spray_clear(const virga_water *water, VkCommandBuffer cmd);
 void water_spray_record(virga_water *water, VkCommandBuffer cmd);
 void water_spray_record_surfels(virga_water *water, VkCommandBuffer cmd);
 /* Volume of a particle (m^3), and the radius of surfels (m). */

@@ -22,13 +22,52 @@ bool water_has_spray(const virga_water *water)
     return water->settings.spray_density > 0;
 }
 
-/* The states are in two halves: this step's, and those of the last one. A sub-frame uses the older half as its own, and
- * does not turn them. */
+/* States go on from step to step as long as the time does. The halves of their buffers are chosen by the device, see
+ * shaders/water/spray/begin.comp. */
+static bool goes_on(const virga_water *water, double gap_s)
+{
+    return water->spray_goes_on && water->spray_style == water->settings.style && gap_s >= 0 && gap_s <= MAX_GAP_S;
+}
+
+static void fill_serials(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out)
+{
+    const double gap_s =
+        info->sub_frame ? fabs(info->time_s - water->spray_time_s) : info->time_s - water->spray_time_s;
+    const uint32_t serial = water->spray_serial + 1 ? water->spray_serial + 1 : 1;
+    const bool on = goes_on(water, gap_s), hands_over = out->hands_over;
+    out->serial = info->sub_frame ? 0 : serial;
+    out->serial_before = on ? water->spray_serial : 0;
+    out->serial_first = on ? water->spray_first : serial;
+    out->time_s = on ? (float)(info->time_s - water->spray_first_time_s) : 0;
+    out->gap_s = on ? (float)gap_s : 0;
+    out->looks_back = on && (hands_over || water->spray_hands_over);
+    if (info->sub_frame)
+        return;
+    if (!on) {
+        water->spray_first = serial;
+        water->spray_first_time_s = info->time_s;
+        water->spray_hands_over = false;
+    }
+    water->spray_hands_over |= hands_over;
+    water->spray_serial = serial;
+    water->spray_goes_on = water_has_spray(water);
+    water->spray_style = water->settings.style;
+    water->spray_time_s = info->time_s;
+}
+
+/* Particles of more than 4 litres are not handed over: their water does not fit into 32 bits. */
+static void fill_handing(const virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out)
+{
+    const double nl = 1e12 * water_particle_m3(&water->settings);
+    const bool fits = nl < 4e9;
+    out->volume_nl = fits ? (float)nl : 0;
+    out->hand_age_s = water->settings.hand_over_s;
+    out->hands_over = fits && info->handed && water->settings.hand_over && !info->sub_frame && water_has_spray(water);
+}
+
 void water_spray_fill(virga_water *water, const virga_water_step_info *info, virga_water_step_gpu *out)
 {
     const virga_water_settings *settings = &water->settings;
-    const double gap_s =
-        info->sub_frame ? fabs(info->time_s - water->spray_time_s) : info->time_s - water->spray_time_s;
     double ratio, factor, level;
     water_spray_kernel((double)settings->level, &ratio, &factor, &level);
     /* (physical) By degrees: a particle that leaves the water does not jump from one to the other. */
@@ -45,27 +84,15 @@ void water_spray_fill(virga_water *water, const virga_water_step_info *info, vir
     out->max_pieces = settings->spray_pieces;
     out->max_splashes = water->def.max_spray;
     out->max_droplets = water->def.max_droplets;
-    out->splash_half = water->splash_half ^ 1;
     out->splash_mask = water_table_entries(&water->def) - 1;
-    if (water->spray_goes_on && water->spray_style == settings->style && gap_s >= 0 && gap_s <= MAX_GAP_S)
-        out->serial_before = water->spray_serial;
-    out->serial = water->spray_serial + 1 ? water->spray_serial + 1 : 1;
-    out->gap_s = out->serial_before ? (float)gap_s : 0;
-    if (info->sub_frame)
-        return;
-    water->splash_half ^= 1;
-    water->spray_serial = out->serial;
-    water->spray_goes_on = water_has_spray(water);
-    water->spray_style = settings->style;
-    water->spray_time_s = info->time_s;
+    fill_handing(water, info, out);
+    fill_serials(water, info, out);
 }
 
-/* Empties the half of the table that this step fills, before the barrier at the start of its passes. */
-void water_spray_clear(const virga_water *water, VkCommandBuffer cmd, uint32_t half)
+/* Before the barrier at the start of the passes. */
+void water_spray_clear(const virga_water *water, VkCommandBuffer cmd)
 {
-    const VkDeviceSize bytes = (VkDeviceSize)water_table_entries(&water->def) * 4;
     const virga_context *context = water->base.context;
-    context->vk.CmdFillBuffer(cmd, water->spray.table->buffer, half * bytes, bytes, 0);
     context->vk.CmdFillBuffer(cmd, water->state->buffer, offsetof(virga_water_state_gpu, splashes), 4 * 4, 0);
 }
 
@@ -73,6 +100,8 @@ void water_spray_record(virga_water *water, VkCommandBuffer cmd)
 {
     virga_context *context = water->base.context;
     const VkBuffer list = water->spray.list->buffer;
+    const uint32_t entries = water_table_entries(&water->def);
+    virga_dispatch_and_barrier(context, cmd, water->spray.begin, (entries + VIRGA_WATER_LANES - 1) / VIRGA_WATER_LANES);
     virga_dispatch_indirect_and_barrier(context, cmd, water->spray.mark, water->grid.state->buffer,
                                         offsetof(virga_particle_grid_gpu, sorted_groups));
     virga_dispatch_and_barrier(context, cmd, water->spray.scan, 1);

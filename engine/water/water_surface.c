@@ -42,6 +42,8 @@ void water_read_statistics(void *object, uint64_t frame, uint32_t ring_slot, uin
                             .splashes_dropped = saturated_difference(read.state.splashes_wanted, read.state.splashes),
                             .droplets = read.state.droplets,
                             .droplets_dropped = saturated_difference(read.state.droplets_wanted, read.state.droplets),
+                            .handed_nl = (uint64_t)read.state.handed_nl[1] << 32 | read.state.handed_nl[0],
+                            .taken_back_nl = (uint64_t)read.state.taken_nl[1] << 32 | read.state.taken_nl[0],
                             .blocks = read.state.blocks,
                             .blocks_dropped = saturated_difference(read.state.blocks_wanted, read.state.blocks)};
 }
@@ -195,7 +197,9 @@ static virga_result check_step(const virga_water *water, VkCommandBuffer cmd, co
         return result;
     if (particles_check(context, info->particles, info->offset, info->count) ||
         virga_settings_check_positions(&context->log, "step_info.origin_m", info->origin_m, 3) ||
-        virga_settings_check_positions(&context->log, "step_info.time_s", &info->time_s, 1))
+        virga_settings_check_positions(&context->log, "step_info.time_s", &info->time_s, 1) ||
+        (info->handed && virga_host_list_check(context, "step_info.handed", info->handed_offset, info->handed_size,
+                                               sizeof(virga_handed_droplets_gpu))))
         return VIRGA_ERROR_INVALID;
     return virga_effect_ready(&water->base);
 }
@@ -206,7 +210,24 @@ static VkDescriptorSet write_set(virga_water *water, const virga_bindings *layou
     virga_bound bound[VIRGA_MAX_BINDINGS];
     virga_effect_bound(&water->base, layout, bound);
     bound[WATER_BIND_PARTICLES] = particles_bound(info->particles, info->offset, particles, water->surfels);
+    if (layout == water->spray.bindings)
+        bound[WATER_BIND_HANDED] =
+            info->handed
+                ? (virga_bound){.buffer = info->handed,
+                                .offset = info->handed_offset,
+                                .range = virga_host_list_range(water->base.context, info->handed_size, VK_WHOLE_SIZE)}
+                : (virga_bound){.buffer = water->surfels->buffer}; /* neither read nor written */
     return virga_bindings_write(water->base.context, (virga_bindings *)layout, 0, bound);
+}
+
+/* If the first frames are lost, the water is the first to read the list of droplets that are handed over. */
+static void first_contents(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
+{
+    if (info->handed)
+        water->base.first_head = (virga_bound){
+            .buffer = info->handed, .offset = info->handed_offset, .range = sizeof(virga_handed_droplets_gpu)};
+    virga_effect_first_contents(&water->base, cmd);
+    water->base.first_head = (virga_bound){0}; /* the host owns it */
 }
 
 virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const virga_water_step_info *info)
@@ -229,8 +250,8 @@ virga_result virga_water_step(virga_water *water, VkCommandBuffer cmd, const vir
     const step_set surface = {water->bindings, write_set(water, water->bindings, info, particles), offset};
     const step_set spray = {water->spray.bindings, write_set(water, water->spray.bindings, info, particles), offset};
     virga_effect_begin_step(&water->base, cmd);
-    virga_effect_first_contents(&water->base, cmd);
-    water_spray_clear(water, cmd, step.splash_half);
+    first_contents(water, cmd, info);
+    water_spray_clear(water, cmd);
     context->vk.CmdFillBuffer(cmd, water->densities->buffer, 0, VK_WHOLE_SIZE, 0);
     context->vk.CmdFillBuffer(cmd, water->cell_marks->buffer, 0, VK_WHOLE_SIZE, 0);
     const virga_pass_scope scope = virga_pass_begin(context, cmd, "water.grid");

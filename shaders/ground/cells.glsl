@@ -18,19 +18,13 @@ TEXELS(floor_texel, 21, 3)
 TEXELS(cell_texel, 22, 4)
 layout(scalar, set = 0, binding = 9) buffer Counts { virga_ground_count_gpu counts[]; };
 
-#define NO_CELL 0xffffffffu
-#define NO_GROUND 0xffu
-#define TILE_SHIFT 6
+#include "shared/ground_window.glsl"
 #define MAX_STEP_NL 300000000 // limit of height differences between neighbours, so that sums of five fit into an int
 
 // The index of a cell in the buffers; NO_CELL outside of the window.
 uint index_of_cell(ivec2 cell)
 {
-    const ivec2 tile = cell >> TILE_SHIFT;
-    const uvec2 inside = uvec2(tile - ivec2(tick.low_tile[0], tick.low_tile[1]));
-    const uvec2 slot = uvec2(tile) & (tick.tiles - 1u), local = uvec2(cell) & uint(VIRGA_GROUND_TILE - 1);
-    const uint cell_index = ((slot.y * tick.tiles + slot.x) << (2 * TILE_SHIFT)) | (local.y << TILE_SHIFT) | local.x;
-    return max(inside.x, inside.y) < tick.tiles ? cell_index : NO_CELL;
+    return window_cell_index(cell, ivec2(tick.low_tile[0], tick.low_tile[1]), tick.tiles);
 }
 
 // The cell of the world at an index.

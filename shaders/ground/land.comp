@@ -140,6 +140,11 @@ void main()
         count_water(VIRGA_GROUND_OFF_GROUND, elsewhere);
     if (flown > 0u)
         count_water(VIRGA_GROUND_FLOWN, flown);
-    if (head.is_return != 0u)
+    const bool spray = (impact.material & VIRGA_IMPACT_SPRAY) != 0u;
+    if (head.is_return != 0u && !spray)
         count_water(VIRGA_GROUND_RETURNED, impact.water_nl);
+    if (head.is_return != 0u && spray) { // none of it flies up again
+        count_water(VIRGA_GROUND_SPRAY, here);
+        count_water(VIRGA_GROUND_SPRAY_OFF, elsewhere);
+    }
 }

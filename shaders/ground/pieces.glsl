@@ -33,10 +33,12 @@ float above_base(float height_m)
 uint head_count() { return min(head.count, head.is_return != 0u ? tick.max_returned_droplets : tick.max_impacts); }
 
 // Whether an impact belongs to this tick. Returns (water that splashes give back) belong to the tick in which they
-// come.
+// come, but for those that have hit a pane.
 bool is_of_tick(uint index)
 {
-    return index < head_count() && (head.is_return != 0u || impacts[index].tick == tick.tick);
+    if (index >= head_count())
+        return false;
+    return head.is_return != 0u ? VIRGA_IMPACT_PANE(impacts[index].material) == 0u : impacts[index].tick == tick.tick;
 }
 
 // The index of an impact's landing: returns follow behind drops.

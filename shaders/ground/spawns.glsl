@@ -28,7 +28,8 @@ uint state_at(uint cell_index)
 
 uint material_at(uint cell_index, virga_impact_gpu impact)
 {
-    return cell_index == NO_CELL ? min(impact.material, VIRGA_GROUND_MATERIALS - 1u) : floor_of(cell_index).material;
+    const uint given = min(impact.material & 255u, VIRGA_GROUND_MATERIALS - 1u);
+    return cell_index == NO_CELL ? given : floor_of(cell_index).material;
 }
 
 // The first piece is where the drop hit the mesh, the others on the floors of their cells.

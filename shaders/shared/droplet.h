@@ -20,7 +20,8 @@ struct virga_droplet_gpu {
     float base[3];     /* m, foot of its pile: on the surface that it comes from and falls back on */
     uint slopes;       /* slope of that surface along x and z, rise over run; two half floats */
     uint kind;         /* bit fields, see VIRGA_DROPLET_... below */
-    /* id of the drop that it comes from. The droplet's own id is virga_hash2(id, VIRGA_DROPLET_NUMBER(kind)). */
+    /* id of the drop, or of the particle, that it comes from. The droplet's own id is
+     * virga_hash2(id, VIRGA_DROPLET_NUMBER(kind)). */
     uint id;
     uint water_nl;    /* nl */
     uint weight_free; /* two half floats: droplets that it represents in the picture; age when it left its pile (s) */
@@ -33,6 +34,8 @@ struct virga_droplet_gpu {
 #define VIRGA_DROPLET_INDEX(kind) (((kind) >> 16) & 255u) /* index among the droplets of its splash */
 /* index among all droplets of its drop, over all splashes of the drop */
 #define VIRGA_DROPLET_NUMBER(kind) (((kind) >> 16) & 8191u)
+#define VIRGA_DROPLET_SPRAY        0x00000800u /* it comes from water that was simulated, see handed_droplet.h */
+#define VIRGA_DROPLET_PANE(kind)   (((kind) >> 12) & 15u) /* 1 + number of the pane that it has hit; 0: none */
 #define VIRGA_DROPLET_ALIVE        0x80000000u
 #define VIRGA_DROPLET_FREE         0x40000000u /* it has left its pile */
 #define VIRGA_DROPLET_FALLEN       0x20000000u /* it has landed; its water will be returned to the ground */

@@ -135,17 +135,19 @@ struct virga_ground_count_gpu {
 #define VIRGA_GROUND_INFILTRATED    2
 #define VIRGA_GROUND_RUN_OFF        3 /* into drains */
 #define VIRGA_GROUND_EVAPORATED     4
-#define VIRGA_GROUND_EVICTED        5 /* with cached tiles that were discarded because the cache was full */
-#define VIRGA_GROUND_STARTED        6 /* initial water of new cells */
-#define VIRGA_GROUND_FLOWN          7 /* flew up in splashes */
-#define VIRGA_GROUND_RETURNED       8 /* part of FLOWN that fell back */
-#define VIRGA_GROUND_FIRST_MEASURED 9
-#define VIRGA_GROUND_FILM           9  /* free water of wet and dry cells */
-#define VIRGA_GROUND_PUDDLES        10 /* free water of puddles */
-#define VIRGA_GROUND_HELD           11 /* in pores */
-#define VIRGA_GROUND_CACHED         12 /* all water of cached tiles, which are outside the window */
-#define VIRGA_GROUND_CELLS          13 /* number of cells by state: VIRGA_GROUND_STATES counts */
-#define VIRGA_GROUND_COUNTS         19
+#define VIRGA_GROUND_EVICTED        5  /* with cached tiles that were discarded because the cache was full */
+#define VIRGA_GROUND_STARTED        6  /* initial water of new cells */
+#define VIRGA_GROUND_FLOWN          7  /* flew up in splashes */
+#define VIRGA_GROUND_RETURNED       8  /* part of FLOWN that fell back */
+#define VIRGA_GROUND_SPRAY          9  /* part of LANDED that is spray of simulated water */
+#define VIRGA_GROUND_SPRAY_OFF      10 /* part of OFF_GROUND that is */
+#define VIRGA_GROUND_FIRST_MEASURED 11
+#define VIRGA_GROUND_FILM           11 /* free water of wet and dry cells */
+#define VIRGA_GROUND_PUDDLES        12 /* free water of puddles */
+#define VIRGA_GROUND_HELD           13 /* in pores */
+#define VIRGA_GROUND_CACHED         14 /* all water of cached tiles, which are outside the window */
+#define VIRGA_GROUND_CELLS          15 /* number of cells by state: VIRGA_GROUND_STATES counts */
+#define VIRGA_GROUND_COUNTS         21
 
 #ifndef VIRGA_GLSL
 VIRGA_ASSERT_SIZE(virga_arrivals_gpu, 8);

@@ -19,10 +19,17 @@ struct virga_impact_gpu {
     float normal[3];   /* of the surface, unit length, towards the side that the drop came from */
     float weight;      /* > 0, number of drops that this one represents */
     uint id;           /* of the drop; its streak and its entry in the list of drops have the same id */
-    uint material;     /* [0; 255], of the surface, as given with its occluder */
-    uint water_nl;     /* nl (1e-9 l), of all drops that it represents; rounded so that sums are unbiased */
-    uint tick;         /* tick of the impact, counted from creation (low 32 bits) */
+    /* [0; 255], of the surface, as given with its occluder. (returns) With VIRGA_IMPACT_SPRAY where it comes from water
+     * that was simulated. */
+    uint material;
+    uint water_nl; /* nl (1e-9 l), of all drops that it represents; rounded so that sums are unbiased */
+    uint tick;     /* tick of the impact, counted from creation (low 32 bits) */
 };
+
+#define VIRGA_IMPACT_SPRAY 0x100u
+/* (returns) 1 + number of the pane that it has hit; 0: it falls on the ground. Ground leaves those of panes out. */
+#define VIRGA_IMPACT_PANE(material)  ((material) >> 16)
+#define VIRGA_IMPACT_ON_PANE(number) (((number) + 1u) << 16)
 
 /* Head of the impact buffer, 64 bytes. The impacts follow. */
 struct virga_impacts_gpu {

@@ -8,6 +8,7 @@
 
 #ifndef VIRGA_GLSL
 #define uint virga_uint
+typedef struct virga_splash_pane_gpu virga_splash_pane_gpu;
 typedef struct virga_splash_tick_gpu virga_splash_tick_gpu;
 typedef struct virga_splash_count_gpu virga_splash_count_gpu;
 typedef struct virga_splash_state_gpu virga_splash_state_gpu;
@@ -27,6 +28,7 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #define VIRGA_SPLASH_SINGLE_GROUP_DROPLETS 512
 #define VIRGA_SPLASH_MAX_COUNT             64 /* droplets per splash */
 #define VIRGA_SPLASH_MATERIALS             32
+#define VIRGA_SPLASH_PANES                 8 /* that droplets may hit */
 
 /* Flags of a view's passes, their specialisation constant 0. They are not branches, because software Vulkan runs every
  * invocation through what a branch would skip. The culling passes use the first bit only. */
@@ -38,6 +40,18 @@ typedef struct virga_splash_prepared_gpu virga_splash_prepared_gpu;
 #define VIRGA_SPLASH_SPRITES_LINES 2 /* droplets as line primitives instead of quads of two triangles */
 #define VIRGA_SPLASH_SPRITES_PUFFS 4 /* puffs only; without it: everything else */
 #define VIRGA_SPLASH_FORMS         4
+
+/* A pane that droplets may hit, as it is at the end of a tick. */
+struct virga_splash_pane_gpu {
+    float corner[3];  /* m, relative to the anchor */
+    float width_m;    /* along along_u */
+    float along_u[3]; /* unit length */
+    float height_m;   /* along along_v */
+    float along_v[3];
+    float pad;
+    float velocity[3]; /* m/s */
+    float pad_too;
+};
 
 /* Parameters of all passes of a tick. */
 struct virga_splash_tick_gpu {
@@ -55,6 +69,18 @@ struct virga_splash_tick_gpu {
     uint max_splashes; /* a power of two */
     uint max_droplets;
     uint max_returned_droplets;
+    /* Droplets that water hands over. */
+    uint max_handed;        /* in a step; 0: there is no list */
+    float handed_offset[3]; /* m, from the anchor to the origin of their positions */
+    float handed_late_s;    /* s, how much later than the end of the newest tick they are where the list says */
+    /* The ground that they fall on: its floors, see ground_cell.h and ground_window.glsl. */
+    uint tiles;      /* along a side of the window; 0: there is no ground */
+    int low_tile[2]; /* low corner of the window, in tiles */
+    float low[2];    /* m, the same corner, relative to the anchor */
+    float inv_cell_m;
+    float base; /* m, height from which floors count, relative to the anchor */
+    uint pane_count;
+    virga_splash_pane_gpu panes[VIRGA_SPLASH_PANES];
 };
 
 /* A 64-bit count. */
@@ -70,8 +96,13 @@ struct virga_splash_count_gpu {
 #define VIRGA_SPLASH_FLOWN            2 /* nl that flew up */
 #define VIRGA_SPLASH_RETURNED         3 /* nl of it that returned */
 #define VIRGA_SPLASH_WITHOUT_DROPLETS 4
-#define VIRGA_SPLASH_BY_MODEL         5
-#define VIRGA_SPLASH_COUNTS           165
+/* Of spray (nl): taken over from water; taken back by it; returned to the ground; given to panes. */
+#define VIRGA_SPLASH_SPRAY_IN       5
+#define VIRGA_SPLASH_SPRAY_BACK     6
+#define VIRGA_SPLASH_SPRAY_RETURNED 7
+#define VIRGA_SPLASH_SPRAY_PANES    8
+#define VIRGA_SPLASH_BY_MODEL       9
+#define VIRGA_SPLASH_COUNTS         169
 
 /* State of splashes and droplets. Splashes are in a ring buffer: splash numbers increase forever (modulo 2^32), and the
  * slot is the number modulo the buffer's size. Droplets are contiguous, the oldest first. A tick copies those that stay
@@ -99,7 +130,7 @@ struct virga_splash_state_gpu {
     /* of a dispatch over everything that a view may show: droplets as lines, other droplets, piles, splashes */
     uint sprite_groups[3];
     uint view_groups[3]; /* the same, over droplets only */
-    virga_splash_count_gpu counts[165];
+    virga_splash_count_gpu counts[169];
 };
 
 /* Parameters of a view's passes, in addition to virga_view_gpu. */
@@ -172,7 +203,8 @@ struct virga_splash_prepared_gpu {
 VIRGA_ASSERT_SIZE(virga_splash_look_gpu, 48);
 VIRGA_ASSERT_SIZE(virga_sprite_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_prepared_gpu, 124);
-VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 80);
+VIRGA_ASSERT_SIZE(virga_splash_tick_gpu, 132 + 64 * VIRGA_SPLASH_PANES);
+VIRGA_ASSERT_SIZE(virga_splash_pane_gpu, 64);
 VIRGA_ASSERT_SIZE(virga_splash_state_gpu, 148 + 8 * VIRGA_SPLASH_COUNTS);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, droplet_groups, 36);
 VIRGA_ASSERT_OFFSET(virga_splash_state_gpu, splash_groups, 48);

@@ -2,13 +2,13 @@
 #ifndef VIRGA_SHARED_WATER_GPU_H
 #define VIRGA_SHARED_WATER_GPU_H
 
+#include "leaver.h"
 #include "particle_grid.h"
 
 #ifndef VIRGA_GLSL
 #define uint virga_uint
 typedef struct virga_water_step_gpu virga_water_step_gpu;
 typedef struct virga_water_state_gpu virga_water_state_gpu;
-typedef struct virga_water_splash_gpu virga_water_splash_gpu;
 typedef struct virga_water_piece_gpu virga_water_piece_gpu;
 #endif
 
@@ -63,14 +63,20 @@ struct virga_water_step_gpu {
     uint max_pieces;      /* droplets of a particle at most */
     uint max_splashes;    /* splash particles at most */
     uint max_droplets;
-    uint splash_half;   /* half of the buffers that this step writes: 0 or 1. The last step wrote the other */
     uint splash_mask;   /* entries of the table of ids - 1 */
-    uint serial;        /* of this step */
-    uint serial_before; /* of the step whose states go on; 0: none */
+    uint serial;        /* of this step; 0: a sub-frame, whose states do not go on */
+    uint serial_before; /* of the step before; 0: no states go on */
+    uint serial_first;  /* states of this step and of later ones go on */
+    float time_s;       /* s, since step serial_first */
     /* Droplets on orbits, see shaders/water/spray/fly.comp. */
-    float gap_s;      /* time since the last step */
+    float gap_s;      /* s, since step serial_before */
     float turbulence; /* part of its speed with which the pieces of a particle fly apart */
     float spacing;    /* m, of particles */
+    /* Droplets that are handed over, see shaders/water/spray/leaver.glsl. */
+    uint hands_over;  /* 1: there is a list for them */
+    uint looks_back;  /* 1: a step may have handed droplets over */
+    float hand_age_s; /* s, since the particle left the water, from which on it is handed over */
+    float volume_nl;  /* nl, of a particle */
 };
 
 /* Written by the passes of a step; read back as statistics. */
@@ -90,18 +96,12 @@ struct virga_water_state_gpu {
     uint first_spray_surfel;
     uint spray_surfels;
     uint spray_surfel_groups[3]; /* an invocation for each of them */
-    uint splash_serials[2];      /* the step that has written each half of the splash particles; 0: none */
-};
-
-/* State of a splash particle, from frame to frame. */
-struct virga_water_splash_gpu {
-    uint id;         /* of the particle */
-    float max_speed; /* m/s, since it became a splash particle */
-    float age;       /* s */
-    uint pieces;     /* droplets */
-    /* (physical) */
-    float velocity[3]; /* m/s, of the particle */
-    uint pad;
+    uint splash_half;            /* half of the splash particles that this step writes: 0 or 1 */
+    uint splash_serials[2];      /* the step that has written each half; 0: none */
+    float splash_times[2];       /* s, its time */
+    /* Counts of 64 bits (nl), since creation: low words, then high words. */
+    uint handed_nl[2]; /* handed over */
+    uint taken_nl[2];  /* taken back: in the air when its particle fell back into the water */
 };
 
 /* A droplet of a splash particle, from frame to frame. */
@@ -113,11 +113,10 @@ struct virga_water_piece_gpu {
 };
 
 #ifndef VIRGA_GLSL
-VIRGA_ASSERT_SIZE(virga_water_splash_gpu, 32);
 VIRGA_ASSERT_SIZE(virga_water_piece_gpu, 32);
-VIRGA_ASSERT_SIZE(virga_water_step_gpu, 144);
+VIRGA_ASSERT_SIZE(virga_water_step_gpu, 164);
 VIRGA_ASSERT_OFFSET(virga_water_step_gpu, max_blocks, sizeof(virga_particle_step_gpu));
-VIRGA_ASSERT_SIZE(virga_water_state_gpu, 108);
+VIRGA_ASSERT_SIZE(virga_water_state_gpu, 136);
 #undef uint
 #endif
 

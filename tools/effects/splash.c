@@ -241,6 +241,21 @@ static void write_materials(jsonl *stats, uint32_t model, const uint64_t counts[
     jsonl_end(stats);
 }
 
+/* Water that simulated water has handed over: taken_back + returned + panes + in_air, to the last nanolitre. What is
+ * returned has landed on the ground or beside it (spray and spray_off_ground of water_ul), or does so in the next
+ * step. */
+static void write_spray(const virga_splash_stats *now, jsonl *stats)
+{
+    const uint64_t in_air_nl = now->spray_nl - now->spray_back_nl - now->spray_returned_nl - now->spray_panes_nl;
+    jsonl_begin_object(stats, "spray_ul");
+    jsonl_number(stats, "handed_over", (double)now->spray_nl * 1e-3);
+    jsonl_number(stats, "taken_back", (double)now->spray_back_nl * 1e-3);
+    jsonl_number(stats, "returned", (double)now->spray_returned_nl * 1e-3);
+    jsonl_number(stats, "panes", (double)now->spray_panes_nl * 1e-3);
+    jsonl_number(stats, "in_air", (double)in_air_nl * 1e-3);
+    jsonl_end(stats);
+}
+
 static void write_stats(shot *s, void *state, jsonl *stats)
 {
     const splash_state *p = state;
@@ -260,6 +275,7 @@ static void write_stats(shot *s, void *state, jsonl *stats)
     jsonl_uint64(stats, "fallen", now.fallen);
     jsonl_uint64(stats, "splashes_without_droplets", now.splashes_without_droplets);
     jsonl_uint64(stats, "sprites", now.sprites);
+    write_spray(&now, stats);
     jsonl_end(stats);
 }
 
@@ -288,7 +304,8 @@ static uint64_t water_nl(const void *state)
 {
     virga_splash_stats stats;
     virga_splash_stats_get(((const splash_state *)state)->splash, &stats);
-    return stats.flown_nl - stats.returned_nl;
+    return stats.flown_nl - stats.returned_nl + stats.spray_nl - stats.spray_back_nl - stats.spray_returned_nl -
+           stats.spray_panes_nl;
 }
 
 /* ---- the effect ----------------------------------------------------------------------------------------------- */

@@ -45,6 +45,9 @@ static const scene_row water_rows[] = {
     WHOLE(scene_water, spray_pieces, 1, 32, "25", LIVE, "droplets that a particle becomes at most"),
     NUMBER(scene_water, spray_speed_m_s, 0.01, 1000, "4", LIVE, "speed at which it becomes so many"),
     NUMBER(scene_water, spray_pattern, 0, 4, "1.25", LIVE, "radius of the ball that they are in, in spacings"),
+    SWITCH(scene_water, hand_over, "true", LIVE,
+           "spray flies on as droplets of splashes, and wets what it hits; needs splash.on"),
+    NUMBER(scene_water, hand_over_s, 0, 10, "0.1", LIVE, "time after which spray is handed over"),
     NUMBER(scene_water, absorption_1_m, 0, 1000, "[0.29, 0.056, 0.0103]", LIVE,
            "of light in the water (red, green, blue); that of pure water if left out"),
     NUMBER(scene_water, scattering_1_m, 0, 1000, "[0, 0, 0]", LIVE,
@@ -208,6 +211,8 @@ static bool apply(shot *s, void *state, double time_s, char *error, size_t error
     settings.spray_pieces = from->spray_pieces;
     settings.spray_speed_m_s = (float)from->spray_speed_m_s;
     settings.spray_pattern = (float)from->spray_pattern;
+    settings.hand_over = from->hand_over;
+    settings.hand_over_s = (float)from->hand_over_s;
     settings.kernel = (virga_water_kernel)from->kernel;
     settings.smoothing = (float)from->smoothing;
     settings.stretch = (float)from->stretch;

@@ -28,6 +28,8 @@ typedef struct scene_water {
     uint32_t kernel; /* scene_water_kernel */
     double smoothing, stretch;
     double spray_density, spray_speed_m_s, spray_pattern;
+    bool hand_over;
+    double hand_over_s;
     uint32_t spray_pieces;
     double absorption_1_m[3], scattering_1_m[3];
     double reflection, refraction, surfel_radius, soft_m, light_gain;

@@ -340,6 +340,9 @@ typedef struct virga_ground_stats {
     /* Flown up in splashes, and fallen back. The difference is in the air. */
     uint64_t flown_nl, returned_nl;
 
+    /* Spray of simulated water that fell on cells, and that fell elsewhere: parts of landed_nl and off_ground_nl. */
+    uint64_t spray_nl, spray_off_ground_nl;
+
     /* Gone: sunk in, run into drains, evaporated, dropped with tiles. */
     uint64_t infiltrated_nl, run_off_nl, evaporated_nl, evicted_nl;
 

@@ -27,8 +27,11 @@
 
 #include <virga/light.h>
 #include <virga/shared/droplet.h>
+#include <virga/shared/ground_cell.h>
 #include <virga/shared/ground_limits.h>
+#include <virga/shared/handed_droplet.h>
 #include <virga/shared/impact.h>
+#include <virga/shared/leaver.h>
 #include <virga/shared/spawn.h>
 #include <virga/shared/splash_rule.h>
 #include <virga/vulkan.h>
@@ -40,6 +43,7 @@ extern "C" {
 typedef struct virga_splash virga_splash; /* opaque */
 
 #define VIRGA_SPLASH_MAX_VIEWS 4 /* prepares in a frame */
+#define VIRGA_SPLASH_MAX_PANES 8 /* that spray may hit */
 
 typedef struct virga_splash_def {
     uint32_t size, cookie;
@@ -59,6 +63,10 @@ typedef struct virga_splash_def {
     /* [max_spawns; 4194240] droplets that may fall back in one step, 64 bytes each; further ones wait in the air for
      * the next step. The ground's must be as large. Default 131072. */
     uint32_t max_returned_droplets;
+
+    /* [0; 1048576] droplets that water may hand over in a step, 48 bytes each. 0: there is no list for them. Default
+     * 0. */
+    uint32_t max_handed;
 
     /* [1; 64] the same as the rain's. Default 16. */
     uint32_t max_ticks_per_step;
@@ -195,6 +203,29 @@ VIRGA_API void virga_splash_rules(virga_splash *splash, virga_splash_buffer *rul
  * before the first step. */
 VIRGA_API void virga_splash_returned_droplets(const virga_splash *splash, virga_splash_buffer *returned_droplets);
 
+/* Reads where droplets are taken over from simulated water, for virga_water_step_info.handed or a host's own spray: a
+ * virga_handed_droplets_gpu, then def.max_handed x virga_handed_droplet_gpu. Splash takes and empties the list in each
+ * step, also in one without ticks. `buffer` is VK_NULL_HANDLE without def.max_handed. Costs nothing. */
+VIRGA_API void virga_splash_handed(const virga_splash *splash, virga_splash_buffer *handed);
+
+/* The ground that spray falls on: what virga_ground_cells_get and virga_ground_maps_get say, after the ground's step.
+ */
+typedef struct virga_splash_floors {
+    VkBuffer floors;     /* virga_floor_gpu of all cells. VK_NULL_HANDLE: there is no ground */
+    uint32_t tiles;      /* of 64 x 64 cells along a side of the window, a power of two */
+    int32_t low_tile[2]; /* first tile of the window in x and z */
+    float cell_m;        /* [0.01; 0.1] side of a cell */
+    float base_m;        /* height in the world of height 0 of floors */
+} virga_splash_floors;
+
+/* A pane that spray may hit: a rectangle, as it is at the end of the step. */
+typedef struct virga_splash_pane {
+    double corner_m[3];           /* [-1e9; 1e9] in the world */
+    float along_u[3], along_v[3]; /* unit vectors along its sides */
+    float width_m, height_m;      /* lengths of the sides */
+    float velocity_m_s[3];        /* [-1000; 1000] */
+} virga_splash_pane;
+
 /* Arguments of one step. */
 typedef struct virga_splash_step_info {
     /* Positions are kept relative to an anchor near it. */
@@ -217,6 +248,25 @@ typedef struct virga_splash_step_info {
 
     /* [-1000; 1000] wind where the splashes are. Clamped, logged, VIRGA_DEGRADED. */
     float wind_m_s[3];
+
+    /* (optional) The rest is for droplets that water hands over, see virga_splash_handed. [-1e9; 1e9] position in the
+     * world that theirs are relative to. */
+    double handed_origin_m[3];
+
+    /* [0; 1] how much later than the end of the newest tick they are where the list says (s): the part of a tick that
+     * has not run yet. */
+    float handed_late_s;
+
+    /* (optional) As virga_water_leavers_get returns them. The droplets of those that have fallen back into the water
+     * end. VK_NULL_HANDLE: none have. */
+    VkBuffer leavers, leaver_table;
+
+    /* (optional) Without ground they fall for three seconds, and are then off the ground. */
+    virga_splash_floors floors;
+
+    /* (optional) At most VIRGA_SPLASH_MAX_PANES. What hits them is given to them by virga_splash_give_hits. */
+    const virga_splash_pane *panes;
+    uint32_t pane_count;
 } virga_splash_step_info;
 
 /* Starts the splashes of the spawns, moves droplets, and collects the water of those that fell. Outside rendering. The
@@ -261,6 +311,10 @@ typedef struct virga_splash_stats {
 
     /* Water that flew up and that fell back. The difference is in the air. */
     uint64_t flown_nl, returned_nl;
+
+    /* Spray, which is not part of those two: water that was taken over, that was the water's again because its particle
+     * fell back, that fell on the ground or beside it, and that was given to panes. What is left is in the air. */
+    uint64_t spray_nl, spray_back_nl, spray_returned_nl, spray_panes_nl;
 
     /* At the newest tick. splashes_alive: slots from the oldest live splash on. */
     uint32_t splashes_alive, droplets_alive;

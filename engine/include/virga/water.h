@@ -28,6 +28,8 @@
 #define VIRGA_WATER_H
 
 #include <virga/light.h>
+#include <virga/shared/handed_droplet.h>
+#include <virga/shared/leaver.h>
 #include <virga/shared/particle.h>
 #include <virga/shared/spray.h>
 #include <virga/shared/surfel.h>
@@ -152,6 +154,15 @@ typedef struct virga_water_settings {
      * speed u (the critical Weber number of Hinze 1955). At 0 the particle becomes one drop. Default 0.1. */
     float spray_turbulence;
 
+    /* true: the droplets of a particle that has left the water are handed over: they fly on as droplets of splashes,
+     * wet what they hit, and are drawn there. This needs a list for them (virga_water_step_info.handed), which a scene
+     * with splashes has. false: they are drawn by the water, follow the particles, and wet nothing. Default true. */
+    bool hand_over;
+
+    /* [0; 10] time since a particle has left the water (s) from which on its droplets are handed over, once for each
+     * particle that leaves. Until then it may fall back as it was. Default 0.1. */
+    float hand_over_s;
+
     /* ---- how it is drawn */
 
     /* [0; 1000] absorption of light (1/m; red, green, blue). Water of a path of x m lets exp(-x absorption) through.
@@ -230,6 +241,15 @@ typedef struct virga_water_step_info {
     /* true: another time of a frame that was stepped already, e.g. for motion blur. Splash particles are what they were
      * in the last step without it, and later steps do not see this one. Default false. */
     bool sub_frame;
+
+    /* (optional) The list of droplets that are handed over: a virga_handed_droplets_gpu and the droplets after it, as
+     * virga_splash_handed returns it; a storage buffer, ready to be read and written by compute shaders. NULL: none are
+     * handed over. Not used with `sub_frame`. */
+    VkBuffer handed;
+
+    /* A multiple of the device's minStorageBufferOffsetAlignment and of 4; and bytes from there, 0: all of the buffer.
+     */
+    VkDeviceSize handed_offset, handed_size;
 } virga_water_step_info;
 
 /* Builds the surface of the particles. Outside rendering, at most once per frame. The buffer is read when the device
@@ -284,6 +304,17 @@ VIRGA_API void virga_water_spray(const virga_water *water, virga_water_buffer *d
  * the water, 0 stands for particles outside the grid. Ready to be read by transfers and compute shaders. */
 VIRGA_API void virga_water_densities(const virga_water *water, virga_water_buffer *densities);
 
+/* The particles that have left the water, for virga_splash_step_info and for simulations. */
+typedef struct virga_water_leavers {
+    VkBuffer leavers;              /* a virga_leavers_gpu, and twice def.max_spray x virga_leaver_gpu */
+    VkBuffer table;                /* words, see virga/shared/leaver.h */
+    VkDeviceSize size, table_size; /* bytes of the two, from their start */
+} virga_water_leavers;
+
+/* Reads where they are, as the newest step without `sub_frame` left them. Ready to be read and written by compute
+ * shaders. All zero before the first step. */
+VIRGA_API void virga_water_leavers_get(const virga_water *water, virga_water_leavers *leavers);
+
 /* The newest statistics of completed frames. */
 typedef struct virga_water_stats {
     /* 0: none yet. */
@@ -301,6 +332,10 @@ typedef struct virga_water_stats {
 
     /* Cells that the surface may run through, and those of them for which there was no room. */
     uint32_t blocks, blocks_dropped;
+
+    /* Water that was handed over since creation, and the part of it that is the particles' again: they fell back into
+     * the water while their droplets were in the air (nl). */
+    uint64_t handed_nl, taken_back_nl;
 } virga_water_stats;
 
 VIRGA_API void virga_water_stats_get(virga_water *water, virga_water_stats *stats);

@@ -99,7 +99,8 @@ Sprite pile_sprite(virga_droplet_gpu droplet, float ago_s)
     const bool crown = VIRGA_DROPLET_MODEL(droplet.kind) == VIRGA_SPLASH_CROWN_CONE;
     const bool finger = is_upright(droplet) ||
                         (!crown && (!is_film() || look.physical == 0u || VIRGA_DROPLET_INDEX(droplet.kind) % 3u == 0u));
-    const bool visible = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && finger && max(now_m, before_m) > 1e-5;
+    const bool visible = (droplet.kind & VIRGA_DROPLET_ALIVE) != 0u && (droplet.kind & VIRGA_DROPLET_SPRAY) == 0u &&
+                         finger && max(now_m, before_m) > 1e-5;
     sprite.weight = visible ? droplet_weight(droplet) : 0.0;
     sprite.id = droplet.id;
     return sprite;

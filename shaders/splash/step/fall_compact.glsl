@@ -18,7 +18,12 @@ void compact_droplet(uint slot, virga_droplet_gpu droplet, uint first, uint room
             staying[texel + i] = texels[i];
         return;
     }
-    write_return(first + fallen, to_vec(droplet.position), to_vec(droplet.velocity), droplet.diameter_m, droplet.id,
-                 VIRGA_DROPLET_MATERIAL(droplet.kind), droplet.water_nl);
-    count(VIRGA_SPLASH_RETURNED, droplet.water_nl);
+    const bool spray = (droplet.kind & VIRGA_DROPLET_SPRAY) != 0u;
+    const uint pane = VIRGA_DROPLET_PANE(droplet.kind);
+    const float diameter = droplet.water_nl > 0u ? droplet.diameter_m : 0.0; // without water it leaves no trace
+    write_return(first + fallen, to_vec(droplet.position), to_vec(droplet.velocity), diameter, droplet.id,
+                 VIRGA_DROPLET_MATERIAL(droplet.kind) | (spray ? VIRGA_IMPACT_SPRAY | pane << 16 : 0u),
+                 droplet.water_nl);
+    if (pane == 0u) // those of panes are counted when they are given to them
+        count(spray ? VIRGA_SPLASH_SPRAY_RETURNED : VIRGA_SPLASH_RETURNED, droplet.water_nl);
 }

@@ -14,12 +14,11 @@
 #include "fall_compact.glsl"
 #define STEP_WORDS (VIRGA_SPLASH_SINGLE_GROUP_DROPLETS / 32)
 #include "fly.glsl"
+#include "view_groups.glsl"
 #define SCAN_LANES VIRGA_SPLASH_LANES
 #include "gpu/group_scan.glsl"
 
 layout(local_size_x = VIRGA_SPLASH_LANES) in;
-
-#define FEW_GROUPS 8u // up to this many workgroups, one dispatch marks both droplets and splashes
 
 // The spawns of the step's later ticks, which are at the end. Each may find no room in the air and return its water at
 // once.
@@ -84,13 +83,7 @@ void main()
     state.returns = returned + fallen;
     state.staying = all.y - fallen;
     state.fall_groups = state.droplet_groups;
-    state.view_groups = ring_groups(0u, all.y - fallen);
-    state.sprite_groups = uint[3](3u * state.view_groups[0] + state.splash_groups[0], 1u, 1u);
-    const uint max_groups = max(state.view_groups[0], state.splash_groups[0]);
-    const bool both = max_groups <= FEW_GROUPS;
-    state.find_groups = uint[3](both ? max_groups : 0u, 1u, 1u);
-    state.find_droplet_groups = uint[3](both ? 0u : state.view_groups[0], 1u, 1u);
-    state.find_splash_groups = uint[3](both ? 0u : state.splash_groups[0], 1u, 1u);
+    set_view_groups(all.y - fallen);
     count(VIRGA_SPLASH_FALLEN, fallen);
     returns_head.count = returned + fallen;
     returns_head.dropped = 0u;

@@ -3,6 +3,9 @@
 #define MAX_PARTS 4   // max parts of a tick
 #define MAX_AGE_S 3.0 // older droplets are blown away: their water counts as fallen where they are
 
+#include "floors.glsl"
+#include "panes.glsl"
+
 shared uint fallen_bits[STEP_WORDS], alive_bits[STEP_WORDS];
 
 bool is_cone(virga_droplet_gpu droplet)
@@ -25,9 +28,13 @@ float leaves_pile(virga_droplet_gpu droplet, vec3 from, vec3 to, float before_s,
     return max(min(by_time, by_way), 0.0);
 }
 
-// Height above the surface that the droplet came from.
+bool is_spray(virga_droplet_gpu droplet) { return (droplet.kind & VIRGA_DROPLET_SPRAY) != 0u; }
+
+// Height above the surface that the droplet came from, or that spray falls on.
 float height_above(virga_droplet_gpu droplet, vec3 position)
 {
+    if (is_spray(droplet))
+        return height_above_floor(position);
     const vec3 base = to_vec(droplet.base);
     return position.y - base.y - dot(unpackHalf2x16(droplet.slopes), position.xz - base.xz);
 }
@@ -37,6 +44,19 @@ int parts_of(virga_droplet_gpu droplet, float against_air, float time_s)
 {
     const float by_drag = ceil(12.0 * drag_rate(droplet.diameter_m, against_air) * time_s);
     return (droplet.kind & VIRGA_DROPLET_FREE) == 0u ? MAX_PARTS : int(clamp(by_drag, 1.0, float(MAX_PARTS)));
+}
+
+// A droplet on a pane has the position of its hit there, and is not drawn any more.
+bool land_on_pane(inout virga_droplet_gpu droplet, vec3 from, vec3 to, float left_s, float part_s)
+{
+    vec2 hit = vec2(0.0);
+    const uint pane = pane_hit(from, to, left_s, part_s, hit);
+    if (pane == 0u)
+        return false;
+    droplet.kind |= pane << 12 | VIRGA_DROPLET_FALLEN;
+    droplet.position = float[3](hit.x, hit.y, 0.0);
+    droplet.weight_free = 0u;
+    return true;
 }
 
 void move(inout virga_droplet_gpu droplet, float time_s)
@@ -57,6 +77,9 @@ void move(inout virga_droplet_gpu droplet, float time_s)
             }
         }
         age += part_s;
+        const float left_s = time_s - float(i) * part_s;
+        if (is_spray(droplet) && land_on_pane(droplet, from, position, left_s, part_s))
+            return;
         const float above = height_above(droplet, position), above_before = height_above(droplet, from);
         if (above < 0.0 && above < above_before) {
             position = mix(position, from, clamp(above / min(above - above_before, -1e-9), 0.0, 1.0));

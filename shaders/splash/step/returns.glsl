@@ -7,6 +7,7 @@ layout(scalar, set = 0, binding = 9) writeonly buffer Returns
     uvec4 returns[]; // four texels per virga_impact_gpu
 };
 
+// `material`: of the impact, with VIRGA_IMPACT_SPRAY and the pane.
 void write_return(uint index, vec3 position, vec3 velocity, float diameter_m, uint id, uint material, uint water_nl)
 {
     returns[4u * index] = uvec4(floatBitsToUint(position), 0u); // its time

@@ -10,13 +10,15 @@
 // VIRGA_WATER_SPRAY_REACH spacings. Pieces that the air stream tears break in two.
 //
 // One invocation per splash particle. Reads: the list, particles, densities, the last frame's splashes and pieces.
-// Writes: splashes, pieces, table, droplet_starts (counts).
+// Writes: splashes, pieces, table.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "spray.glsl"
 #include "list.glsl"
 #include "table.glsl"
+#include "enter.glsl"
+#include "leaver.glsl"
 #include "pieces.glsl"
 #include "pattern.glsl"
 #include "air.glsl"
@@ -55,10 +57,10 @@ uint break_up(uint splash, uint id, vec3 velocity, float volume)
 }
 
 // Moves a piece over the time since the last step, while the particle's velocity goes from `from` to `to`.
-virga_water_piece_gpu flown(virga_water_piece_gpu piece, vec3 from, vec3 to, float diameter)
+virga_water_piece_gpu flown(virga_water_piece_gpu piece, vec3 from, vec3 to, float diameter, float gap)
 {
-    const uint steps = clamp(uint(ceil(frame.gap_s * STEPS_PER_S)), 1u, 128u);
-    const float step_s = frame.gap_s / float(steps);
+    const uint steps = clamp(uint(ceil(gap * STEPS_PER_S)), 1u, 128u);
+    const float step_s = gap / float(steps);
     vec3 offset = to_vec(piece.offset), drift = to_vec(piece.drift);
     for (uint i = 0u; i < steps; i++) {
         const vec3 velocity = mix(from, to, (float(i) + 0.5) / float(steps)) + drift;
@@ -99,36 +101,42 @@ void split(inout virga_water_piece_gpu piece, uint splash, uint id, uint i, uint
     pieces[piece_now(splash, last)] = second;
 }
 
+// Pieces of a particle that had some in the last step.
+void fly_on(inout virga_leaver_gpu own, uint splash, uint before, vec3 velocity, float volume)
+{
+    const vec3 from = to_vec(own.velocity);
+    const uint count = own.pieces;
+    const float gap = gap_s();
+    for (uint i = 0u; i < count; i++) {
+        virga_water_piece_gpu piece = pieces[piece_before(before, i)];
+        const float diameter = max(DIAMETER_OF_VOLUME(volume * piece.part), 1e-5);
+        piece = flown(piece, from, velocity, diameter, gap);
+        if (piece.wear >= 1.0 && own.pieces < frame.max_pieces) {
+            split(piece, splash, own.id, i, own.pieces, velocity);
+            own.pieces++;
+        }
+        pieces[piece_now(splash, i)] = piece;
+    }
+}
+
 void main()
 {
     const uint splash = gl_GlobalInvocationID.x;
     if (splash >= splash_list.count)
         return;
-    const uint particle = splash_particle(splash), id = particles[particle].id, before = find_before(id);
+    const uint particle = splash_particle(splash), before = find_before(particles[particle].id);
+    const float part = spray_part(densities[particle]), volume = frame.volume * sorted[splash_sorted[splash]].w;
     const vec3 velocity = particle_velocity(particle);
-    const float volume = frame.volume * sorted[splash_sorted[splash]].w;
-    virga_water_splash_gpu own = virga_water_splash_gpu(id, 0.0, 0.0, 0u, float[3](0.0, 0.0, 0.0), 0u);
-    if (before < frame.max_splashes) {
-        own = splashes[splash_before(before)];
-        own.age += frame.gap_s;
-        const vec3 from = to_vec(own.velocity);
-        const uint count = own.pieces;
-        for (uint i = 0u; i < count; i++) {
-            virga_water_piece_gpu piece = pieces[piece_before(before, i)];
-            const float diameter = max(DIAMETER_OF_VOLUME(volume * piece.part), 1e-5);
-            piece = flown(piece, from, velocity, diameter);
-            if (piece.wear >= 1.0 && own.pieces < frame.max_pieces) {
-                split(piece, splash, id, i, own.pieces, velocity);
-                own.pieces++;
-            }
-            pieces[piece_now(splash, i)] = piece;
-        }
-    } else {
-        own.pieces = break_up(splash, id, velocity, volume);
+    virga_leaver_gpu own = begin_leaver(particle, before);
+    if (!is_done(own, part)) {
+        if (own.pieces > 0u)
+            fly_on(own, splash, before, velocity, volume);
+        else
+            own.pieces = break_up(splash, own.id, velocity, volume);
+        own.max_speed = max(own.max_speed, length(velocity));
+        decide_to_leave(own, part, before);
     }
-    own.max_speed = max(own.max_speed, length(velocity));
     own.velocity = float[3](velocity.x, velocity.y, velocity.z);
     splashes[splash_now(splash)] = own;
-    droplet_starts[splash] = own.pieces;
-    enter(splash, id);
+    enter(splash, own.id);
 }

@@ -13,10 +13,16 @@ layout(local_size_x = VIRGA_WATER_LANES) in;
 
 void main()
 {
-    const uint found = scan_picks(grid.sorted_groups[0], frame.max_splashes).x;
+    const uvec2 kinds = scan_picks(grid.sorted_groups[0], frame.max_splashes);
+    const uint found = kinds.x + kinds.y;
     if (gl_LocalInvocationIndex != 0u)
         return;
-    state.splash_serials[frame.splash_half] = frame.serial;
+    state.splash_serials[state.splash_half] = frame.serial;
+    state.splash_times[state.splash_half] = frame.time_s;
+    leavers.half_now = state.splash_half;
+    leavers.max = frame.max_splashes;
+    leavers.mask = frame.splash_mask;
+    leavers.count = min(found, frame.max_splashes);
     state.splashes_wanted = found;
     state.splashes = min(found, frame.max_splashes);
     const uint words = grid.sorted_groups[0] * (VIRGA_WATER_LANES / 32u);

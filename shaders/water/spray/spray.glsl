@@ -10,10 +10,14 @@
 #include "shared/spray.h"
 
 layout(std430, set = 0, binding = 8) readonly buffer Densities { float densities[]; };
-layout(scalar, set = 0, binding = 10) buffer Splashes { virga_water_splash_gpu splashes[]; };
+layout(scalar, set = 0, binding = 10) buffer Splashes
+{
+    virga_leavers_gpu leavers;
+    virga_leaver_gpu splashes[];
+};
 layout(std430, set = 0, binding = 12) buffer Table { uint table[]; }; // 1 + index of a splash particle; 0: free
 layout(std430, set = 0, binding = 13) buffer DropletStarts { uint droplet_starts[]; };
 
 // Index of a splash particle in this frame's half, and of one in the last frame's.
-uint splash_now(uint splash) { return frame.splash_half * frame.max_splashes + splash; }
-uint splash_before(uint splash) { return (1u - frame.splash_half) * frame.max_splashes + splash; }
+uint splash_now(uint splash) { return state.splash_half * frame.max_splashes + splash; }
+uint splash_before(uint splash) { return (1u - state.splash_half) * frame.max_splashes + splash; }

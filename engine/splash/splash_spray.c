@@ -1,0 +1,109 @@
+/* splash/splash_spray.c - droplets that water hands over. They fly as droplets of splashes, until they land on ground,
+ * hit a pane, or are taken back because their particle has fallen into the water. */
+#include "splash/splash_internal.h"
+
+#include "core/settings.h"
+#include "gpu/errors.h"
+#include "gpu/record.h"
+#include "gpu/timers.h"
+
+_Static_assert(VIRGA_SPLASH_MAX_PANES == VIRGA_SPLASH_PANES, "the same number in the public header");
+
+static virga_result check_pane(const virga_log *log, const virga_splash_pane *pane)
+{
+    if (virga_settings_check_positions(log, "splash_pane.corner_m", pane->corner_m, 3) ||
+        virga_settings_check_finite(log, "splash_pane.along_u", pane->along_u, 3) ||
+        virga_settings_check_finite(log, "splash_pane.along_v", pane->along_v, 3) ||
+        virga_settings_check_finite(log, "splash_pane.velocity_m_s", pane->velocity_m_s, 3))
+        return VIRGA_ERROR_INVALID;
+    if (!(pane->width_m > 0 && pane->width_m <= 100 && pane->height_m > 0 && pane->height_m <= 100))
+        return virga_wrong_argument(log, "splash_pane: expected a width and height of up to 100 m, got %g x %g",
+                                    (double)pane->width_m, (double)pane->height_m);
+    return VIRGA_OK;
+}
+
+virga_result splash_spray_check(const virga_splash *splash, const virga_splash_step_info *info)
+{
+    const virga_log *log = &splash->base.context->log;
+    const virga_splash_floors *floors = &info->floors;
+    if (virga_settings_check_positions(log, "step_info.handed_origin_m", info->handed_origin_m, 3))
+        return VIRGA_ERROR_INVALID;
+    if (!(info->handed_late_s >= 0 && info->handed_late_s <= 1))
+        return virga_wrong_argument(log, "step_info.handed_late_s: expected 0 to 1, got %g",
+                                    (double)info->handed_late_s);
+    if (!info->leavers != !info->leaver_table)
+        return virga_wrong_argument(log, "step_info: expected leavers and leaver_table, or none of them");
+    if (floors->floors && !(floors->tiles && !(floors->tiles & (floors->tiles - 1)) && floors->cell_m > 0))
+        return virga_wrong_argument(log, "splash_floors: expected tiles that are a power of two, and cell_m above 0");
+    if (info->pane_count > VIRGA_SPLASH_MAX_PANES || (info->pane_count && !info->panes))
+        return virga_wrong_argument(log, "step_info.panes: expected up to %d panes", VIRGA_SPLASH_MAX_PANES);
+    for (uint32_t i = 0; i < info->pane_count; i++)
+        if (check_pane(log, &info->panes[i]))
+            return VIRGA_ERROR_INVALID;
+    return VIRGA_OK;
+}
+
+/* The pane `before_s` before the end of the step. */
+static virga_splash_pane_gpu pane_of(const virga_splash *splash, const virga_splash_pane *pane, double before_s)
+{
+    virga_splash_pane_gpu out = {.width_m = pane->width_m, .height_m = pane->height_m};
+    for (int axis = 0; axis < 3; axis++) {
+        out.corner[axis] =
+            (float)(pane->corner_m[axis] - before_s * (double)pane->velocity_m_s[axis] - splash->anchor_m[axis]);
+        out.along_u[axis] = pane->along_u[axis];
+        out.along_v[axis] = pane->along_v[axis];
+        out.velocity[axis] = pane->velocity_m_s[axis];
+    }
+    return out;
+}
+
+void splash_spray_fill(const virga_splash *splash, const virga_splash_step_info *info, uint32_t tick_in_step,
+                       virga_splash_tick_gpu *out)
+{
+    const virga_splash_floors *floors = &info->floors;
+    const uint32_t ticks_left = info->ticks > tick_in_step + 1 ? info->ticks - tick_in_step - 1 : 0;
+    out->max_handed = splash->def.max_handed;
+    out->handed_late_s = info->handed_late_s;
+    for (int axis = 0; axis < 3; axis++)
+        out->handed_offset[axis] = (float)(info->handed_origin_m[axis] - splash->anchor_m[axis]);
+    out->pane_count = info->pane_count;
+    for (uint32_t i = 0; i < info->pane_count; i++)
+        out->panes[i] = pane_of(splash, &info->panes[i], ticks_left * splash->def.tick_s);
+    if (!floors->floors)
+        return;
+    out->tiles = floors->tiles;
+    out->inv_cell_m = 1 / floors->cell_m;
+    out->base = (float)((double)floors->base_m - splash->anchor_m[1]);
+    for (int axis = 0; axis < 2; axis++) {
+        const double low_m = floors->low_tile[axis] * (double)VIRGA_GROUND_TILE * (double)floors->cell_m;
+        out->low_tile[axis] = floors->low_tile[axis];
+        out->low[axis] = (float)(low_m - splash->anchor_m[2 * axis]);
+    }
+}
+
+static void recall(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+{
+    virga_context *context = splash->base.context;
+    const VkDescriptorSet set = splash_write_recall_set(splash, info);
+    context->vk.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->recall_bindings->layout, 0, 1, &set,
+                                      0, NULL);
+    virga_dispatch_indirect_and_barrier(context, cmd, splash->recall, splash->state->buffer,
+                                        offsetof(virga_splash_state_gpu, view_groups));
+}
+
+void splash_spray_record(virga_splash *splash, VkCommandBuffer cmd, const virga_splash_step_info *info)
+{
+    virga_context *context = splash->base.context;
+    const double still[3] = {0, 0, 0};
+    if (!splash->handed)
+        return;
+    const virga_pass_scope scope = virga_pass_begin(context, cmd, "splash.spray");
+    if (info->leavers)
+        recall(splash, cmd, info);
+    splash_push_tick(splash, info, info->ticks, still);
+    splash_bind(splash, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, splash->step_sets[splash->current]);
+    virga_dispatch_indirect_and_barrier(context, cmd, splash->adopt, splash->handed->buffer,
+                                        offsetof(virga_handed_droplets_gpu, group_count));
+    virga_dispatch_and_barrier(context, cmd, splash->adopt_end, 1);
+    virga_pass_end(context, cmd, scope);
+}
